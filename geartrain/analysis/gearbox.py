@@ -31,7 +31,7 @@ class GearState(Result):
 
     KEYS = (
         *("state", "engaged", "verdict", "ratio", Key("step", to=as_float), "driven_by", "speeds", "slips"),
-        *(Key(name, to=as_float) for name in ("torques", "efficiency", "recirculating", "inner")),
+        *(Key(name, to=as_float) for name in ("torques", "efficiency", "recirculating", "mesh_power")),
     )
 
     state: str
@@ -65,9 +65,9 @@ class GearState(Result):
     """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
     """Power that recirculates between gear sets, divided by input power; None if the torques are not determined."""
-    inner: Fraction | None
-    """Power that recirculates within gear sets, divided by input power; it occurs if a carrier turns freely. None if
-    the torques are not determined.
+    mesh_power: Fraction | None
+    """Maximum power through a pair in the frame of its carrier, divided by input power; 0 if all links turn as one
+    block. None if the torques are not determined.
     """
 
 
@@ -234,7 +234,6 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
     out, load = speeds.get(link), _load(train, state, source, link) if answer.verdict else None
     # how equal planets share a load is not determined, but their common power flow is
     shared = load if train.planets_as_one is train else _load(train.planets_as_one, state, source, link)
-    power = None if load is None or shared is None else _circulation(shared)
     return GearState(
         state,
         engaged,
@@ -247,7 +246,8 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
         slips,
         {} if load is None else _torques(load, source, engaged),
         None if load is None else load.efficiency,
-        *(power or (None, None)),
+        None if load is None or shared is None else _circulation(shared),
+        None if load is None or shared is None else shared.circulating,
     )
 
 
@@ -272,15 +272,13 @@ def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fr
     return {name: None if torques is None else torques[0] / drive for name, torques in known.items()}
 
 
-def _circulation(load: Torques) -> tuple[Fraction, Fraction] | None:
-    """Return the power recirculating between gear sets and within gear sets, each divided by input power."""
+def _circulation(load: Torques) -> Fraction | None:
+    """Return the power recirculating between gear sets, divided by input power; None without input power."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None
-    whole = sum((loop.power for loop in flow.loops), Fraction(0))
     _, loops = find_circulation(_between_sets(load, flow), flow.power_in)
-    between = sum((loop.power for loop in loops), Fraction(0))
-    return between / flow.power_in, max(whole - between, Fraction(0)) / flow.power_in
+    return sum((loop.power for loop in loops), Fraction(0)) / flow.power_in
 
 
 def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:

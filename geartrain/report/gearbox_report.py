@@ -15,7 +15,8 @@ _DIGITS = 5  # significant digits of ratios, torques and efficiencies
 _MOST = 12  # combinations of closed elements that are listed
 _RATIOS = (
     "Ratio: input speed divided by output speed; step: ratio divided by that of the next state. Recirculating: power "
-    "that circulates between gear sets, divided by power in; within sets: power that circulates within a gear set."
+    "that circulates between gear sets, divided by power in; mesh power: maximum power through a pair in "
+    "the frame of its carrier, divided by power in."
 )
 _TORQUES = (
     "Torques divided by the input torque, driven from the input: of a brake on the link it holds, of a clutch on the "
@@ -51,7 +52,7 @@ def describe_gearbox(found: Gearbox) -> Document:
 def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     """Yield the sections of `describe_gearbox`, for use in a longer document."""
     names = [each.name for each in found.elements]
-    header = ("state", *names, "verdict", "ratio", "step", "efficiency", "recirculating", "within sets")
+    header = ("state", *names, "verdict", "ratio", "step", "efficiency", "recirculating", "mesh power")
     lines = [f"From '{found.input}' to '{found.output}'. x marks a closed clutch or brake.", _RATIOS]
     if all(each.efficiency in (None, 1) for each in found.states):
         lines.append("No losses are declared: every efficiency is 1.")
@@ -78,7 +79,7 @@ def _unit(found: Gearbox) -> str:
 
 
 def _gear(each: GearState, names: Sequence[str]) -> tuple[str, ...]:
-    figures = (each.ratio, each.step, each.efficiency, each.recirculating, each.inner)
+    figures = (each.ratio, each.step, each.efficiency, each.recirculating, each.mesh_power)
     marks = ("x" if name in each.engaged else "" for name in names)
     return each.state, *marks, each.verdict.kind, *(figure(value, _DIGITS) for value in figures)
 

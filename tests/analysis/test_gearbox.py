@@ -82,6 +82,14 @@ def test_a_positive_recirculation_is_between_sets_and_not_inside_them() -> None:
     assert all(each.recirculating == 0 for train in (ravigneaux, three) for each in train.gearbox().states)
 
 
+def test_the_mesh_power_is_the_torque_times_the_speed_relative_to_the_carrier() -> None:
+    """With the carrier held all power passes each mesh; as one block none does; with the carrier driving, the ring's
+    torque 2/3 turns at 1/2 relative to the carrier.
+    """
+    states = {each.state: each.mesh_power for each in load("ravigneaux-set").gearbox().states}
+    assert (states["1"], states["R"], states["3"], states["4"]) == (1, 1, 0, Fraction(1, 3))
+
+
 @pytest.mark.parametrize("name", PUBLISHED)
 def test_a_search_finds_what_solving_every_combination_finds(name: str) -> None:
     """Held against states declared one by one, of every size: fewer leave it free, more hold it or say no more."""

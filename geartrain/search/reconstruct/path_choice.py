@@ -10,12 +10,12 @@ lower bound of it, and thus of the number of added wheels on two paths, and on t
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import reduce
+from functools import cache, reduce
 from operator import or_
 
 import numpy as np
 
-from geartrain.numerics.arrays import Bools
+from geartrain.numerics.arrays import Bools, Floats
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.quotient_tables import ROUNDING, QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
@@ -151,8 +151,7 @@ class PathChoice:
         """
         kept = {}
         for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
-            # the cheapest test first, because it excludes most paths
-            rows = rows[self._may_agree(dial, row, other, rows)]
+            rows = rows if chosen else self._agreeing(dial, row, other)
             rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
             for path in chosen.items():
                 rows = rows[self._fork(path, (dial, row), other, rows)]
@@ -179,13 +178,27 @@ class PathChoice:
         on_first, on_second, apart = (first & third) == in_all, (second & third) == in_all, (first & second) == in_all
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
-    def _may_agree(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
-        """Return whether each path has the quotient of a chosen path, or added wheels may be on one of the two only."""
-        first, second = self.lists[end], self.lists[dial]
-        (low, high), (minimum, maximum) = first.bounds, second.bounds
-        room = 2 * self._added + self._idlers - first.wheels[row] - second.wheels[rows]
-        same = (minimum[rows] <= high[row] * (1 + ROUNDING)) & (maximum[rows] >= low[row] * (1 - ROUNDING))
-        return np.asarray(same | (room > 0))
+    def _agreeing(self, end: str, row: int, dial: str) -> Rows:
+        """Return the paths that have the quotient of the first chosen path, or leave room for added wheels on one of
+        the two paths only.
+        """
+        (low, high), exact = self.lists[end].bounds, self.lists[dial].dial.is_exact
+        kept = []
+        for wheels in range(self._added + 1):
+            rows, quotients = self._sorted(dial, wheels)
+            room = 2 * self._added + self._idlers - int(self.lists[end].wheels[row]) - wheels
+            if room == 0 and exact:  # few of many paths, found by bisection
+                ends = np.searchsorted(quotients, (low[row] * (1 - ROUNDING), high[row] * (1 + ROUNDING)))
+                rows = rows[slice(*ends)]
+            kept.append(rows if room >= 0 else rows[:0])
+        return np.concatenate(kept)
+
+    @cache  # noqa: B019 -- lives as long as the lists
+    def _sorted(self, dial: str, wheels: int) -> tuple[Rows, Floats]:
+        """Return the paths with a given number of added wheels in ascending order of the minimum quotient."""
+        rows = np.flatnonzero(self.lists[dial].wheels == wheels)
+        rows = rows[np.argsort(self.lists[dial].bounds[0][rows])]
+        return rows, self.lists[dial].bounds[0][rows]
 
     def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
         """Return a lower bound of the distance of each path from a chosen path."""

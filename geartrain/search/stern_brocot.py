@@ -102,15 +102,22 @@ class SternBrocotRun:
         return "best" if k >= self.best else "intermediate"
 
 
-def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
-    """Yield the straight runs of the path to `value` > 0 with numerators and denominators up to `most`."""
-    _check(value, most, most)
+def runs(value: Fraction, most: IntegerPair) -> Iterator[SternBrocotRun]:
+    """Yield the straight runs of the path to `value` > 0, with numerator and denominator up to `most`."""
+    if value <= 0 or min(most) < 1:
+        raise QuestionError(
+            Problem(
+                f"no fractions exist near {value} up to {most[0]}/{most[1]}",
+                "numbers and bounds must be positive",
+                "give a positive number and bounds of 1 or more",
+            )
+        )
     left, right = value.numerator, value.denominator
     near, far = (0, 1), (1, 0)
     while right:
         # Euclidean algorithm: each quotient is a term of the continued fraction, the length of one run
         term, rest = divmod(left, right)
-        room = min((most - p) // step if step else term for p, step in zip(near, far, strict=True))
+        room = min((bound - p) // step if step else term for p, step, bound in zip(near, far, most, strict=True))
         length = min(term, room)
         if length:
             yield SternBrocotRun(near, far, term, length, _first_best(value, near, far, length))
@@ -157,7 +164,7 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
     ['8', '17/2', '25/3', '58/7', '83/10']
     """
     found: list[Approximant] = []
-    for run in runs(value, most):
+    for run in runs(value, (most, most)):
         first = {"convergent": run.whole, "best": min(run.best, run.whole), "intermediate": 1}[minimum]
         if len(found) + run.length - first >= _MOST_LISTED:
             raise RangeError(
@@ -173,33 +180,6 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
     return tuple(found)
 
 
-def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> tuple[IntegerPair, IntegerPair]:
-    """Return the largest fraction a/b below `value` > 0 and the smallest fraction c/d not below `value`, within
-    the bounds.
-
-    The fractions are integer pairs, neighbours with bc - ad = 1. Without a fraction below, a/b is (0, 1);
-    without one above, c/d is (1, 0). The cost grows with the logarithm of the bounds.
-
-    >>> neighbours(Fraction(191, 23), 100, 100)
-    ((83, 10), (25, 3))
-    """
-    _check(value, most_numerator, most_denominator)
-    n, d = value.numerator, value.denominator
-    most = (most_numerator, most_denominator)
-    low, high = (0, 1), (1, 0)
-    while True:
-        below, above = n * low[1] - d * low[0], d * high[0] - n * high[1]
-        room = _room(low, high, most)
-        # as many steps along the run as keep the lower neighbour below the value
-        step = min(room, (below - 1) // above) if above else room
-        low = (low[0] + step * high[0], low[1] + step * high[1])
-        # likewise the upper neighbour, which may be equal to the value
-        back = min(_room(high, low, most), above // (below - step * above))
-        high = (high[0] + back * low[0], high[1] + back * low[1])
-        if not step and not back:
-            return low, high
-
-
 def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
     """Return the largest fraction <= `value` and the smallest >= `value` with denominators up to `most`.
 
@@ -211,8 +191,10 @@ def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
     if value.denominator <= most:
         return value, value
     # no numerator of a neighbour exceeds this, so only the denominators are bounded
-    low, high = neighbours(value, (int(value) + 1) * most, most)
-    return Fraction(*low), Fraction(*high)
+    # the ends of the last run are the nearest fractions within the bounds, one on each side of `value`
+    *_, last = runs(value, ((int(value) + 1) * most, most))
+    low, high = sorted((last.at(last.length), Fraction(*last.far)))
+    return low, high
 
 
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:
@@ -234,19 +216,3 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
     # |d (p + k P) - n (q + k Q)| / (q + k Q) < |d P - n Q| / Q, where the left numerator is a - k b
     a, b = abs(d * p - n * q), abs(d * P - n * Q)
     return min(max((Q * a - b * q) // (2 * b * Q) + 1, 1), length + 1)
-
-
-def _room(near: IntegerPair, far: IntegerPair, most: IntegerPair) -> int:
-    """Return the maximum number of steps from `near` towards `far` within the bounds."""
-    return min((bound - p) // step for p, step, bound in zip(near, far, most, strict=True) if step)
-
-
-def _check(value: Fraction, most_numerator: int, most_denominator: int) -> None:
-    if value <= 0 or most_numerator < 1 or most_denominator < 1:
-        raise QuestionError(
-            Problem(
-                f"no fractions exist near {value} up to {most_numerator}/{most_denominator}",
-                "numbers and bounds must be positive",
-                "give a positive number and bounds of 1 or more",
-            )
-        )

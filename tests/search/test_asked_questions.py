@@ -78,6 +78,11 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
     assert "at most 25 wheels: `-k 25`" in problem.fix
 
 
+def test_more_added_wheels_than_a_search_stores_are_refused() -> None:
+    with pytest.raises(GearTrainError, match="supports up to 100 added wheels"):
+        expect_cost(replace(TOY, additions=Additions(101, 20, 20)))
+
+
 def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatch: pytest.MonkeyPatch) -> None:
     """640 s with 3 added wheels and ten times as long with each more: 6.4e16 s, 2e9 years, with 17."""
 

@@ -121,6 +121,11 @@ gears: [{pair: [p, v]}]
         ("targets: [{period: 3 d, tolerance: 10 %}]", ("3/10", "11/30"), False),
         ("targets: [{period: 3 d, tolerance: 10 %, sense: retrograde}]", ("-11/30", "-3/10"), True),
         ("expect: -0.3, targets: [{period: 3 d, tolerance: 10 %}]", ("-7/20", "-3/10"), True),
+        (
+            "expect: {value: 1/10, tolerance: 3/10}, targets: [{period: 3 d, tolerance: 10 %}]",
+            ("3/10", "11/30"),
+            True,
+        ),
     ],
 )
 def test_what_is_said_of_a_speed(said: str, limits: tuple[str, str], signed: bool) -> None:
@@ -216,6 +221,11 @@ MISTAKES = {
     "no speed": (changed("{expect: 1/3}", "{}"), 10, ["the speed of 'sun' is not known"]),
     "no tolerance": ("unit: {per: 1 d}\n" + changed("expect: 1/3", "targets: [{period: 3 d}]"), 11, ["is not known"]),
     "two speeds": (changed("1/3", "1/3, targets: [{speed: 1/2, tolerance: 1 %}]"), 10, ["contradict each other"]),
+    "two senses": (
+        "unit: {per: 1 d}\n" + changed("1/3", "{value: 0, tolerance: 1/2}, targets: [{period: 3 d, tolerance: 10 %}]"),
+        11,
+        ["are two intervals", "keep only one"],
+    ),
     "two inputs": (changed("{a: 1}", "{a: 1, b: 1}"), 8, ["2 links are driven"]),
     "no input": (changed("inputs: {a: 1}\n", ""), 1, ["0 links are driven"]),
 }

@@ -80,7 +80,7 @@ def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[Brok
 
     The result is empty if and only if the candidate explains the dials.
 
-    candidate   input arbor; surviving arbors and wheels have the names of the problem, and there are no other dials
+    candidate   input arbor; surviving arbors and wheels have the names of the problem, and all dials are in the problem
     """
     return (
         *_dial_rules(candidate, problem),

@@ -101,7 +101,15 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
         return PointerBounds(_common(plain, name, place), False, unused)
     limits = _common(signed, name, place)
     if plain:
-        limits = _with_magnitude(limits, _common(plain, name, place), name, place)
+        low, high = _common(plain, name, place)
+        # a magnitude above 0 allows one interval in each sense
+        senses = [(low, high), (-high, -low)] if low > 0 else [(-high, high)]
+        allowed = [each for each in senses if each[0] <= limits[1] and limits[0] <= each[1]]
+        if len(allowed) > 1:
+            what = f"the possible speeds of '{name}' are two intervals"
+            why = "the targets with a sense allow both senses, and the target of the magnitude excludes speeds near 0"
+            raise DeclarationError(Problem(what, why, "keep only one of the targets", place))
+        limits = _common([limits, *(allowed or senses)], name, place)
     return PointerBounds(limits, True, unused)
 
 
@@ -161,20 +169,6 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
             )
         )
     return minimum, maximum
-
-
-def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) -> Limits:
-    low, high = magnitude
-    if limits[0] >= 0:
-        return _common([limits, (low, high)], name, place)
-    if limits[1] <= 0:
-        return _common([limits, (-high, -low)], name, place)
-    if low <= 0:
-        return _common([limits, (-high, high)], name, place)
-    why = "targets with a sense allow both senses, and a target of the magnitude allows one interval in each sense"
-    raise DeclarationError(
-        Problem(f"the possible speeds of '{name}' are two intervals", why, "keep only one of the targets", place)
-    )
 
 
 _UNSUPPORTED = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")

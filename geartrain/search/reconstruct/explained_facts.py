@@ -291,6 +291,7 @@ def sum_facts(
             if not part.choices:
                 continue
             sums.add_trains(weight, part.trains)
+            # all choices of counts are possible in every order of a part, so their numbers are multiplied
             for order in part.orders:
                 named, kinds = named_candidate(evidence, order), trains.kinds(topology, order)
                 for fact, answer in _order_facts(named, doubtful, lost):

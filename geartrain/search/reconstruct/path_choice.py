@@ -4,18 +4,18 @@ Bit masks represent shared arbors and wheels. After each choice only paths of th
 with all chosen ones, and the dial with the fewest paths is next.
 
 The distance between two dials is the number of added wheels on exactly one of their paths. A table of quotients gives a
-lower bound of it, and thus of the number of added wheels on both paths.
+lower bound of it, and thus of the number of added wheels on two paths, and on three by the shortest tour of their ends.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import reduce
+from functools import cache, reduce
 from operator import or_
 
 import numpy as np
 
-from geartrain.numerics.arrays import Bools
+from geartrain.numerics.arrays import Bools, Floats
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.quotient_tables import ROUNDING, QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
@@ -30,7 +30,6 @@ class PathColumns:
     codes          code of the pass, 0 if the arbor is avoided, shape (arbors, rows)
     driven         number of the driven wheel with its count, 0 if absent, shape (arbors, rows)
     driver         number of the driving wheel by name, 0 if absent, shape (arbors, rows)
-    ends           bit of the surviving arbor that shows the dial, for each row
     passes_added   True if the path has an added idler
     used           bit mask of the used surviving arbors, then wheels, for each row
     """
@@ -44,7 +43,6 @@ class PathColumns:
         self.driven = np.zeros(self.codes.shape, dtype=np.int16)
         self.driver = np.zeros(self.codes.shape, dtype=np.int16)
         self.used = paths.arbors.copy()
-        self.ends = np.zeros(len(paths), dtype=np.int64)
         self.passes_added = paths.idlers > 0
         for at, passes in enumerate(paths.passes):
             taken = self.codes[at]
@@ -56,9 +54,6 @@ class PathColumns:
             wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
             self.used |= np.array(wheels, dtype=np.int64)[taken]
             self.passes_added |= np.array([False, *(each.idler and each.driven == ADDED for each in passes)])[taken]
-            if at:
-                last = np.array([False, *(each.driver is None for each in passes)])
-                self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)
 
     def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
         """Return whether each path can be in one tree with a path to another dial.
@@ -67,7 +62,7 @@ class PathColumns:
         by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
-        good = self._end_in(rows, both, other, row)
+        good = np.ones(len(rows), dtype=bool)
         parted = np.zeros(len(rows), dtype=np.int8)
         for at in np.flatnonzero(other.codes[:, row]).tolist():
             codes = self.codes[at][rows]
@@ -80,18 +75,6 @@ class PathColumns:
             if not at:
                 good &= ~left | (both == 0)
         return good & (parted <= 1)
-
-    def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int) -> Bools:
-        """Return for each path whether the path that ends at an arbor of the other path, if any, is a part of the
-        other path.
-        """
-        mine, theirs = self.paths, other.paths
-        ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
-        compounds = mine.compounds[rows] - theirs.compounds[row]
-        idlers = mine.idlers[rows] - theirs.idlers[row]
-        good = ~ends | ((both == mine.arbors[rows]) & (compounds <= 0) & (idlers <= 0))
-        good &= ~their_end | ((both == theirs.arbors[row]) & (compounds >= 0) & (idlers >= 0))
-        return np.asarray(good)
 
 
 def all_to_use(problem: ReconstructionProblem) -> int:
@@ -146,15 +129,12 @@ class PathChoice:
 
         share   distribution of the next paths over the parts of the search; None if an earlier path was distributed
         """
-        missing = self._must & ~reduce(or_, (int(self._columns[dial].used[row]) for dial, row in chosen.items()), 0)
-        # a part that must be used is on no remaining path
-        if missing & ~reduce(or_, (self._reach(dial, rows) for dial, rows in lists.items()), 0):
-            return
         dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
         rows = lists[dial]
         others = {other: some for other, some in lists.items() if other != dial}
         if not others:
-            rows = rows[np.int64(missing) & ~self._columns[dial].used[rows] == 0]
+            used = reduce(or_, (int(self._columns[each].used[at]) for each, at in chosen.items()), 0)
+            rows = rows[np.int64(self._must & ~used) & ~self._columns[dial].used[rows] == 0]
         # few paths are not distributed evenly; the paths to the next dial are distributed then
         own = share if not others or len(rows) >= _EVEN_SHARES else None
         for row in rows.tolist():
@@ -165,22 +145,23 @@ class PathChoice:
             elif (kept := self._fitting(dial, row, others, chosen)) is not None:
                 yield from self._extended({**chosen, dial: row}, kept, None if own else share)
 
-    def _reach(self, dial: str, rows: Rows) -> int:
-        """Return the bit mask of the arbors and wheels that some of the paths use."""
-        return int(np.bitwise_or.reduce(self._columns[dial].used[rows]))
-
     def _fitting(self, dial: str, row: int, lists: Mapping[str, Rows], chosen: Choice) -> dict[str, Rows] | None:
         """Return the paths to each other dial that are compatible with one more chosen path; None if a dial has
         none.
         """
         kept = {}
         for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
-            # the cheapest test first, because it excludes most paths
-            rows = rows[self._may_agree(dial, row, other, rows)]
+            rows = rows if chosen else self._agreeing(dial, row, other)
             rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
             for path in chosen.items():
                 rows = rows[self._fork(path, (dial, row), other, rows)]
-            kept[other] = rows = rows[self._is_near(dial, row, other, rows)]
+            far = self._distances(dial, row, other, rows)
+            near = self.lists[dial].wheels[row] + self.lists[other].wheels[rows] + far <= 2 * self._added
+            rows, far = rows[near], far[near]
+            for path in chosen.items():
+                near = self._close(path, (dial, row), other, rows, far)
+                rows, far = rows[near], far[near]
+            kept[other] = rows
             if not len(rows):
                 return None
         return kept
@@ -197,29 +178,50 @@ class PathChoice:
         on_first, on_second, apart = (first & third) == in_all, (second & third) == in_all, (first & second) == in_all
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
-    def _may_agree(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
-        """Return whether each path has the quotient of a chosen path, or added wheels may be on one of the two only."""
-        first, second = self.lists[end], self.lists[dial]
-        (low, high), (minimum, maximum) = first.bounds, second.bounds
-        room = 2 * self._added + self._idlers - first.wheels[row] - second.wheels[rows]
-        same = (minimum[rows] <= high[row] * (1 + ROUNDING)) & (maximum[rows] >= low[row] * (1 - ROUNDING))
-        return np.asarray(same | (room > 0))
-
-    def _is_near(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
-        """Return whether a train may have each path and a chosen path, by a lower bound of their number of added
-        wheels.
+    def _agreeing(self, end: str, row: int, dial: str) -> Rows:
+        """Return the paths that have the quotient of the first chosen path, or leave room for added wheels on one of
+        the two paths only.
         """
+        (low, high), exact = self.lists[end].bounds, self.lists[dial].dial.is_exact
+        kept = []
+        for wheels in range(self._added + 1):
+            rows, quotients = self._sorted(dial, wheels)
+            room = 2 * self._added + self._idlers - int(self.lists[end].wheels[row]) - wheels
+            if room == 0 and exact:  # few of many paths, found by bisection
+                ends = np.searchsorted(quotients, (low[row] * (1 - ROUNDING), high[row] * (1 + ROUNDING)))
+                rows = rows[slice(*ends)]
+            kept.append(rows if room >= 0 else rows[:0])
+        return np.concatenate(kept)
+
+    @cache  # noqa: B019 -- lives as long as the lists
+    def _sorted(self, dial: str, wheels: int) -> tuple[Rows, Floats]:
+        """Return the paths with a given number of added wheels in ascending order of the minimum quotient."""
+        rows = np.flatnonzero(self.lists[dial].wheels == wheels)
+        rows = rows[np.argsort(self.lists[dial].bounds[0][rows])]
+        return rows, self.lists[dial].bounds[0][rows]
+
+    def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
+        """Return a lower bound of the distance of each path from a chosen path."""
         first, second = self.lists[end], self.lists[dial]
-        whole = first.wheels[row] + second.wheels[rows]
         (low, high), (minimum, maximum) = first.bounds, second.bounds
         with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
             fewest = self.tables.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
         # shared wheels are on both paths, so the distance has the parity of the sum
-        far = fewest + (whole - fewest) % 2
+        far = fewest + (first.wheels[row] + second.wheels[rows] - fewest) % 2
         if self._idlers:  # the count of an added idler at which paths separate affects only one of them
             passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
-        return np.asarray(whole + far <= 2 * self._added)
+        return np.asarray(far, dtype=np.int64)
+
+    def _close(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows, far: Rows) -> Bools:
+        """Return whether a tour from the input past the ends of two chosen paths and of each path and back is short
+        enough, where `far` is the distance from the second path. A tour around a tree passes each added wheel twice.
+        """
+        (near,) = self._distances(*one, other[0], np.array([other[1]]))
+        apart, own = self._distances(*one, dial, rows), self.lists[dial].wheels[rows]
+        first, second = (self.lists[end].wheels[row] for end, row in (one, other))
+        tours = (first + near + far + own, first + apart + far + second, second + near + apart + own)
+        return np.asarray(np.minimum.reduce(tours) <= 2 * self._added)
 
 
 class _RoundRobin:

@@ -230,19 +230,8 @@ _PIECE = 1 << 19
 """Number of partial paths that are extended at once."""
 
 
-@dataclass(frozen=True)
-class AddedArbors:
-    """Number of added arbors on a path: `compounds` have two wheels, `idlers` have one wheel, which is driven and
-    drives.
-    """
-
-    compounds: int
-    idlers: int
-
-    @property
-    def wheels(self) -> int:
-        """Number of wheels of the added arbors."""
-        return 2 * self.compounds + self.idlers
+AddedArbors = tuple[int, int]
+"""Number of added arbors with two wheels on a path, and of added arbors with one wheel, an idler."""
 
 
 class PathList:
@@ -278,8 +267,7 @@ class PathList:
         self.codes = growth.codes[rows]
         self.arbors = (self.codes[:, 1:] > 0) @ bits
         self.ends_new = ~growth.ended[rows]
-        self.compounds = np.array([plan.compounds for plan in plans], dtype=np.int64)[taken]
-        self.idlers = np.array([plan.idlers for plan in plans], dtype=np.int64)[taken]
+        self.compounds, self.idlers = np.array(plans, dtype=np.int64)[taken].T
         self.wheels = growth.added[rows] + self.ends_new + 2 * self.compounds + self.idlers
         self.new = self.compounds + self.idlers + self.ends_new
         self.bounds = self._bounds(growth.ratio[rows], self._turned(self.codes, self.new))
@@ -409,13 +397,14 @@ class PathList:
         """Return a boolean matrix of which plans of added arbors are possible on which paths."""
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
-        for at, plan in enumerate(plans):
-            fits = growth.added + new + plan.wheels <= self.problem.additions.wheels
+        for at, (compounds, idlers) in enumerate(plans):
+            arbors = new + np.int64(compounds + idlers)
+            fits = growth.added + new + 2 * compounds + idlers <= self.problem.additions.wheels
             if self.problem.additions.arbors is not None:
-                fits &= new + np.int64(plan.compounds + plan.idlers) <= self.problem.additions.arbors
-            turned = self._turned(growth.codes, new + np.int64(plan.compounds + plan.idlers))
+                fits &= arbors <= self.problem.additions.arbors
+            turned = self._turned(growth.codes, arbors)
             fits &= np.where(turned, self._may_turn(True), self._may_turn(False))
-            fits &= self._may_be_quotient(growth, plan.compounds, turned, fits)
+            fits &= self._may_be_quotient(growth, compounds, turned, fits)
             found[:, at] = fits
         return found
 
@@ -474,7 +463,7 @@ class PathList:
 def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
     for compounds in range(wheels // 2 + 1):
         for single in range(wheels - 2 * compounds + 1 if idlers else 1):
-            yield AddedArbors(compounds, single)
+            yield compounds, single
 
 
 def _known_count(wheel: object) -> int:

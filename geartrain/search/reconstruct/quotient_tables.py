@@ -67,6 +67,7 @@ class QuotientTables:
             above, below = self._table(drivers, 0), self._table(driven, 0)
             if above is None or below is None or len(above) * len(below) > _LONGEST:
                 return None
+            # products below 2^53 are exact floats, so equal quotients are rounded to equal floats
             return _distinct(np.divide.outer(above, below))
         if not drivers:
             return np.ones(1)
@@ -87,6 +88,7 @@ def _contain(table: Floats | None, bounds: Bounds) -> Bools:
     low, high = bounds
     if table is None:
         return np.ones(low.shape, dtype=bool)
+    # if any entry is in the range, the first entry that is not below it is
     at = np.searchsorted(table, low * (1 - ROUNDING))
     at[at == len(table)] = 0  # the smallest entry is then below the range
     return np.asarray((table[at] >= low * (1 - ROUNDING)) & (table[at] <= high * (1 + ROUNDING)))

@@ -40,6 +40,7 @@ _ENOUGH = 0.3
 """Minimum total time of a sample for each number of added wheels [s]."""
 _MOST_CHOICES = 40
 """Maximum decimal logarithm of the number of choices of added tooth counts; searches of hours have about 20."""
+_MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
 _YEAR = 3.2e7  # s
 _LONGEST = 100 * _YEAR
 """Maximum expected time in one process [s]. Longer searches are refused."""
@@ -271,17 +272,17 @@ def count_choices(problem: ReconstructionProblem) -> float:
 def _refuse_absurd(problem: ReconstructionProblem) -> None:
     """Raise `QuestionError` before the search if there are more choices of tooth counts than any search can cover."""
     added, size = problem.additions, count_choices(problem)
-    if size <= _MOST_CHOICES:
+    fits = min(_MOST_ADDED, int(added.wheels * _MOST_CHOICES / size) if size else _MOST_ADDED)
+    if added.wheels <= fits:
         return
-    fits = int(added.wheels * _MOST_CHOICES / size)
-    raise QuestionError(
-        Problem(
-            f"up to {added.wheels} added wheels of {added.minimum} to {added.maximum} teeth have 1e{size:.0f} "
-            "combinations",
-            f"a search supports up to 1e{_MOST_CHOICES} combinations",
-            f"add at most {fits} wheels: `-k {fits}` or `reconstruct: {{add: {{wheels: {fits}}}}}`; or narrow `teeth`",
-        )
-    )
+    what = f"up to {added.wheels} added wheels of {added.minimum} to {added.maximum} teeth"
+    why = f"a search supports up to {_MOST_ADDED} added wheels"
+    fix = f"add at most {fits} wheels: `-k {fits}` or `reconstruct: {{add: {{wheels: {fits}}}}}`"
+    if size > _MOST_CHOICES:
+        what = f"{what} have 1e{size:.0f} combinations"
+        why = f"a search supports up to 1e{_MOST_CHOICES} combinations"
+        fix = f"{fix}; or narrow `teeth`"
+    raise QuestionError(Problem(what, why, fix))
 
 
 def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) -> None:

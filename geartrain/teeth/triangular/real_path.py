@@ -19,8 +19,6 @@ from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf, ulp
 
-import numpy as np
-
 from geartrain.numerics.results import Result
 from geartrain.numerics.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes

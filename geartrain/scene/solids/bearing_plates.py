@@ -11,7 +11,6 @@ from math import asin, atan2, cos, hypot, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector
@@ -159,6 +158,9 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 def _hull(points: Sequence[Point]) -> list[Point]:
     """Return the corners of the convex hull, counter-clockwise from the leftmost; the ends of collinear points."""
+    # here, because scenes without plates do not need scipy
+    from scipy.spatial import ConvexHull
+
     # rounded, so that coincident axes are one point
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
     apart = np.subtract(ordered, ordered[0])

@@ -75,24 +75,29 @@ class LazyMapping(Mapping[K, V]):
 class ItemwiseMapping(Mapping[K, V]):
     """Mapping with given keys, whose values are created one by one when they are first read.
 
+    With `keep` False, each value is created at every reading; for long numbers this saves memory.
+
     >>> requested = []
     >>> found = ItemwiseMapping("ab", lambda key: requested.append(key) or key.upper())
     >>> "b" in found, len(found), found["a"], found["a"], requested
     (True, 2, 'A', 'A', ['a'])
     """
 
-    __slots__ = ("_found", "_keys", "_make")
+    __slots__ = ("_found", "_keep", "_keys", "_make")
 
-    def __init__(self, keys: Iterable[K], make: Callable[[K], V]) -> None:
-        self._keys, self._make = dict.fromkeys(keys), make
+    def __init__(self, keys: Iterable[K], make: Callable[[K], V], keep: bool = True) -> None:
+        self._keys, self._make, self._keep = dict.fromkeys(keys), make, keep
         self._found: dict[K, V] = {}
 
     def __getitem__(self, key: K) -> V:
-        if key not in self._found:
-            if key not in self._keys:
-                raise KeyError(key)
-            self._found[key] = self._make(key)
-        return self._found[key]
+        if key in self._found:
+            return self._found[key]
+        if key not in self._keys:
+            raise KeyError(key)
+        value = self._make(key)
+        if self._keep:
+            self._found[key] = value
+        return value
 
     def __contains__(self, key: object) -> bool:
         return key in self._keys

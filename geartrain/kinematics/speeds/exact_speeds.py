@@ -310,7 +310,8 @@ def propagate(
     if not all(bottom):
         return None
     # the product of ratios along the train is multiplied out when a speed is read
-    return ItemwiseMapping(links, lambda link: speeds.value(index[link]) * signs.get(link, 1))
+    # all numbers of a train whose digits grow from link to link would take memory in proportion to their square
+    return ItemwiseMapping(links, lambda link: speeds.value(index[link]) * signs.get(link, 1), keep=False)
 
 
 def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
@@ -520,7 +521,7 @@ def _determined_speeds(
     determined = [
         link for link in index if known.issuperset(reduced.unknowns_of(index[link])) or speed(link) is not None
     ]
-    speeds = ItemwiseMapping(determined, lambda link: (speed(link) or _ZERO) * signs.get(link, 1))
+    speeds = ItemwiseMapping(determined, lambda link: (speed(link) or _ZERO) * signs.get(link, 1), keep=False)
     return speeds, [link for link in index if link not in speeds]
 
 

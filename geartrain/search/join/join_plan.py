@@ -79,7 +79,7 @@ class JoinProblem:
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[Factors, ...]
-    """Definitions of the variables."""
+    """Definitions of the variables as products of tooth counts."""
     plan: PlanNode
     """Root of the plan, which assigns the first variable."""
     steps: float
@@ -89,7 +89,7 @@ class JoinProblem:
 
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
-        """Constraints `requested`, converted to polynomial constraints in variables."""
+        """Constraints of `requested`, converted to polynomial constraints in the variables."""
         return tuple(find_polynomial_constraints(self.requested, self.recipes, self.domains))
 
     @property
@@ -121,9 +121,9 @@ def find_join_problem(
     probabilities: Mapping[str, float],
     weights: Weights | None = None,
 ) -> JoinProblem:
-    """Return the join with the minimum expected cost.
+    """Return the join problem whose plan has the minimum expected cost.
 
-    Choices of late constraints are compared.
+    Plans with different choices of the constraints that are evaluated last are compared.
 
     probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
     weights         weights of `JoinProblem`
@@ -135,7 +135,7 @@ def find_join_problem(
 def _rule_partitions(
     rules: Sequence[CountConstraint],
 ) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Yield partitions of the constraints on counts: constraints evaluated as soon as possible, and constraints
+    """Yield partitions of the constraints on counts into constraints evaluated as soon as possible and constraints
     evaluated last.
     """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
@@ -170,7 +170,7 @@ def _planned(
 
 @dataclass
 class _Planner:
-    """Generator of a plan with its expected cost, the number of partial assignments."""
+    """Generator of a plan and its expected cost, which is the number of partial assignments."""
 
     domains: Domains
     recipes: Sequence[Factors]
@@ -248,8 +248,8 @@ class _Planner:
         return min(self.scopes[focus] & open_, key=rank)
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Select the equation that determines the variable, otherwise the most selective constraint that has windows in
-        it.
+        """Select the equation that determines the variable, otherwise the most selective constraint whose admissible
+        values of the variable are index windows.
 
         Return -1 if there is neither.
         """
@@ -304,7 +304,7 @@ class SelectivitySample:
         return min(1.0, max(minimum, sum(_interval_share(speeds, interval) for interval in requested.intervals)))
 
     def speeds(self, function: Function) -> Floats:
-        """Return the finite values of a function over the sample."""
+        """Return the finite values of a function of tooth counts over the sample."""
         product = products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels])
         values, _ = bounded_quotient(function.numerator, function.denominator, [1] * len(function.wheels), product)
         values = np.broadcast_to(values, _DRAWN)

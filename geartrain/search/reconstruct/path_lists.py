@@ -36,11 +36,12 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, arbor_
 
 
 _Fits = Bools
-"""Compatibility matrix of the passes of two arbors, by their codes; code 0 means that the path avoids the arbor."""
+"""Compatibility matrix of the passes of a path through two arbors, by their codes; code 0 if the path avoids the arbor.
+"""
 
 
 def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
-    """Return the connected components of arbors under the known meshes, as indices with the input at 0.
+    """Return the connected components of the arbors under the known meshes, as arbor indices; the input has index 0.
 
     Each arbor except the first of a component meshes with an earlier arbor.
     """
@@ -162,7 +163,7 @@ class PathGrowth:
         )
 
     def columns(self) -> tuple[NDArray[Any], ...]:
-        """Return all arrays, each with one row per path."""
+        """Return all arrays of the partial paths, each with one row per path."""
         numbers = self.drivers, self.driven, self.added, self.idle, self.need
         return self.codes, self.ratio, self.powers, *numbers, self.ended
 
@@ -231,13 +232,13 @@ _PIECE = 1 << 19
 
 
 AddedArbors = tuple[int, int]
-"""Number of added arbors with two wheels on a path, and of added arbors with one wheel, an idler."""
+"""Numbers of added arbors on a path: arbors with two wheels, and arbors with one wheel (idlers)."""
 
 
 class PathList:
     """Possible paths to a dial, one per row of the arrays.
 
-    along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
+    along   only permitted pass of some surviving arbors, all other arbors excluded; None for all paths
 
     codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; shape
                          (rows, arbors)

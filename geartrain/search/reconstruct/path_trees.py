@@ -96,7 +96,7 @@ class DialPath(NamedTuple):
     arbors: int
     """Bit mask of the surviving arbors."""
     passes: Mapping[int, ArborPass]
-    """Driven and driving wheel of the path on each surviving arbor, by the index of the arbor; 0 is the input."""
+    """Driven and driving wheel of the path on each surviving arbor, by the index of the arbor; index 0 is the input."""
     compounds: int
     """Number of added arbors with two wheels before the last arbor."""
     idlers: int
@@ -341,7 +341,7 @@ class PathTrees:
 
 
 def paths_first(paths: Paths) -> DialPath:
-    """Return any of the paths, to read properties that all of them share."""
+    """Return any one of the paths, from which properties that all paths share can be read."""
     return next(iter(paths.values()))
 
 
@@ -380,7 +380,7 @@ def _ways_from_added(path: DialPath) -> Iterator[str]:
 
 
 def _arbors(bits: int) -> Iterator[int]:
-    """Yield the indices, from 1, of the bits that are set."""
+    """Yield the indices, from 1, of the arbors whose bits are set in a bit mask."""
     at = 1
     while bits:
         if bits & 1:

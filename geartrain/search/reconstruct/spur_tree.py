@@ -1,7 +1,7 @@
 """Parts of a train that a reconstruction can find: trees of arbors on the frame or on one carrier.
 
-Spur wheels and rings connect the arbors. Links that a pin and slot joins are one arbor. A part without some of its
-arbors is evidence with a known answer, so it measures how much the evidence determines.
+Spur wheels and rings connect the arbors. Links joined by a pin and slot are one arbor. If some arbors of a part are
+treated as lost, the rest is evidence with a known answer, which measures how far the evidence determines the train.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ class SpurTree:
 
     @cached_property
     def able(self) -> tuple[str, ...]:
-        """Arbors that can be lost: all driven arbors without a ring, because rings are never added."""
+        """Arbors that can be treated as lost: all driven arbors without a ring, because rings are never added."""
         wheels = self.train.wheels
         return tuple(link for link in self.driven if not any(wheels[name][1].internal for name in self.wheels_of(link)))
 
@@ -175,7 +175,7 @@ class SpurTree:
         return next((arbor for arbor, links in self.joined.items() if link in links), link)
 
     def link_of(self, pointer: str) -> str:
-        """Return the link whose speed a pointer shows."""
+        """Return the link whose speed a pointer indicates."""
         output = self.train.case(None).outputs.get(pointer)
         return pointer if output is None else output.of or pointer
 
@@ -307,7 +307,9 @@ class _Base:
 
 
 class _Parts:
-    """Search for the parts of a train. `loop` describes the last loop of meshes, which excludes a part."""
+    """Search for the parts of a train. `loop` describes the last closed loop of meshes, because of which a part is
+    excluded.
+    """
 
     def __init__(self, train: Train) -> None:
         self.train, self.loop = train, ""
@@ -460,7 +462,7 @@ def _renamed(tree: SpurTree) -> SpurTree:
 
 
 def why_not(train: Train, link: str) -> str:
-    """Return the reason why a link is in none of the parts."""
+    """Return the reason why a link is in none of the parts of a train that a reconstruction can find."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
         return "the link does not turn"

@@ -47,7 +47,7 @@ class SpeedRequirement:
 
     @classmethod
     def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """Return the requirement of a target.
+        """Return the speed requirement of a declared target.
 
         share   relative tolerance of the speed; if it is None, the error is minimised
         """
@@ -131,7 +131,7 @@ def _magnitudes(wanted: Fraction, half: Fraction) -> tuple[Interval, ...]:
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
-    """Return the intersection of two unions of intervals."""
+    """Return the intersection of two unions of intervals of speeds."""
     found = []
     for a, b in left:
         for c, d in right:
@@ -172,7 +172,7 @@ class OutputRequirement:
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
-        """Return the interval constraint on the speed; None if every speed is admissible.
+        """Return the interval constraint on the speed of the output; None if every speed is admissible.
 
         share    relative tolerance of graded requirements
         strict   True to exclude the ends of the intervals
@@ -414,7 +414,7 @@ def find_requirements(
 
 
 def _idle(requirement: OutputRequirement) -> Iterator[str]:
-    """Yield a remark on an output that depends on no varied wheel, if it violates its requirements."""
+    """Yield a remark on an output that depends on no varied wheel, if its speed violates its requirements."""
     speed = requirement.function.value({})
     if speed is not None:
         reached = requirement.reached(speed)

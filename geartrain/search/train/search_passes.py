@@ -1,6 +1,6 @@
 """One pass of a search over a part of a train: its requirements as a join, divided into tasks, and run.
 
-If there are very many assignments only the best are kept, by exact errors.
+If there are very many assignments, only the best are kept; their errors are compared exactly.
 """
 
 from __future__ import annotations
@@ -323,12 +323,14 @@ class PartSearch:
 
 
 def size_of(domains: Domains) -> int:
-    """Return the number of assignments, the product of the numbers of counts."""
+    """Return the number of assignments of tooth counts: the product of the numbers of admissible counts of all
+    wheels.
+    """
     return prod(len(counts) for counts in domains.values())
 
 
 def narrow(domains: Domains, rule: CountConstraint) -> Domains:
-    """Return the domains with the counts of one wheel restricted by a constraint on this wheel."""
+    """Return the domains of all wheels, with the counts of one wheel restricted by a constraint on this wheel."""
     (wheel,) = rule.wheels
     counts = domains[wheel]
     if not counts:

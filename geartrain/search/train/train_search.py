@@ -39,7 +39,9 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the pass that counts the solutions, the best assignments, and whether they are proved to be the best."""
+    """Return the pass that counts the solutions of a part, the best assignments, and whether they are proved to be the
+    best.
+    """
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.best, passed.listed and passed.complete
@@ -145,7 +147,7 @@ def _has_wrong_sense(search: PartSearch, requirement: OutputRequirement) -> bool
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
-    """Return the assignment with the minimum error that satisfies all constraints.
+    """Return the assignment with the minimum error that satisfies all constraints on counts.
 
     Return None if none was found within the limit of steps.
     """
@@ -362,7 +364,9 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Return why the search of a part is not complete or its solutions are not ranked; "" if neither applies."""
+    """Return the reason why the search of a part is not complete or its solutions are not ranked; "" if neither
+    applies.
+    """
     if passed.stopped:
         return "interrupted: the count covers only the finished part"
     if passed.searched < 1:

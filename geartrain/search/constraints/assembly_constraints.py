@@ -129,12 +129,12 @@ class _ConstraintBuilder:
             declared = "a length" if measure == "m" else "a number without a unit" if measure else "not declared"
             raise QuestionError(
                 Problem(
-                    f"the radius of '{wheel}' cannot be compared with {radius}",
+                    f"the pitch radius of '{wheel}' cannot be compared with {radius}",
                     f"the module of the wheel is {declared}"
                     if module
                     else "several modules are declared for the wheel",
-                    "give the radius and all modules with units, or, without modules, the radius as a number of "
-                    "modules",
+                    "give the maximum radius and all modules with units, or declare no modules and give the radius as "
+                    "a number of modules",
                 )
             )
         # pitch radius r = m z / 2

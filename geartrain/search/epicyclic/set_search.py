@@ -208,7 +208,9 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
     if not isfinite(clearance):
         raise QuestionError(
             Problem(
-                f"the clearance is {clearance}", "a clearance must be finite", "give a number of modules, such as 0.5"
+                f"the clearance {clearance} is not finite",
+                "a clearance is a gap between tooth tips in modules",
+                "give a number of modules, such as 0.5",
             )
         )
 

@@ -222,8 +222,8 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     """
     wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
     if not all(found[wheel].probabilities for wheel in wheels):
-        what = f"no combination of counts of '{found.name}' fits, so there is nothing to draw"
-        why = "a corner plot needs at least one combination that fits"
+        what = f"no combination of counts of '{found.name}' satisfies the observations, so there is nothing to draw"
+        why = "the posterior probabilities of the counts are then undefined"
         raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
     single = {
         wheel: {

@@ -106,9 +106,9 @@ class StageConstraints(Result):
         if not 0 <= self.internal <= stages:
             raise QuestionError(
                 Problem(
-                    f"internal is {self.internal}",
-                    f"with {stages} meshes, 0 to {stages} can be internal",
-                    f"give internal from 0 to {stages}",
+                    f"the number of internal meshes is {self.internal}",
+                    f"a train of {stages} stages has 0 to {stages} internal meshes",
+                    f"give a number from 0 to {stages}",
                 )
             )
         minimum, most = self.totals

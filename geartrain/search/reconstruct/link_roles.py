@@ -105,7 +105,7 @@ def _input_problems(evidence: Train) -> Iterator[Problem]:
 def _frame_problems(evidence: Train) -> Iterator[Problem]:
     for at, joint in enumerate(evidence.revolutes):
         if evidence.frame not in joint.pair:
-            what = "an arbor on a moving link is supported only if that link is the `carrier`"
+            what = "an arbor turns on a moving link that is not the `carrier`"
             why = "ignoring the arbor could change the trains that are found"
             fix = "name the link as `carrier` with its speed as an input, or remove the joint"
             yield Problem(what, why, fix, evidence.place("revolutes", at))

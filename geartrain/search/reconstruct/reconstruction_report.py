@@ -463,8 +463,8 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     )
     uncertainties = [(one.change, str(one.fewest), str(one.total)) for one in found.uncertainties]
     tried = (
-        f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard fact is dropped, or a "
-        f"surviving count is changed by up to {MISREAD} teeth."
+        f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard constraint is dropped, or "
+        f"a surviving count is changed by up to {MISREAD} teeth."
     )
     lines = [tried] if uncertainties else [tried, "No single change leaves an explanation."]
     if found.refused:

@@ -288,11 +288,11 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
 def _check_input(train: Train) -> None:
     if train.states:
         what = f"'{train.name}' has several states"
-        raise QuestionError(Problem(what, "a reconstruction has one input", "use a train without `states`"))
+        raise QuestionError(Problem(what, "a reconstruction supports only one state", "use a train without `states`"))
     turning = [link for link, speed in train.case(None).inputs.items() if speed]
     if len(turning) != 1:
         what = f"'{train.name}' has {len(turning)} inputs that turn"
-        why = "a reconstruction has one input"
+        why = "a reconstruction supports only one input"
         raise QuestionError(Problem(what, why, "use a train with one input", train.place("inputs")))
 
 
@@ -584,14 +584,17 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
     able = [link for arbor in tree.able if arbor not in arbors for link in tree.links_of(arbor)]
     for link, arbor in zip(lost, arbors, strict=True):
         if arbor == tree.source:
-            what, why = f"'{link}' carries the input", "a reconstruction begins at the input"
+            what, why = f"'{link}' cannot be lost", "it carries the input, and a reconstruction begins at the input"
         elif arbor not in tree.driven:
             what = f"'{link}' cannot be lost"
             why = why_not(tree.train, link) if link in tree.train.links else "the train has no such link"
         elif arbor not in tree.able:
             what, why = f"'{link}' cannot be lost", "the arbor has a ring, and rings are never added"
         elif arbors.count(arbor) > 1:
-            what, why = f"'{link}' is lost twice", "an arbor is lost together with all links that are joined to it"
+            what, why = (
+                f"'{link}' is lost twice",
+                "an arbor is lost together with all links that are joined to it, so it is given only once",
+            )
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))

@@ -85,7 +85,7 @@ class Condition:
     wheels: tuple[str, ...]
     """Varied wheels of the condition, at least one."""
     test: CandidateTest
-    """Predicate on the candidates."""
+    """Predicate that returns whether each candidate satisfies the condition."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
         """Return whether each candidate satisfies the condition, shape (candidates,), read-only.

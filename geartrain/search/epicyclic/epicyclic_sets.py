@@ -110,7 +110,7 @@ class EpicyclicKind(Result):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Links of the central wheels, then the carrier."""
+        """Names of the links of the central wheels, then of the carrier."""
         return (*(member.link for member in self.members), CARRIER)
 
     @property

@@ -107,7 +107,7 @@ class ExactJoin:
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Yield every assignment of tooth counts that the rows represent, block by block."""
+        """Yield every assignment of tooth counts that the rows of values represent, block by block."""
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
             sizes = sizes * self.items[item].times[column]

@@ -53,11 +53,11 @@ class RecordedNode:
     size: int
     """Number of rows, which are the distinct states before the node."""
     parents: Ints
-    """Row of each transition, ascending."""
+    """Row from which each transition starts, ascending."""
     places: Ints
     """Index in `values` of the value that each transition assigns."""
     values: ProductStep
-    """Values of the variable that occur, as the last step of their products."""
+    """Values of the variable that occur, stored as the last step of the multiplication that produces them."""
     misfit: Floats
     """Misfit that each transition adds by graded constraints that are complete at this node."""
     children: tuple[tuple[RecordedNode, Ints], ...]

@@ -36,10 +36,10 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """Node of a plan: a variable that is assigned after all variables above it."""
+    """Node of a join plan: a variable that is assigned after all variables above it in the tree."""
 
     item: int
-    """Index of the variable."""
+    """Index of the variable that the node assigns."""
     interface: tuple[int, ...]
     """Variables above the node that a constraint of the node or of its subtree depends on."""
     guide: int

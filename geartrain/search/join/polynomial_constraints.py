@@ -83,7 +83,9 @@ class SignPolynomial:
         return SignPolynomial.of((*mine, *theirs))
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
-        """Return for each row the value divided by `scale`, and the sum of the magnitudes of its terms."""
+        """Return, for each row, the value of the polynomial divided by `scale`, and the sum of the magnitudes of its
+        terms.
+        """
         # scaled, so that large coefficients do not overflow float64
         over = scale or self.scale
         return sum_and_size(

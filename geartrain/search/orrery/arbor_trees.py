@@ -54,7 +54,7 @@ class PeriodTargets:
 
     @property
     def everything(self) -> int:
-        """Bit mask of all targets."""
+        """Bit mask in which the bits of all targets are set."""
         return (1 << len(self.periods)) - 1
 
     def meets(self, target: int, ratio: Fraction) -> bool:

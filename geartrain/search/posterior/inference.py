@@ -272,7 +272,7 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
-    """Compute the exact posterior. Raise `BudgetSpentError` beyond `limit` steps.
+    """Compute the exact posterior of the tooth counts by a join. Raise `BudgetSpentError` beyond `limit` steps.
 
     most   number of combinations to list
     """

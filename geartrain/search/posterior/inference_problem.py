@@ -236,7 +236,7 @@ class ToothCountPrior(Result):
 
     @property
     def total(self) -> int:
-        """Sum of the weights."""
+        """Sum of the weights of all counts."""
         return sum(self.weights)
 
     def weight(self, count: int) -> int:

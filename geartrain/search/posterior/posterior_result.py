@@ -112,7 +112,7 @@ class CombinedOutput:
     speed: Fraction
     """Exact speed of the output in the unit of the train."""
     error: Fraction
-    """Relative error with respect to the observed speed."""
+    """Relative error of the speed with respect to the observed speed."""
 
 
 @dataclass(frozen=True, slots=True)

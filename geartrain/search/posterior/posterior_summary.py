@@ -120,7 +120,7 @@ class PosteriorSummary:
     effective: float = float("inf")
     """Effective sample size (Kish); infinite for the exact method."""
     cut: bool = False
-    """True after an interruption."""
+    """True if an interruption ended the computation early."""
     remarks: tuple[str, ...] = ()
     """Remarks on the method of computation."""
 

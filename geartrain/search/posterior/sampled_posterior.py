@@ -111,7 +111,7 @@ class PosteriorTally:
     examined  number of combinations
     turning   number of combinations with which the train turns
     weight    sum of the likelihoods
-    square    sum of the squared likelihoods, for intervals
+    square    sum of the squared likelihoods, for confidence intervals
     by        sum of the likelihoods for each count of each wheel
     sizes     weighted sums of products of two counts, each relative to the `origin_of` its wheel
     best      pairs (misfit, indices of counts), ascending

@@ -147,17 +147,17 @@ class StageProblem:
 
     @cached_property
     def over(self) -> ProductWindows:
-        """Products of the numerator counts."""
+        """Products of all multisets of numerator counts."""
         return products_of(self.top, self.stages, self.plain_integers)
 
     @cached_property
     def under(self) -> ProductWindows:
-        """Products of the denominator counts."""
+        """Products of all multisets of denominator counts."""
         return products_of(self.beneath, self.stages, self.plain_integers)
 
     @property
     def reach(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum ratio of the products."""
+        """Minimum and maximum ratio that the products can give."""
         low, high = Fraction(self.top[0], self.beneath[-1]), Fraction(self.top[-1], self.beneath[0])
         return low**self.stages, high**self.stages
 

@@ -410,7 +410,7 @@ class AddedCountSums:
         self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
     def total(self, requested: OpenCounts) -> int:
-        """Return the total number of choices."""
+        """Return the total number of choices of tooth counts."""
         return self._counts.count_limited(requested.added, requested.wanted, requested.limits)
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
@@ -423,9 +423,7 @@ class AddedCountSums:
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return, for each tooth count, the number of choices in which at least one wheel has this count, by inclusion-
-        exclusion.
-        """
+        """Return, for each tooth count, the number of choices in which some wheel has it, by inclusion-exclusion."""
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)

@@ -65,7 +65,7 @@ class BrokenRule(Result):
     KEYS = ("rule", "subject", "what", "change")
 
     rule: Rule
-    """Kind of the rule."""
+    """Kind of the broken rule, one of `Rule`."""
     subject: tuple[str, ...]
     """Names of the dial, wheels or arbors that break the rule; empty for a rule on added parts."""
     what: str

@@ -182,7 +182,7 @@ class MissingExplanation(Result):
     """
 
     dials: tuple[LoneDial, ...]
-    """Results for each dial by itself."""
+    """Minimum number of added wheels that explain each dial if the other dials are dropped."""
     uncertainties: tuple[ChangedCount, ...]
     """Single changes of the evidence with which at least one train explains it, ordered by the number of added wheels.
     """

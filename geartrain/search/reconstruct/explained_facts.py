@@ -69,7 +69,7 @@ class FactAnswer(Result):
     KEYS = ("answer", Key("weight", "share", float), "solutions")
 
     answer: str
-    """Name, tooth count, `yes` or `no`."""
+    """Answer to the fact: a name, a tooth count, `yes` or `no`."""
     share: Fraction
     """Posterior probability of this answer, 0 to 1."""
     solutions: int
@@ -96,7 +96,7 @@ class FactMarginal(Result):
 
     @property
     def trains(self) -> int:
-        """Number of candidates."""
+        """Number of candidates over which the probabilities are computed."""
         return sum(answer.solutions for answer in self.answers)
 
     def share(self, answer: str) -> Fraction:

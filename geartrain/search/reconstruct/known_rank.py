@@ -154,7 +154,7 @@ class TrainPlace(Result):
     ranks: tuple[int, int]
     """First and last rank by probability. They differ if several trains are equally probable."""
     trains: int
-    """Number of explanations."""
+    """Number of explanations among which the train is ranked."""
     ranks_alike: tuple[int, int]
     """First and last rank among explanations with the same number of added wheels."""
     trains_alike: int
@@ -180,7 +180,7 @@ class AdmittingQuestion(Result):
     solutions: tuple[int, ...]
     """Number of explanations with exactly 0, 1, 2, ... added wheels."""
     place: TrainPlace | None
-    """Rank of the train; None if it adds more wheels than were searched."""
+    """Rank of the train; None if it adds more wheels than the search covers."""
     refused: str | None = None
     """Reason why the changed problem was not searched; None if it was searched."""
 

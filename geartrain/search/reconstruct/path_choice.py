@@ -100,7 +100,7 @@ def _bits(each: ArborPass, number: dict[str, int]) -> int:
 
 
 Choice = dict[str, int]
-"""Row of the path list of each dial."""
+"""Choice of one path for each dial, as a row of its path list."""
 
 _EVEN_SHARES = 50
 """Minimum number of paths that are distributed in turn over the parts of a search."""

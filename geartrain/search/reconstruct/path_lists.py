@@ -173,7 +173,7 @@ class PathGrowth:
         return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
 
     def kept(self, rows: Bools | np.bool_ | slice) -> PathGrowth:
-        """Return the selected rows of all arrays."""
+        """Return the selected paths, with the corresponding rows of all arrays."""
         return PathGrowth(*(column[rows] for column in self.columns()))
 
     def along(
@@ -395,7 +395,7 @@ class PathList:
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> Bools:
-        """Return a boolean matrix of which plans of added arbors are possible on which paths."""
+        """Return a boolean matrix, shape (paths, plans): True if a path is possible with a plan of added arbors."""
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, (compounds, idlers) in enumerate(plans):

@@ -24,7 +24,8 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branch
 HERE = "="
 IDLER = "~"
 BESIDE = "+"
-"""Exits of an arbor other than its surviving wheels: its own dial, its driven wheel, an added wheel."""
+"""Exits by which a path can leave an arbor other than surviving wheels: its own dial, its driven wheel, an added wheel.
+"""
 
 Block = tuple[str, Dials]
 """Exit of an arbor, and the dials to which it leads."""
@@ -94,7 +95,7 @@ class DialPath(NamedTuple):
     """Part of the path to a dial that is not yet in the tree."""
 
     arbors: int
-    """Bit mask of the surviving arbors."""
+    """Bit mask of the surviving arbors on this part of the path."""
     passes: Mapping[int, ArborPass]
     """Driven and driving wheel of the path on each surviving arbor, by the index of the arbor; index 0 is the input."""
     compounds: int
@@ -102,7 +103,7 @@ class DialPath(NamedTuple):
     idlers: int
     """Number of added arbors with an idler before the last arbor."""
     wheels: int
-    """Number of added wheels."""
+    """Number of added wheels on this part of the path."""
     ends_new: bool
     """True if the last arbor is added."""
 
@@ -113,7 +114,7 @@ class DialPath(NamedTuple):
 
     @property
     def new(self) -> int:
-        """Number of added arbors."""
+        """Number of added arbors on this part of the path."""
         return self.compounds + self.idlers + self.ends_new
 
 

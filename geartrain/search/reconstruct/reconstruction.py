@@ -77,7 +77,7 @@ class ReconstructionRequest(Shown):
     sample: int = 0
     """Number of trains to draw at random according to their posterior probabilities."""
     seed: int = 1
-    """Random seed."""
+    """Random seed of the draws requested by `sample`."""
     assumptions: bool = False
     """True to recount the trains with each hard constraint of the evidence dropped in turn."""
     known: tuple[Train, ...] = ()

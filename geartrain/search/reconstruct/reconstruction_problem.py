@@ -258,7 +258,7 @@ class ReconstructionProblem(Shown):
     input: SurvivingArbor
     """Arbor at which the train begins."""
     arbors: tuple[SurvivingArbor, ...]
-    """Other surviving arbors."""
+    """Surviving arbors other than the input arbor."""
     dials: tuple[SearchedDial, ...]
     """Pointers with the required ranges of their speeds."""
     additions: Additions

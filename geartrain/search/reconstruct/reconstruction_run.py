@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _LARGE = 15  # decimal logarithm of the number of choices of tooth counts above which it is printed
 _STEPS = 1000
-"""Number of steps of a progress bar."""
+"""Number of steps into which a progress bar is divided."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 
 

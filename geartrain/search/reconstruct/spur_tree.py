@@ -303,7 +303,7 @@ class _Base:
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Links that couplings join to each link, including the link, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
-    """Meshes of each arbor."""
+    """Meshes of each arbor with other arbors of the base."""
 
 
 class _Parts:

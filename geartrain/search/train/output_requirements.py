@@ -310,11 +310,11 @@ class SearchPart:
     conditions: tuple[IntervalConstraint, ...]
     """Conditions on loops and links for the train to turn."""
     rules: tuple[CountConstraint, ...]
-    """Constraints on the counts."""
+    """Constraints on the tooth counts of the wheels."""
 
     @property
     def considered(self) -> int:
-        """Number of assignments of tooth counts to the wheels."""
+        """Number of all assignments of admissible tooth counts to the wheels."""
         return prod(len(counts) for counts in self.domains.values())
 
 

@@ -118,7 +118,7 @@ class PartFindings(Result):
     rules: tuple[str, ...]
     """Names of the constraints on counts."""
     considered: int
-    """Number of assignments of tooth counts to the wheels."""
+    """Number of all assignments of admissible tooth counts to the wheels."""
     count: int
     """Number of assignments that satisfy all requirements, within `tolerance` if that is not None."""
     tolerance: Fraction | None
@@ -231,7 +231,7 @@ class TrainFindings(Tabular, Result):
 
     @property
     def considered(self) -> int:
-        """Number of assignments of all varied wheels."""
+        """Number of all assignments of admissible tooth counts to the varied wheels."""
         return prod(part.considered for part in self.parts)
 
     @property

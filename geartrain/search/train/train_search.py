@@ -56,8 +56,8 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Return a pass that lists all assignments within its tolerance, which includes at least the requested number
-    or all.
+    """Return a pass that lists all assignments within its tolerance, which includes at least the requested number of
+    assignments, or all of them.
 
     If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
     enumerate within its limit.
@@ -234,10 +234,10 @@ def search_train(
 
     The algorithm is an exact join of lists of products of counts, along the factors that the outputs share. The join
     can count many more assignments than it can list. All comparisons use integers. The requirements on an output are
-    its `expect` and `published` values, at their written digits and with their signs, and every target with a
-    tolerance. If no target has a tolerance and `tolerance` is given, the first target is a requirement. The error of an
-    output that has targets but none of these requirements is minimised: the `best` assignments by error are found, and
-    proved to be the best by increasing a common tolerance.
+    its `expect` and `published` values, to the precision of their written digits and with their signs, and every target
+    with a tolerance. If no target has a tolerance and `tolerance` is given, the first target is a requirement. The
+    error of an output that has targets but none of these requirements is minimised: the `best` assignments by error are
+    found, and proved to be the best by increasing a common tolerance.
 
     Parameters
     ----------
@@ -289,7 +289,7 @@ def search_train(
     Examples
     --------
     The lost wheels of the planets' trains (Pennestri, Valentini and Petti 2002, Table 6), within a quarter per cent;
-    of 35,937 assignments for Jupiter 15 are solutions:
+    15 of 35,937 assignments for Jupiter are solutions:
 
     >>> import geartrain
     >>> found = search_train(geartrain.load("pennestri-2002-missing").declaration, best=1)

@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 MOST_SETS = 4 * 10**8  # maximum number of sets that are enumerated
 MOST_TEETH = 100_000
-"""Maximum tooth count. The numerators, of third degree in the counts, then stay below 2^53."""
+"""Maximum tooth count of a wheel. The numerators of ratios, of third degree in the counts, then stay below 2^53."""
 
 SetBounds = Mapping[str, tuple[int, ...]]
 """Admissible tooth counts of each wheel, ascending."""

@@ -41,22 +41,22 @@ class PlanNode:
     item: int
     """Index of the variable that the node assigns."""
     interface: tuple[int, ...]
-    """Variables above the node that a constraint of the node or of its subtree depends on."""
+    """Variables above the node on which a constraint of the node or of its subtree depends."""
     guide: int
-    """Number of the constraint that selects the values to try; -1 if all values are tried."""
+    """Index of the constraint that selects the values to try; -1 if all values are tried."""
     checks: tuple[int, ...]
-    """Numbers of the constraints, other than the guide, that are complete with this variable, in the order of
+    """Indices of the constraints, other than the guide, that are complete with this variable, in the order of
     evaluation.
     """
     prunes: tuple[int, ...]
-    """Numbers of polynomial constraints with at least two free variables, by which rows are pruned here."""
+    """Indices of polynomial constraints with at least two free variables, by which rows are pruned here."""
     children: tuple[PlanNode, ...]
     """Child nodes, no two of which have a common constraint."""
     reach: tuple[int, ...]
-    """Numbers of all constraints of this node and its subtree."""
+    """Indices of all constraints of this node and its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """Yield the numbers of the constraints that are complete with this node, then of the constraints complete in
+        """Yield the indices of the constraints that are complete with this node, then of the constraints complete in
         its subtree.
         """
         if self.guide >= 0:
@@ -75,7 +75,7 @@ class JoinProblem:
     requested: tuple[IntervalConstraint, ...]
     """Constraints on the values of functions of tooth counts."""
     rules: tuple[CountConstraint, ...]
-    """Constraints on tooth counts. All constraints are numbered in the order `rules`, `requested`."""
+    """Constraints on tooth counts. Indices of constraints count `rules` first, then `requested`."""
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[Factors, ...]
@@ -104,7 +104,7 @@ class JoinProblem:
 
     @property
     def order(self) -> tuple[int, ...]:
-        """Numbers of the constraints in the order of evaluation, with `late` at the end."""
+        """Indices of the constraints in the order of evaluation, with `late` at the end."""
         found = list(self.plan.decided())
         return (*found, *(at for at in range(len(self.reasons)) if at not in found))
 

@@ -341,7 +341,9 @@ class _OrrerySearch:
             self.tell(done, total)
 
     def _offer(self, tree: ArborTree) -> None:
-        """Keep a tree if it is better than the best: fewer wheels, then fewer pairs, then a smaller maximum error."""
+        """Keep a tree if it is better than the best so far: fewer wheels, then fewer pairs, then a smaller maximum
+        error.
+        """
         wheels, _, proved = fewest_wheels(self.table, edges(tree))
         # an unproved number of wheels is only an upper bound, so it proves nothing
         self.sure = self.sure and proved

@@ -393,8 +393,8 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
 def _sampled_indices(
     name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior], seed: int
 ) -> VarianceShares | None:
-    """Estimate the Sobol indices from two independent samples A and B, and from A with one column of B for each
-    wheel.
+    """Estimate the Sobol indices from two independent samples A and B, and from copies of A in which the column of one
+    wheel is from B.
     """
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(uncertainties)])))
     first, second = (

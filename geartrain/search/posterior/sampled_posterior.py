@@ -207,7 +207,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
 
 @dataclass(frozen=True, slots=True)
 class _Scale:
-    """Observation in floats: observed speed, and reciprocal tolerances below and above it."""
+    """Observation of a speed in floats: observed speed, and reciprocal tolerances below and above it."""
 
     wanted: float
     signed: bool

@@ -36,17 +36,17 @@ Rule = Literal[
     "dial", "speed", "place", "wheel", "arbor", "count", "driven", "idler", "end", "ring", "teeth", "arbors", "beside",
     "seen", "apart", "coaxial", "distance",
 ]  # fmt: skip
-"""Kinds of rules.
+"""Kinds of rules of a reconstruction problem, each with the condition that a candidate must satisfy.
 
-dial      every dial is shown
+dial      every dial has its pointer in the train
 speed     a dial has its speed and sense
-place     a dial is on its arbor
+place     the pointer of a dial is on its arbor
 wheel     every surviving wheel meshes
 arbor     every surviving arbor is in the train
 count     a surviving wheel has one of its possible tooth counts
 driven    the driven wheel of a surviving arbor is a surviving wheel
 idler     a driven wheel does not drive
-end       an arbor that drives nothing shows a dial
+end       an arbor that drives nothing carries a pointer
 ring      a ring meshes only with wheels of fewer teeth
 teeth     the tooth counts of added wheels are within their limits
 arbors    the number of added arbors is within its limit

@@ -25,7 +25,7 @@ from geartrain.search.weighted_alternatives import entropy
 from geartrain.train import Train
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]
-"""Kinds of facts.
+"""Kinds of facts about a candidate.
 
 mesh     one wheel drives another, `e4 > f1`
 pair     two surviving wheels mesh, in either direction

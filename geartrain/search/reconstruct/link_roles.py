@@ -208,7 +208,7 @@ Joined = Mapping[str, tuple[str, ...]]
 def joined_arbors(evidence: Train) -> Joined:
     """Return the groups of links that given couplings join to one arbor.
 
-    A group is named after the input link if it contains this link, otherwise after its first link with wheels.
+    A group is named after the input link if the group contains it, otherwise after its first link with wheels.
     """
     found = {}
     for links in joined_groups(evidence.links, (pair for pair, _ in _pairs(evidence))):

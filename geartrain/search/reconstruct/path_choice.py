@@ -30,8 +30,8 @@ class PathColumns:
     A pass is the pair of a driven and a driving wheel by which a path passes through an arbor.
 
     codes          code of the pass, 0 if the path avoids the arbor, shape (arbors, rows)
-    driven         number of the driven wheel with its count, 0 if absent, shape (arbors, rows)
-    driver         number of the driving wheel by name, 0 if absent, shape (arbors, rows)
+    driven         identifying number of the driven wheel and its count, 0 if absent, shape (arbors, rows)
+    driver         identifying number of the driving wheel, 0 if absent, shape (arbors, rows)
     passes_added   True if the path has an added idler
     used           bit mask of the used surviving arbors, then wheels, for each row
     """

@@ -130,7 +130,7 @@ class PathGrowth:
     """Partial paths through some of the arbors, one in each row of the arrays."""
 
     codes: NDArray[np.uint16]
-    """Code of the pass of each arbor, from 1; 0 if the path avoids the arbor."""
+    """Code of the pass (driven and driving wheel) on each arbor, from 1; 0 if the path avoids the arbor."""
     ratio: Floats
     """Speed of the end of the path without the added wheels, as a magnitude [turns per unit]."""
     powers: NDArray[np.int8]

@@ -43,8 +43,8 @@ def exit_of(each: ArborPass) -> str:
 def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Yield each partition of dials into the dials that an arbor shows and, for each of its wheels, the dials to
-    which the wheel leads.
+    """Yield each partition of dials into the dials whose pointers an arbor carries and, for each of its wheels, the
+    dials to which the wheel leads.
 
     Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
 
@@ -267,7 +267,7 @@ class PathTrees:
     # arbors at which paths end or separate
 
     def _branching(self, at: int, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield branchings at a surviving arbor that shows dials or has several exits, or at the input arbor."""
+        """Yield branchings at a surviving arbor that carries pointers or has several exits, or at the input arbor."""
         first = paths_first(paths).passes[at]
         ways = {dial: (exit_of(path.passes[at]),) for dial, path in paths.items()}
         paid = int(first.driven == ADDED)
@@ -287,7 +287,7 @@ class PathTrees:
                 )
 
     def _new_branching(self, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield branchings at an added arbor that shows dials or has several exits."""
+        """Yield branchings at an added arbor that carries pointers or has several exits."""
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):

@@ -184,7 +184,7 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return a speed with its error according to the graded requirement for which the absolute error is largest."""
+        """Return a speed with its error with respect to the graded requirement that has the largest absolute error."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))

@@ -269,7 +269,7 @@ class TrainFindings(Tabular, Result):
         solution : Assignment or mapping of str to int
             Solution of the whole train or of one part. `QuestionError` is raised for wheels that were not varied.
         parent : str
-            Train to extend: a shipped train, or a path relative to the file to be written.
+            Train to extend: the name of a bundled example, or a path relative to the file to be written.
         name : str
             Name of the new train; by default the name of the train with "-found".
         """

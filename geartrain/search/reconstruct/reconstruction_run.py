@@ -50,7 +50,7 @@ class CommandRun(ReconstructionRun):
         if seconds := rough(cost.whole):
             workers = self._options.workers
             shared = f", shared by {workers} processes" if workers not in (None, "1") else ""
-            timed = f"one part in {cost.parts} of the search was timed"
+            timed = f"a few of {cost.parts} parts of the search were timed"
             tell(f"expected time: about {_duration_text(seconds)} in one process{shared}; {timed}")
 
     @contextmanager

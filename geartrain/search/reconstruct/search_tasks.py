@@ -241,7 +241,9 @@ class ExpectedCost(Result):
     It is 0 up to two added wheels, where nothing is timed. It excludes the comparison of the listed trains.
     """
     parts: int
-    """Number of equal parts into which the search was divided for timing; 0 if nothing was timed."""
+    """Number of parts into which the search was divided for timing, the maximum over all numbers of added wheels; 0 if
+    nothing was timed.
+    """
 
     @property
     def whole(self) -> float:

@@ -6,8 +6,9 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return the result type of each search command. A use of a command with another result type has its own
-    entry.
+    """Return the result type of each search command, by the words of the command.
+
+    An option that changes the result type has its own entry, such as `teeth set --kind list`.
     """
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
     from geartrain.search.orrery.orrery_search import Orrery

@@ -119,5 +119,5 @@ class GearStages(CountSizes, Result):
 
     @property
     def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Tooth counts of the numerator, and tooth counts of the denominator."""
+        """Tooth counts of the two sides of the ratio: numerator, denominator."""
         return self.top, self.beneath

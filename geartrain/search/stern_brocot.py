@@ -64,9 +64,9 @@ class Approximants(Tabular, Result):
     wanted: TargetRatio
     """Requested ratio."""
     most: int
-    """Maximum numerator and denominator."""
+    """Maximum numerator and denominator of a fraction."""
     solutions: tuple[Approximant, ...]
-    """Fractions in the order of the path."""
+    """Fractions in the order of the path of the Stern-Brocot tree to the ratio."""
 
     def _summary(self) -> str:
         label = self.wanted.label or self.wanted.value

@@ -81,7 +81,9 @@ class TargetRatio(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """One term of a ratio: kind, exact value (times in days), word of the unit, and note on its origin."""
+    """One term of a ratio: kind, exact value (times in days), unit or name of counted objects, and note on its
+    origin.
+    """
 
     kind: TargetKind
     value: Fraction
@@ -151,7 +153,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 
 def _parts(text: str, label: str) -> list[str]:
-    """Split a string at its division sign into one or two parts. A sign between blanks takes precedence."""
+    """Split a string at its division sign into one or two parts. A division sign between blanks takes precedence."""
     # a term such as '1/3 d' may contain a division sign itself
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)

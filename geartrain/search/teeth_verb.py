@@ -48,8 +48,8 @@ class SearchGroup(LazyGroup):
     )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the command of a search. Raise `QuestionError`, with a suggestion, if the name of the search is
-        missing.
+        """Return the command of a search. If the name of the search is missing, raise `QuestionError` with a
+        suggestion.
         """
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)

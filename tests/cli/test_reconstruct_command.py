@@ -188,7 +188,7 @@ def test_what_is_requested_is_told_before_the_search(monkeypatch: pytest.MonkeyP
 def test_the_time_is_told_where_it_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(search_tasks, "timed_part", lambda task: 6400 / task.parts * (task.part < task.parts))
     result = call("reconstruct", "back-train", "-k", "3", "--count", "--json", "--workers", "2")
-    assert "expected time: about 100 minutes in one process, shared by 2 processes; one part in 4096" in result.stderr
+    assert "expected time: about 100 minutes in one process, shared by 2 processes; a few of 4096" in result.stderr
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["expected"]["seconds"] == 6000

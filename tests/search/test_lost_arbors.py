@@ -172,7 +172,7 @@ def test_a_train_that_is_not_taken_says_why(name: str, why: str) -> None:
 @pytest.mark.parametrize(
     ("lost", "why"),
     [
-        (["a"], "'a' carries the input"),
+        (["a"], "'a' cannot be lost"),
         (["d"], "'d' cannot be lost"),
         (["frame"], "'frame' cannot be lost"),
         (["x"], "'x' cannot be lost"),

@@ -216,7 +216,7 @@ MISTAKES = {
         14,
         ["the position of 'b' cannot be used as evidence, because 'w' is a ring gear", "remove the position"],
     ),
-    "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor on a moving link"]),
+    "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor turns on a moving link"]),
     "seen from an arbor": (changed("{expect", "{relative_to: a, expect"), 10, ["is relative to 'a'"]),
     "no speed": (changed("{expect: 1/3}", "{}"), 10, ["the speed of 'sun' is not known"]),
     "no tolerance": ("unit: {per: 1 d}\n" + changed("expect: 1/3", "targets: [{period: 3 d}]"), 11, ["is not known"]),

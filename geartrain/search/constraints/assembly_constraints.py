@@ -61,7 +61,8 @@ if TYPE_CHECKING:
 
 
 BACKLASH = 0.05
-"""Tolerance of a distance between declared positions [half modules], for rounded positions and backlash."""
+"""Tolerance of a distance between declared positions [half modules], which allows for rounded positions and backlash.
+"""
 
 
 def find_constraints(
@@ -69,7 +70,7 @@ def find_constraints(
 ) -> tuple[CountConstraint, ...]:
     """Return the constraints on the wheels of a train whose tooth counts are varied, in ascending order of cost.
 
-    free   wheel -> admissible counts; all other wheels have their declared counts
+    free   admissible counts by varied wheel; all other wheels have their declared counts
 
     The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops.
     Constraints that involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is
@@ -83,7 +84,7 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train. In `fitting`, the varied wheels have placeholder counts."""
+    """Builder of the constraints of one train. In the train `fitting`, the varied wheels have placeholder counts."""
 
     declared: Train
     fitting: TrainAssembly
@@ -128,12 +129,12 @@ class _ConstraintBuilder:
             declared = "a length" if measure == "m" else "a number without a unit" if measure else "not declared"
             raise QuestionError(
                 Problem(
-                    f"the radius of '{wheel}' cannot be compared with {radius}",
+                    f"the pitch radius of '{wheel}' cannot be compared with {radius}",
                     f"the module of the wheel is {declared}"
                     if module
                     else "several modules are declared for the wheel",
-                    "give the radius and all modules with units, or, without modules, the radius as a number of "
-                    "modules",
+                    "give the maximum radius and all modules with units, or declare no modules and give the radius as "
+                    "a number of modules",
                 )
             )
         # pitch radius r = m z / 2
@@ -174,10 +175,9 @@ class _ConstraintBuilder:
         yield Condition(words, scaled.wheels, partial(is_near_zero, scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return True if the declared counts violate equal centre distances that were not requested explicitly, else
-        False.
+        """Return whether the declared counts violate an equality of centre distances that was not requested explicitly.
 
-        Modules then differ or profiles are shifted, so the constraint is not applied.
+        The wheels then have different modules or shifted profiles, so the constraint is not applied.
         """
         counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
@@ -215,8 +215,8 @@ class _ConstraintBuilder:
         return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield the conditions between each varied wheel and all fixed counts, then between each pair of varied
-        wheels.
+        """Yield the conditions that the count of a varied wheel differs from all fixed counts, then from the count of
+        each other varied wheel.
         """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
@@ -363,7 +363,9 @@ def do_loops_close(
 
 @dataclass(frozen=True)
 class DeclaredPositions:
-    """Constraints from the declared positions of axes: meshing wheels must reach each other, and loops must close."""
+    """Constraints from the declared positions of axes: centre distances must fit the positions, and loops must
+    close.
+    """
 
     fitting: TrainAssembly
     shift: int = 0
@@ -371,7 +373,7 @@ class DeclaredPositions:
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Phase closure of the loops with the placeholder counts."""
+        """Phase closure of the loops of the train with placeholder counts."""
         return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
 
     def conditions(self) -> Iterator[Condition]:
@@ -383,7 +385,7 @@ class DeclaredPositions:
         yield from self._loop_condition()
 
     def _distance_conditions(self) -> Iterator[Condition]:
-        """Yield the conditions on centre distances, by groups of meshes that have the same module."""
+        """Yield the conditions on centre distances, by groups of meshes whose wheels have the same module."""
         groups: dict[int, list[AssemblyMesh]] = {}
         for mesh in self.fitting.meshes:
             if mesh.spur and self._length(mesh):
@@ -502,7 +504,9 @@ def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
 
 
 def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), >= 0 if tip 2 does not interfere with wheel 1.
+    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), which is >= 0 if the tips of wheel 2 do not
+    interfere with wheel 1. z1 and z2 are tooth counts, alpha is the pressure angle, h the addendum of wheel 2
+    [modules].
 
     The tip circle of 2 must intersect the line of action before the point where this line touches the base circle of
     1: r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares
@@ -514,8 +518,8 @@ def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[An
 
 
 def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 if the ring's tip does not
-    interfere.
+    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 if the tips of the ring do not
+    interfere with wheel 1. z1 and z2 are the tooth counts of wheel and ring, alpha is the pressure angle.
 
     h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
     independently: the ring's tip circle must intersect the line of action beyond the point where this line touches
@@ -526,7 +530,10 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
 
 
 def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """Return the angular clearance `tip_margin` of each planet and ring [rad]; tooth counts broadcast to one shape."""
+    """Return the angular clearance [rad] between the tips of each planet and ring; see `tip_margin`.
+
+    Arrays of tooth counts are broadcast to one shape.
+    """
     planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
     # many candidates share the same few pairs of counts
     pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
@@ -538,7 +545,8 @@ def is_on_involute(
     first: CountRef, second: CountRef, pressure: Fraction, addendum: Fraction, columns: CandidateColumns
 ) -> Bools:
     """Return whether each tip of an external pair meets its mate only on the involute, so that no tip interferes.
-    Exact.
+
+    The test is exact.
     """
     z1, z2 = counts_of(columns, first), counts_of(columns, second)
     constants = _square(pressure), decimal(addendum)
@@ -554,7 +562,7 @@ def is_in_ring(
     ring_addendum: Fraction,
     columns: CandidateColumns,
 ) -> Bools:
-    """Return whether the tips of a planet and a ring interfere neither with flanks nor with each other.
+    """Return whether a planet and a ring mesh without interference of their tips with flanks or with each other.
 
     Tips that pass each other with a clearance of less than 1e-9 rad count as interfering.
     """

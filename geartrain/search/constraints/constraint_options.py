@@ -68,8 +68,8 @@ class ConstraintOptions:
     hunting: bool = False
     """Requirement that the tooth counts of meshing wheels are coprime."""
     closure: bool = False
-    """Requirement that meshing wheels reach each other at the declared axis positions, and that the teeth of all loops
-    mesh.
+    """Requirement that the centre distances of meshing wheels fit the declared axis positions, and that the teeth of
+    all loops mesh.
     """
 
     def to_dict(self) -> dict[str, Any]:

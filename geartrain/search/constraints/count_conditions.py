@@ -48,7 +48,7 @@ class CountEquation:
     coefficients: Mapping[str, int]
     """Nonzero integer coefficient of each varied wheel; at least one wheel."""
     constant: int
-    """Contribution of the wheels with fixed counts."""
+    """Constant term of the equation, contributed by the wheels with fixed counts."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -85,7 +85,7 @@ class Condition:
     wheels: tuple[str, ...]
     """Varied wheels of the condition, at least one."""
     test: CandidateTest
-    """Predicate on the candidates."""
+    """Predicate that returns whether each candidate satisfies the condition."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
         """Return whether each candidate satisfies the condition, shape (candidates,), read-only.
@@ -96,7 +96,7 @@ class Condition:
 
 
 CountConstraint = CountEquation | Condition
-"""Constraint on counts with `name`, `wheels` and `holds(columns)`."""
+"""Constraint on tooth counts, with the attributes `name` and `wheels` and the method `holds`."""
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
@@ -105,7 +105,7 @@ def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
 
 
 def free_of(*parts: CountRef) -> tuple[str, ...]:
-    """Return the distinct ids of varied wheels among ids and fixed counts, in order."""
+    """Return the distinct ids of the varied wheels in a list of wheel ids and fixed counts, in order."""
     return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
 
 
@@ -219,12 +219,12 @@ def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColum
 
 
 def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the absolute value of a sum is at most `most`."""
+    """Return whether the absolute value of a sum of counts is at most `most`."""
     return np.asarray(np.abs(total.of(columns)) <= most)
 
 
 def are_divisible(sums: Sequence[tuple[int, WholeSum]], columns: CandidateColumns) -> Bools:
-    """Return whether each sum is a multiple of its modulus. `sums` has pairs (modulus, sum)."""
+    """Return whether each sum of counts is a multiple of its modulus. `sums` contains pairs (modulus, sum)."""
     return np.asarray(np.all([total.of(columns) % modulus == 0 for modulus, total in sums], axis=0))
 
 

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
     """Return whether n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
-    The condition is that n divides each number of `phase_numbers`, which derives it.
+    The condition, derived in `phase_numbers`, is that n divides each of the numbers that this function returns.
     """
     # b is only needed modulo n; reduced, so that products of counts fit int64
     kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda one: one % number)
@@ -71,7 +71,7 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
-    """Return the assembly condition of a set of planets.
+    """Return the assembly condition of a set of equal, equally spaced planets.
 
     Return None if no wheel is varied or the planets mesh with fewer than two central wheels, because any number can
     then be assembled.
@@ -87,7 +87,9 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
 
 
 def reason(found: PlanetSet, number: int) -> str:
-    """Return a description of the assembly condition, with its formula if there are two central wheels."""
+    """Return a description of the assembly condition of equal planets, with its formula if there are two central
+    wheels.
+    """
     head = f"{number} equal planets on '{found.carrier}'"
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
@@ -113,10 +115,10 @@ def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateCo
 
 
 def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether two meshing planets can be placed on their circles, and whether each clears the mates of the
-    other planets.
+    """Return whether two meshing planets can be placed on their circles without overlap with the mates of the other
+    planets.
 
-    A, B and D are twice the radii of the two circles and twice the centre distance; see `passing_terms`.
+    A and B are twice the radii of the two circles, D is twice the centre distance of the planets; see `passing_terms`.
     """
     a, b, d, tip = (one.of(columns) for one in (A, B, D, tips))
     # the triangle of the central axis and the two planets must close
@@ -128,7 +130,7 @@ def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum,
 
 
 def is_above_zero(room: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether a clearance is positive."""
+    """Return whether the clearance of a planet is positive for each candidate."""
     return np.asarray(room.of(columns) > 0)
 
 
@@ -182,8 +184,8 @@ class PlanetClearance:
                 yield from self._gap_conditions(inner, outer)
 
     def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """Yield the clearances of the outer planet from the central wheels of the inner planet, and of the inner
-        planet from the rings of the outer planet.
+        """Yield the conditions on the clearance of the outer planet from the central wheels of the inner planet, and of
+        the inner planet from the rings of the outer planet.
         """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:

@@ -26,7 +26,7 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its contribution to the
+    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its signed factor in the
     ratios.
     """
 
@@ -37,12 +37,12 @@ class CentralWheel:
     mesh: str
     """Name of the planet wheel with which the central wheel meshes."""
     sign: int
-    """Sign of its speed relative to the speed of the reference wheel of the planets, with a fixed carrier: 1 or
+    """Sign of the speed of the central wheel relative to the reference wheel of the planets, with a fixed carrier: 1 or
     -1.
     """
     step: str = ""
-    """Name of the planet wheel whose count is P in f = sign P / z; "" if P is the same for all central wheels and
-    cancels.
+    """Name of the planet wheel whose count is P in the speed f = sign P / z of the central wheel; "" if P is the same
+    for all central wheels and cancels.
     """
     internal: bool = False
     """True for a ring."""
@@ -92,7 +92,9 @@ class EpicyclicKind(Result):
     between: tuple[tuple[str, str], ...] = ()
     """Pairs of planet wheels that mesh with each other."""
     idle: tuple[str, ...] = ()
-    """Planet wheels that are in no ratio and no equation; the search gives them the minimum count that fits."""
+    """Planet wheels whose counts affect no ratio and no coaxial equation; the search gives them the minimum count that
+    fits.
+    """
     with_carrier: bool = True
     """True if the carrier may be the input, the output or the fixed member of a mode."""
     mirrored: tuple[tuple[str, str], ...] = ()
@@ -108,7 +110,7 @@ class EpicyclicKind(Result):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Links of the central wheels, then the carrier."""
+        """Names of the links of the central wheels, then of the carrier."""
         return (*(member.link for member in self.members), CARRIER)
 
     @property
@@ -399,7 +401,7 @@ class SetFindings(Tabular, Result):
     ratio_is: RatioIs
     """Definition of the ratio `wanted`: input/output or output/input."""
     modes: tuple[EpicyclicMode, ...]
-    """Operating modes that were searched."""
+    """Operating modes that the search covered."""
     tolerance: Fraction | None
     """Maximum absolute relative error; None for no limit."""
     complete: bool

@@ -49,21 +49,21 @@ if TYPE_CHECKING:
 
 MOST_SETS = 4 * 10**8  # maximum number of sets that are enumerated
 MOST_TEETH = 100_000
-"""Maximum tooth count. The numerators, of third degree in the counts, then stay below 2^53."""
+"""Maximum tooth count of a wheel. The numerators of ratios, of third degree in the counts, then stay below 2^53."""
 
 SetBounds = Mapping[str, tuple[int, ...]]
 """Admissible tooth counts of each wheel, ascending."""
 
 TIPS = 2.0
-"""Tip diameter minus pitch diameter, twice the addendum [modules]."""
+"""Tip diameter minus pitch diameter of every wheel, twice the addendum [modules]."""
 _BEVEL = 1e-9  # [modules] float error of a clearance that equals the required one
 _NEAR = 1e-6  # [modules] bound of the float error of a clearance
 _MARGIN = 1e-12
-"""Relative margin of float comparisons, within which values are compared exactly. Rounding errors are below 1e-15."""
+"""Relative difference below which values are compared exactly instead of as floats. Rounding errors are below 1e-15."""
 
 _FARTHEST = Fraction(10**18)  # far beyond the ratios of all sets
 _FINEST = 10**6
-"""Maximum denominator of a clearance [modules], so that multiples of 1/denominator of a module fit in int64."""
+"""Maximum denominator of a clearance in modules, so that multiples of 1/denominator of a module fit in int64."""
 
 NO_PLACE = "count out of bounds, planet that does not fit, or equal steps"
 NO_SPACING = "planets that cannot be equally spaced"
@@ -208,7 +208,9 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
     if not isfinite(clearance):
         raise QuestionError(
             Problem(
-                f"the clearance is {clearance}", "a clearance must be finite", "give a number of modules, such as 0.5"
+                f"the clearance {clearance} is not finite",
+                "a clearance is a gap between tooth tips in modules",
+                "give a number of modules, such as 0.5",
             )
         )
 
@@ -218,7 +220,9 @@ def _length(columns: Columns) -> int:
 
 
 class _Search:
-    """Results of the enumeration so far. A rejected set is counted under the first reason that applies."""
+    """State of the enumeration: solutions and rejected sets. A rejected set is counted under the first reason that
+    applies.
+    """
 
     def __init__(
         self, kind: EpicyclicKind, wanted: Fraction, tolerance: Fraction | None, best: int, ratio_is: RatioIs,
@@ -286,7 +290,9 @@ class _Search:
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
 
     def _inside(self, columns: Columns, mode: EpicyclicMode, errors: Floats) -> NDArray[np.bool_]:
-        """Return whether each set is within the tolerance. Floats decide except near the bound, where Fractions do."""
+        """Return whether the ratio error of each set is within the tolerance. Floats decide except near the bound,
+        where Fractions do.
+        """
         if self.tolerance is None:
             return np.ones(len(errors), dtype=bool)
         limit, margin = float(self.tolerance), _MARGIN * (1 + float(self.tolerance))
@@ -320,7 +326,7 @@ class _Search:
         )
 
     def _miss(self) -> tuple[str, str]:
-        """Return descriptions of the nearest miss and of suggested changes; "" for either if there is none."""
+        """Return two strings: the nearest miss and the suggested changes; "" for either if there is none."""
         if self.count:
             return "", ""
         if self.nearest is None and NO_SENSE in self.removed:
@@ -365,7 +371,7 @@ def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
 
 
 def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
-    """Return the number of sets before any constraint is applied."""
+    """Return the number of tooth sets of a type within bounds, before any constraint is applied."""
     chosen = prod(len(bounds[wheel]) for wheel in kind.free)
     return int(chosen * (2 * slack + 1) ** len(_followers(kind)))
 
@@ -373,8 +379,8 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
-    """Yield all sets in blocks: the number of sets of a block, and the sets of the block that have admissible
-    counts and fit.
+    """Yield all tooth sets in blocks: the number of sets of a block, and the counts of its sets that satisfy the
+    coaxial equations, are admissible and fit.
 
     planets    number of equal planets between which an idle wheel must have clearance
     clearance  minimum clearance between these planets [modules]; None if it is not required
@@ -400,7 +406,7 @@ def blocks(
 
 
 def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
-    """Return pairs of central wheels on the same planet link. The coaxial equation gives the second count from the
+    """Return pairs of central wheels on the same planet link, where a coaxial equation gives the second count from the
     first.
     """
     if kind.bevel:
@@ -451,7 +457,7 @@ def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
-    """Add the minimum count of the idle wheels that fits, and remove the sets without such a count."""
+    """Add the minimum counts of the idle wheels that fit, and remove the sets for which no count fits."""
     # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
     found: Ints = np.zeros_like(columns[kind.free[0]])
@@ -480,8 +486,9 @@ def _select(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]
 def ratio_terms(kind: EpicyclicKind, mode: EpicyclicMode, columns: Columns) -> tuple[Ints, Ints]:
     """Return the numerator and denominator of the ratio of input to output speed, exact and not reduced.
 
-    The ratio is (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for the
-    carrier. If one of the terms is 0 the mode does not transmit motion: the output is at rest, or the input is locked.
+    The ratio is (f_in - f_held) / (f_out - f_held) by the Willis equation, where f is 0 for the carrier and sign P / z
+    for a central wheel of z teeth that meshes with a planet wheel of P teeth. If one of the terms is 0 the mode does
+    not transmit motion: the output is at rest, or the input is locked.
     """
     (n1, d1), (n2, d2), (n0, d0) = (
         _relative(kind.member(link), columns) for link in (mode.input, mode.output, mode.held)
@@ -573,8 +580,8 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
 def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
     """Return whether the tips of neighbouring planets have at least a clearance [modules], for each set.
 
-    Near ties are decided exactly, as for the clearance of a declared train. For bevel wheels, whose clearance is an
-    angle, floats decide.
+    Values near the bound are compared exactly, as for the clearance of a declared train. For bevel wheels, whose
+    clearance is an angle, floats decide.
     """
     found, minimum = room(kind, columns, planets), float(clearance)
     # bevel sets are not decided exactly below, so a tie counts as sufficient clearance
@@ -624,8 +631,8 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
-    """Return the clearance of bevel planets [modules]: angle between neighbouring axes minus pitch cones, times the
-    radius, minus the addenda.
+    """Return the clearance of bevel planets [modules]: the angle between neighbouring axes minus the pitch cone angles,
+    times the radius, minus the addenda.
     """
     cone = np.arccos(_planet_cosine(columns))
     # a cone angle of 0 gives an infinite radius, which is replaced below

@@ -22,7 +22,9 @@ from geartrain.search.join.wheel_monomials import extent
 
 
 Slices = Mapping[int, tuple[int, int]]
-"""Half-open range of values of each variable in this part of the work; variables that are missing have all values."""
+"""Half-open index range of the values of each variable that one task covers; variables that are missing have all
+values.
+"""
 AssignmentColumns = dict[str, Ints]
 
 
@@ -31,13 +33,13 @@ class BudgetSpentError(Exception):
 
 
 RefusalCounts = dict[int, Tallies]
-"""Number of assignments that each constraint rejects, for each row."""
+"""Number of assignments that each constraint rejects, for each row (partial assignment)."""
 
 
 class ExactJoin:
     """Exact join of a problem by bucket elimination (Dechter 1999).
 
-    slices   part of the work
+    slices   ranges of the values of some variables, to which the join is restricted
     budget   maximum number of steps, beyond which `BudgetSpentError` is raised
     """
 
@@ -55,7 +57,7 @@ class ExactJoin:
         self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
-        """Select another part of the work, and reset the number of steps to 0."""
+        """Restrict the join to other ranges of values, and reset the number of steps to 0."""
         self.slices, self.budget, self.steps = slices, budget, 0
         self._full: dict[int, int] = {}
 
@@ -74,7 +76,9 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, RefusalCounts]:
-        """Return the number of accepted assignments below each row, and the numbers that each constraint rejects."""
+        """Return the number of accepted assignments that extend each row, and the numbers that each constraint
+        rejects.
+        """
         total = np.zeros(rows.size, dtype=self.dtype)
         removed: RefusalCounts = defaultdict(lambda: np.zeros(rows.size, dtype=self.dtype))
         at, alive = self.pruned(node, rows, removed)
@@ -103,7 +107,7 @@ class ExactJoin:
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Yield every assignment of tooth counts that the rows represent, block by block."""
+        """Yield every assignment of tooth counts that the rows of values represent, block by block."""
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
             sizes = sizes * self.items[item].times[column]
@@ -125,7 +129,7 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def spend(self, steps: int) -> None:
-        """Add to the number of steps. Raise `BudgetSpentError` beyond the budget."""
+        """Add steps to the number of steps of the join. Raise `BudgetSpentError` beyond the budget."""
         self.steps += steps
         if self.steps > self.budget:
             raise BudgetSpentError
@@ -136,7 +140,7 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """Return the indices and rows that remain after pruning by relaxed constraints.
+        """Return the rows that relaxed constraints do not reject, with their indices.
 
         Rows are removed if a constraint rejects them for all values of the free variables. They are counted in
         `removed`.
@@ -155,8 +159,8 @@ class ExactJoin:
         return at, rows
 
     def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the admissible values of a last variable with one constraint from its windows, without a row for each
-        value.
+        """Count the admissible values of the last variable from the index windows of its only constraint, without
+        listing a row for each value.
         """
         constraint, item = self.constraints[node.guide], self.items[node.item]
         assert isinstance(constraint, PolynomialConstraint)
@@ -235,7 +239,7 @@ class ExactJoin:
         return constraint.holds(self._counts(constraint, rows))
 
     def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the assignments below each extended row. Rejections in the subtree are charged to the rows
+        """Count the assignments that extend each new row. Assignments rejected in the subtree are counted for the rows
         `parents`.
         """
         counts = self.items[node.item].times[grown.columns[node.item]]

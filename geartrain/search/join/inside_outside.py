@@ -29,7 +29,7 @@ from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlte
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Function from the values of a graded constraint to misfits, by the index of the constraint in
+"""Functions from values of a constrained function to misfits, by the index of the constraint in
 `JoinProblem.requested`.
 """
 CountWeights = Mapping[str, Tallies]
@@ -37,7 +37,7 @@ CountWeights = Mapping[str, Tallies]
 
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Yield each assignment of tooth counts that produces a product, as the index of the count by wheel."""
+    """Yield each assignment of tooth counts that produces a product, as a dict from wheel to the index of its count."""
     if last is None:
         yield {}
         return
@@ -53,11 +53,11 @@ class RecordedNode:
     size: int
     """Number of rows, which are the distinct states before the node."""
     parents: Ints
-    """Row of each transition, ascending."""
+    """Row from which each transition starts, ascending."""
     places: Ints
     """Index in `values` of the value that each transition assigns."""
     values: ProductStep
-    """Values of the variable that occur, as the last step of their products."""
+    """Values of the variable that occur, stored as the last step of the multiplication that produces them."""
     misfit: Floats
     """Misfit that each transition adds by graded constraints that are complete at this node."""
     children: tuple[tuple[RecordedNode, Ints], ...]
@@ -65,7 +65,7 @@ class RecordedNode:
 
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
-    """Record the tree of a problem without late constraints, and return it with its number of steps.
+    """Record the tree of a join problem that has no constraints evaluated last, and return it with its number of steps.
 
     Raise `BudgetSpentError` beyond `limit` partial assignments.
     """
@@ -147,9 +147,10 @@ class AssignmentSums:
         return WeightedAlternatives(self.root, lambda table: self._alternatives(table, weights))
 
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
-        """Return the rows of a table as alternatives.
+        """Return the rows of a table as weighted alternatives.
 
-        A row of a node continues with a value of its variable and a row of each child, and a value with its factors.
+        An alternative of a node refers to a value of its variable and to a row of each child node. An alternative of a
+        value chooses one tooth count, and refers to the product of the other factors.
         """
         if isinstance(table, RecordedNode):
             grade = np.exp(-table.misfit / 2) if self.graded else 1
@@ -201,7 +202,7 @@ class BestFirst:
         self._add(root)
 
     def _add(self, node: RecordedNode) -> int:
-        """Number a node and its subtree, and compute the minimum remaining misfit of each row."""
+        """Assign numbers to a node and its subtree, and compute the minimum remaining misfit of each row."""
         at = len(self._nodes)
         self._nodes.append(node)
         self._ahead.append(np.full(node.size, np.inf))
@@ -215,8 +216,8 @@ class BestFirst:
         return at
 
     def __iter__(self) -> Iterator[GradedAssignment]:
-        """Yield the assignments. The heap stores open rows as (node, row) and assigned values as (node, index of the
-        value).
+        """Yield the assignments in ascending order of misfit. The heap stores open rows as (node, row) and assigned
+        values as (node, index of the value).
         """
         heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
         if np.isfinite(self._ahead[0][0]):

@@ -36,27 +36,27 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """Node of a plan: a variable that is assigned after all variables above it."""
+    """Node of a join plan: a variable that is assigned after all variables above it in the tree."""
 
     item: int
-    """Index of the variable."""
+    """Index of the variable that the node assigns."""
     interface: tuple[int, ...]
-    """Variables above the node that a constraint of the node or of its subtree depends on."""
+    """Variables above the node on which a constraint of the node or of its subtree depends."""
     guide: int
-    """Number of the constraint that selects the values to try; -1 if all values are tried."""
+    """Index of the constraint that selects the values to try; -1 if all values are tried."""
     checks: tuple[int, ...]
-    """Numbers of the constraints, other than the guide, that are complete with this variable, in the order of
+    """Indices of the constraints, other than the guide, that are complete with this variable, in the order of
     evaluation.
     """
     prunes: tuple[int, ...]
-    """Numbers of polynomial constraints with at least two free variables, by which rows are pruned here."""
+    """Indices of polynomial constraints with at least two free variables, by which rows are pruned here."""
     children: tuple[PlanNode, ...]
     """Child nodes, no two of which have a common constraint."""
     reach: tuple[int, ...]
-    """Numbers of all constraints of this node and its subtree."""
+    """Indices of all constraints of this node and its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """Yield the numbers of the constraints that are complete with this node, then of the constraints complete in
+        """Yield the indices of the constraints that are complete with this node, then of the constraints complete in
         its subtree.
         """
         if self.guide >= 0:
@@ -75,11 +75,11 @@ class JoinProblem:
     requested: tuple[IntervalConstraint, ...]
     """Constraints on the values of functions of tooth counts."""
     rules: tuple[CountConstraint, ...]
-    """Constraints on tooth counts. All constraints are numbered in the order `rules`, `requested`."""
+    """Constraints on tooth counts. Indices of constraints count `rules` first, then `requested`."""
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[Factors, ...]
-    """Definitions of the variables."""
+    """Definitions of the variables as products of tooth counts."""
     plan: PlanNode
     """Root of the plan, which assigns the first variable."""
     steps: float
@@ -89,7 +89,7 @@ class JoinProblem:
 
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
-        """Constraints `requested`, converted to polynomial constraints in variables."""
+        """Constraints of `requested`, converted to polynomial constraints in the variables."""
         return tuple(find_polynomial_constraints(self.requested, self.recipes, self.domains))
 
     @property
@@ -104,7 +104,7 @@ class JoinProblem:
 
     @property
     def order(self) -> tuple[int, ...]:
-        """Numbers of the constraints in the order of evaluation, with `late` at the end."""
+        """Indices of the constraints in the order of evaluation, with `late` at the end."""
         found = list(self.plan.decided())
         return (*found, *(at for at in range(len(self.reasons)) if at not in found))
 
@@ -121,9 +121,9 @@ def find_join_problem(
     probabilities: Mapping[str, float],
     weights: Weights | None = None,
 ) -> JoinProblem:
-    """Return the join with the minimum expected cost.
+    """Return the join problem whose plan has the minimum expected cost.
 
-    Choices of late constraints are compared.
+    Plans with different choices of the constraints that are evaluated last are compared.
 
     probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
     weights         weights of `JoinProblem`
@@ -135,7 +135,7 @@ def find_join_problem(
 def _rule_partitions(
     rules: Sequence[CountConstraint],
 ) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Yield partitions of the constraints on counts: constraints evaluated as soon as possible, and constraints
+    """Yield partitions of the constraints on counts into constraints evaluated as soon as possible and constraints
     evaluated last.
     """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
@@ -170,7 +170,7 @@ def _planned(
 
 @dataclass
 class _Planner:
-    """Generator of a plan with its expected cost, the number of partial assignments."""
+    """Generator of a plan and its expected cost, which is the number of partial assignments."""
 
     domains: Domains
     recipes: Sequence[Factors]
@@ -248,8 +248,8 @@ class _Planner:
         return min(self.scopes[focus] & open_, key=rank)
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Select the equation that determines the variable, otherwise the most selective constraint that has windows in
-        it.
+        """Select the equation that determines the variable, otherwise the most selective constraint whose admissible
+        values of the variable are index windows.
 
         Return -1 if there is neither.
         """
@@ -304,7 +304,7 @@ class SelectivitySample:
         return min(1.0, max(minimum, sum(_interval_share(speeds, interval) for interval in requested.intervals)))
 
     def speeds(self, function: Function) -> Floats:
-        """Return the finite values of a function over the sample."""
+        """Return the finite values of a function of tooth counts over the sample."""
         product = products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels])
         values, _ = bounded_quotient(function.numerator, function.denominator, [1] * len(function.wheels), product)
         values = np.broadcast_to(values, _DRAWN)

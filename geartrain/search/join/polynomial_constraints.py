@@ -1,8 +1,9 @@
 """Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free variables.
 
-|N/D - w| <= t w is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is
-a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values, whose
-ends are determined by exact signs.
+A speed N/D, a quotient of polynomials, is within the relative tolerance t of the requested speed w if
+|N/D - w| <= t w. This is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each
+case is a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values,
+whose ends are determined by exact signs.
 
 With several free variables, their values are between bounds. Rows are dropped if no values satisfy the constraint.
 Each term has its own extremes, whose sum bounds the polynomial.
@@ -66,7 +67,7 @@ class SignPolynomial:
         return (4 * degree + len(self.terms) + 8) * ROUNDING
 
     def powers(self, item: int) -> tuple[int, ...]:
-        """Return the powers of a variable that occur, ascending."""
+        """Return the powers of a variable that occur in the polynomial, ascending."""
         return tuple(sorted({dict(monomial).get(item, 0) for _, monomial in self.terms}))
 
     @property
@@ -82,7 +83,9 @@ class SignPolynomial:
         return SignPolynomial.of((*mine, *theirs))
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
-        """Return for each row the value divided by `scale`, and the sum of the magnitudes of its terms."""
+        """Return, for each row, the value of the polynomial divided by `scale`, and the sum of the magnitudes of its
+        terms.
+        """
         # scaled, so that large coefficients do not overflow float64
         over = scale or self.scale
         return sum_and_size(
@@ -100,7 +103,7 @@ class SignPolynomial:
         return found
 
     def _whole(self, rows: PartialAssignments) -> NDArray[Any]:
-        """Return the values as Python integers."""
+        """Return the values of the polynomial as Python integers."""
         total = np.zeros(rows.size, dtype=object)
         for coefficient, monomial in self.terms:
             term = np.full(rows.size, coefficient, dtype=object)
@@ -199,7 +202,7 @@ class PolynomialConstraint:
     """Description of the constraint."""
     cases: tuple[tuple[PolynomialInequality, ...], ...]
     function: tuple[SignPolynomial, SignPolynomial] | None = None
-    """Numerator and denominator of the constrained function; None unless its value is required too."""
+    """Numerator and denominator of the constrained function; None unless the constraint also returns its value."""
 
     @cached_property
     def items(self) -> tuple[int, ...]:
@@ -212,8 +215,8 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def opens(self, item: int) -> bool:
-        """Return whether windows can be computed in a variable, which requires at most two powers of it in each
-        polynomial.
+        """Return whether the admissible values of a variable can be computed as windows, which requires at most two
+        powers of it in each polynomial.
         """
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 

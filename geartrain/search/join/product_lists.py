@@ -25,7 +25,8 @@ Domains = Mapping[str, tuple[int, ...]]
 Factors = tuple[tuple[str, int], ...]
 """Definition of a variable: its wheels, each with its positive power."""
 Weights = Mapping[str, tuple[int, ...]]
-"""Integer weight of each tooth count by wheel. Wheels that are missing have weights 1, which counts assignments."""
+"""Integer weight of each tooth count by wheel. The counts of a missing wheel have weight 1, so assignments are counted.
+"""
 
 BLOCK = 1 << 18
 """Number of rows in a block, which limits the memory of a join to about 50 MB in addition to its lists."""
@@ -35,8 +36,8 @@ _REMEMBERED = 20_000_000  # maximum number of values of all cached variables
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """Return the number of distinct products, and the number of products formed to list them; estimates if they are
-    large.
+    """Return the number of distinct products of tooth counts, and the number of products formed to list them; both are
+    estimates if they are large.
     """
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
@@ -116,7 +117,7 @@ class Item:
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
         """Return every assignment of tooth counts that produces one of some products.
 
-        The result is (owner, wheel -> counts), where owner is the index in `indices` of the product, ascending.
+        The result is (owner, counts by wheel), where owner is the index in `indices` of the product, ascending.
         """
         owner, rest = np.arange(len(indices)), self.values[indices]
         found: dict[str, Ints] = {}
@@ -203,7 +204,7 @@ def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -
 class PartialAssignments:
     """Partial assignments as rows, each with the index of the value of every assigned variable.
 
-    columns   variable -> index of its value, shape (size,)
+    columns   index of the value of each assigned variable, shape (size,)
     """
 
     __slots__ = ("_x", "columns", "items", "size")
@@ -219,7 +220,7 @@ class PartialAssignments:
         return self._x[item]
 
     def value(self, item: int) -> Ints:
-        """Return the values of a variable as int64."""
+        """Return the values of a variable as int64, one for each row."""
         return self.items[item].values[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:

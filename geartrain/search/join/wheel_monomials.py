@@ -24,7 +24,7 @@ from geartrain.search.join.product_lists import Domains, Factors, PartialAssignm
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
-"""Maximum number of values of one variable. With all their arrays, these values need half a gigabyte."""
+"""Maximum number of values of one variable. A variable of this size needs half a gigabyte with all its arrays."""
 _MOST_WORK = 2 * 10**8  # maximum number of products formed to list one variable
 _LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
@@ -127,7 +127,7 @@ def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
 def find_polynomial_constraints(
     requested: Sequence[IntervalConstraint], recipes: Sequence[Factors], domains: Domains
 ) -> list[PolynomialConstraint]:
-    """Convert interval constraints to polynomial constraints in variables."""
+    """Convert interval constraints on functions of tooth counts to polynomial constraints in variables."""
     extents = [extent(recipe, domains) for recipe in recipes]
     constraints = []
     for one in requested:
@@ -187,7 +187,7 @@ def _cases(
 def _feasible(
     cases: Sequence[tuple[PolynomialInequality, ...]], extents: Extents
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Return the cases that some tooth counts can satisfy; the first case if there are none.
+    """Return the cases of a constraint that some tooth counts can satisfy; the first case if there are none.
 
     One case is kept so that the constraint still depends on its variables.
     """

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 ROUNDING = 1e-12
-"""Upper bound of the error of logarithms of periods and ratios whose magnitude is below 100."""
+"""Upper bound of the rounding error of logarithms of periods and ratios whose magnitude is below 100."""
 _MOST_PAIRS = 2 * 10**7  # maximum number of pairs of counts in the table
 _MOST_STEPS = 4000  # maximum for one tree; a first complete assignment is always found
 
@@ -54,7 +54,7 @@ class PeriodTargets:
 
     @property
     def everything(self) -> int:
-        """Bit mask of all targets."""
+        """Bit mask in which the bits of all targets are set."""
         return (1 << len(self.periods)) - 1
 
     def meets(self, target: int, ratio: Fraction) -> bool:
@@ -243,7 +243,7 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
 
 
 def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """Return the targets that one pair can drive from the arbor behind each ratio of the table, as bit masks, shape
+    """Return bit masks of the targets that one pair can drive from the arbor behind each ratio of the table, shape
     (n,).
     """
     sets = np.zeros(len(table), dtype=np.int64)
@@ -358,7 +358,7 @@ def grown(tree: ArborTree, target: int, parent: int, driven: int, driver: int) -
 
 
 def edges(tree: ArborTree) -> list[Edge]:
-    """Return the gear pairs of a tree."""
+    """Return the gear pairs of a tree of arbors."""
     return [(arbor.parent, at, arbor.driven, arbor.driver) for at, arbor in enumerate(tree) if at]
 
 
@@ -450,9 +450,7 @@ class TreeEnumeration:
             yield from self._with_targets(outer, left, 0, len(inner))
 
     def _ends(self, left: int) -> tuple[Floats, Floats]:
-        """Return intervals that include the logarithm of the period of every arbor from which all targets can be
-        reached.
-        """
+        """Return intervals of the logarithms of the periods of all arbors from which all targets can be driven."""
         logs, ranges = self.table.logs, []
         for target in members(left):
             low, high = self.targets.logs[target][0] - logs, self.targets.logs[target][1] - logs
@@ -474,7 +472,8 @@ def _useful(tree: ArborTree) -> bool:
 
 
 def _closures(table: PairRatios, targets: PeriodTargets) -> Ints:
-    """Return for each bit mask of targets the targets that chains of single pairs can reach from them, and themselves.
+    """Return, for each bit mask of targets, these targets and all targets that chains of single pairs can drive from
+    them.
 
     The period of an arbor may be anywhere within its tolerance, so the result is a superset.
     """

@@ -61,7 +61,7 @@ class OrreryArbor(Result):
     wheels: tuple[int, ...]
     """Distinct tooth counts of the wheels of the arbor, ascending."""
     shows: bool
-    """True if the arbor carries a pointer, which turns with a requested period."""
+    """True if the arbor carries the pointer of a requested period."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -341,7 +341,9 @@ class _OrrerySearch:
             self.tell(done, total)
 
     def _offer(self, tree: ArborTree) -> None:
-        """Keep a tree if it is better than the best: fewer wheels, then fewer pairs, then a smaller maximum error."""
+        """Keep a tree if it is better than the best so far: fewer wheels, then fewer pairs, then a smaller maximum
+        error.
+        """
         wheels, _, proved = fewest_wheels(self.table, edges(tree))
         # an unproved number of wheels is only an upper bound, so it proves nothing
         self.sure = self.sure and proved
@@ -494,7 +496,9 @@ class BeamSearch:
                 chosen = _best(levels[shown + 1], width)
 
     def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
-        """Yield trees with an intermediate arbor whose period is much nearer to the targets, simplest ratios first."""
+        """Yield trees with an intermediate arbor whose period is much nearer to the requested periods, simplest ratios
+        first.
+        """
         # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
         # ratios of at least the cube root of the largest ratio
@@ -596,7 +600,7 @@ class BeamSearch:
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
     """Return the `width` best partial trees.
 
-    Of all trees with the same targets and periods, only the best few are selected before other trees.
+    Only the best few trees with the same targets and periods are selected before other trees.
     """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []

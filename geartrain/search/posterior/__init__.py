@@ -2,7 +2,7 @@
 
 inference_problem    the problem: priors of wheels, observations of outputs, conditions for the train to turn
 inference            choice of the method: weighted join of `search.join`, or sampling; joint posteriors of pairs
-sampled_posterior    likelihood of sampled combinations: floats with error bounds, Fractions where they do not decide
+sampled_posterior    likelihood of sampled combinations: floats with error bounds, Fractions near the bounds
 posterior_summary    results common to both methods, and Sobol indices of the outputs
 posterior_result     the result
 """

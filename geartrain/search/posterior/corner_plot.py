@@ -59,7 +59,8 @@ class CountProbabilities:
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Draw a corner plot: marginal probabilities on the diagonal, joint probabilities of each pair below it.
+    """Draw a corner plot of tooth counts: marginal probabilities on the diagonal, joint probabilities of each pair
+    below.
 
     Darker squares are more probable. Outlines show priors, dashed lines declared counts. Raise `QuestionError` for no
     wheel, or for more than 9.
@@ -122,7 +123,9 @@ def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tu
 
 
 def _outline(axes: Axes, probabilities: Chances) -> None:
-    """Draw the outlines of bars. For many counts draw only the line along their tops, because the sides would merge."""
+    """Draw the outlines of bars. If there are many counts, draw only the line along their tops, because the sides would
+    merge.
+    """
     if len(probabilities) <= _FEW:
         axes.bar(
             list(probabilities), list(probabilities.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0
@@ -219,8 +222,8 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     """
     wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
     if not all(found[wheel].probabilities for wheel in wheels):
-        what = f"no combination of counts of '{found.name}' fits, so there is nothing to draw"
-        why = "a corner plot needs at least one combination that fits"
+        what = f"no combination of counts of '{found.name}' satisfies the observations, so there is nothing to draw"
+        why = "the posterior probabilities of the counts are then undefined"
         raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
     single = {
         wheel: {

@@ -46,7 +46,7 @@ from geartrain.search.posterior.sampled_posterior import (
 from geartrain.train import Train
 
 LIMIT = 2_000_000
-"""Default maximum number of steps of the exact join, which take a few seconds."""
+"""Default maximum number of steps of the exact join; this number takes a few seconds."""
 SAMPLES = 1_000_000
 _SINGLE_OUTPUT_STEPS = 200_000  # maximum steps for a single output: a fraction of a second
 _DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exact join is interrupted
@@ -215,7 +215,9 @@ def _summarise(
     seed: int,
     means: Execution,
 ) -> PosteriorSummary:
-    """Compute the posterior by the requested method; by default by the exact join, or by sampling beyond the limit."""
+    """Compute the posterior by the requested method; by default by the exact join, or by sampling if the join exceeds
+    the limit.
+    """
     if method != "sample":
         few = prod(len(uncertainty.counts) for uncertainty in question.moved.values()) <= limit
         try:
@@ -236,7 +238,7 @@ def _summarise(
 
 
 def _sampled(question: InferenceProblem, most: int, samples: int, seed: int, means: Execution) -> PosteriorSummary:
-    """Return the summary of a random sample."""
+    """Return the posterior summary of a random sample of combinations."""
     # at most 1000 tasks, which depend only on the number of samples, so that any number of workers draws the same
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
@@ -251,7 +253,9 @@ def _sampled(question: InferenceProblem, most: int, samples: int, seed: int, mea
 
 
 def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
-    """Return the evidence of each output by itself, from a sample if the exact join would take too long."""
+    """Return the evidence of each output without the other outputs, from a sample if the exact join would take too
+    long.
+    """
     found = {}
     for witness in question.witnesses:
         # other wheels do not change the evidence of this output
@@ -268,7 +272,7 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
-    """Compute the exact posterior. Raise `BudgetSpentError` beyond `limit` steps.
+    """Compute the exact posterior of the tooth counts by a join. Raise `BudgetSpentError` beyond `limit` steps.
 
     most   number of combinations to list
     """
@@ -300,7 +304,9 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
 
 def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the evidence: the prior mean of the likelihood. Raise `BudgetSpentError` beyond `limit` steps."""
+    """Return the evidence of the observations: the prior mean of the likelihood. Raise `BudgetSpentError` beyond
+    `limit` steps.
+    """
     if question.soft:
         root, _ = _recorded(question, limit)
         return _probability(question, float(AssignmentSums(root, True).total(_weights(question.moved, True))))
@@ -317,7 +323,7 @@ def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
 
 
 def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
-    """Return the join of the constraints of the observed outputs, followed by the conditions for the train to turn.
+    """Return the join problem with the constraints of the observed outputs, then the conditions for the train to turn.
 
     graded   True if the misfits of the outputs are also required
     """
@@ -349,7 +355,9 @@ def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountW
 
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
-    """Return the number of combinations that satisfy all observations, including the counts of independent wheels."""
+    """Return the number of combinations that satisfy all observations, including the choices for wheels on which no
+    observation depends.
+    """
     # with equal weights the total weight is a number of combinations
     alike = {
         w: replace(uncertainty, weights=(1,) * len(uncertainty.counts)) for w, uncertainty in question.moved.items()

@@ -25,7 +25,7 @@ from geartrain.train.fields import MOST_TEETH
 LikelihoodKind = Literal["all", "targets", "figures"]
 LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
 FAR = Fraction(5)
-"""Error, in units of the tolerance, beyond which a Gaussian likelihood is set to 0; it would be less than
+"""Error, in units of the tolerance, beyond which a Gaussian likelihood is set to 0; there it would be less than
 exp(-12.5).
 """
 MOST_COUNTS = 10**5
@@ -236,11 +236,11 @@ class ToothCountPrior(Result):
 
     @property
     def total(self) -> int:
-        """Sum of the weights."""
+        """Sum of the weights of all counts."""
         return sum(self.weights)
 
     def weight(self, count: int) -> int:
-        """Return the weight of one possible count."""
+        """Return the integer weight of one possible count."""
         return self.weights[self.counts.index(count)]
 
     @property
@@ -333,9 +333,9 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
 def observation_constraint(witness: OutputRequirement, soft: bool, graded: bool) -> IntervalConstraint:
     """Return the interval constraint of the observations of an output for a join.
 
-    It is unbounded if no observation has bounds, because the join must reject counts without a defined speed even
-    then. With `soft` the intervals are those of `FAR` tolerances. With `graded` the join also returns the misfit of the
-    output.
+    It is unbounded if no observation has bounds, because even then the join must reject counts without a defined speed.
+    With `soft` the intervals extend to `FAR` times the tolerances. With `graded` the join also returns the misfit of
+    the output.
     """
     common = (witness.scaled(FAR) if soft else witness).requested(None)
     return replace(common or IntervalConstraint(witness.name, witness.function, ((None, None),)), graded=graded)

@@ -27,7 +27,7 @@ _DECIDED = ("output", "mean speed", "standard deviation", "total Sobol indices")
 
 
 def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
-    """Return the listed combinations as rows of a table: tooth counts, speed and error of every output, misfit."""
+    """Return the listed combinations as rows of a table: tooth counts, speed and error of every output, and misfit."""
     return [
         {
             **one.teeth,

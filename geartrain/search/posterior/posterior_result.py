@@ -112,7 +112,7 @@ class CombinedOutput:
     speed: Fraction
     """Exact speed of the output in the unit of the train."""
     error: Fraction
-    """Relative error with respect to the observed speed."""
+    """Relative error of the speed with respect to the observed speed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,7 +191,7 @@ class KnownOutput(TypedDict):
     formula: str
     """Speed as a function of the uncertain counts."""
     alone: NotRequired[CountProbability]
-    """Evidence of this output by itself: prior mean of the likelihood of its observations."""
+    """Evidence of this output without the other outputs: prior mean of the likelihood of its observations."""
 
 
 @dataclass(frozen=True, slots=True)

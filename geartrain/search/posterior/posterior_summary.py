@@ -40,7 +40,7 @@ All other counts then have a total probability below 1e-8, and covariances in fl
 """
 
 _NONE = 1e-13
-"""Magnitude below which a correlation is a rounding error and is reported as 0."""
+"""Magnitude below which a correlation is considered a rounding error and is reported as 0."""
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
@@ -61,7 +61,7 @@ def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[
 def rank_combinations(
     question: InferenceProblem, candidates: Iterable[GradedAssignment], most: int, evidence: CountProbability | None
 ) -> tuple[CountCombination, ...]:
-    """Sort the candidates exactly by misfit, then by prior weight, then by the number of changed counts.
+    """Sort combinations of tooth counts exactly by misfit, then by prior weight, then by the number of changed counts.
 
     evidence   evidence of all observations; None if it is not known, and then no probabilities are computed
     """
@@ -105,7 +105,7 @@ def _probability(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and best candidates, computed by either method; the fields are those of
+    """Evidence, posteriors, correlations and best combinations, computed by either method; the fields are those of
     `ToothCountPosterior`.
     """
 
@@ -120,7 +120,7 @@ class PosteriorSummary:
     effective: float = float("inf")
     """Effective sample size (Kish); infinite for the exact method."""
     cut: bool = False
-    """True after an interruption."""
+    """True if an interruption ended the computation early."""
     remarks: tuple[str, ...] = ()
     """Remarks on the method of computation."""
 
@@ -160,7 +160,7 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bo
 
 
 def _share(question: InferenceProblem, tally: PosteriorTally) -> CountProbability:
-    """Return the evidence estimated from a sample, with its 95 % interval.
+    """Return the evidence estimated from a sample, with its 95 % confidence interval.
 
     The interval is the Wilson score interval for combinations that satisfy the observations or not, and a normal
     interval for a Gaussian likelihood.
@@ -223,7 +223,9 @@ def correlations_of(
     total: Any,
     covariances: Mapping[tuple[str, str], float],
 ) -> dict[tuple[str, str], float]:
-    """Return the correlations from covariances, only for wheels that an output or a condition connects."""
+    """Return the correlations of tooth counts from covariances, only for wheels that an output or a condition
+    connects.
+    """
     scopes = [
         *(one.function.wheels for one in question.witnesses),
         *(one.function.wheels for one in question.conditions),
@@ -299,7 +301,7 @@ def _monomials(formula: Formula) -> Monomials:
 
 
 def _means(uncertainty: ToothCountPrior) -> Callable[[int], Fraction]:
-    """Return a function from powers to the prior mean of this power of a tooth count, cached."""
+    """Return a cached function that maps an exponent to the prior mean of a tooth count raised to this exponent."""
     pairs = list(zip(uncertainty.counts, uncertainty.priors, strict=True))
     return cache(lambda power: sum((prior * Fraction(count) ** power for count, prior in pairs), Fraction(0)))
 
@@ -307,7 +309,7 @@ def _means(uncertainty: ToothCountPrior) -> Callable[[int], Fraction]:
 def _exact_indices(
     name: str, wheels: Sequence[str], terms: Monomials, uncertainties: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
-    """Compute the Sobol indices of a sum of monomials exactly, from products of means over all pairs of terms."""
+    """Compute the Sobol indices of a sum of monomials exactly, from the prior means of products of two terms."""
     means = [_means(uncertainty) for uncertainty in uncertainties]
     mean = sum((c * prod(m(e) for m, e in zip(means, powers, strict=True)) for c, powers in terms), Fraction(0))
     pairs = [(a * b, p, q) for a, p in terms for b, q in terms]
@@ -366,7 +368,7 @@ def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCo
 
 
 def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
-    """Return whether the speed is undefined at one of the given combinations, which floats cannot decide."""
+    """Return whether the speed is undefined at one of the given combinations, by exact arithmetic."""
     shape = [len(uncertainty.counts) for uncertainty in uncertainties]
     for place in places:
         at = np.unravel_index(int(place), shape)
@@ -380,7 +382,7 @@ def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places
 
 
 def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> Floats:
-    """Return the prior mean over some axes, which remain with length 1."""
+    """Return the prior mean of an array over some axes (wheels), which remain with length 1."""
     found: Floats = values
     for axis in axes:
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]
@@ -391,8 +393,8 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
 def _sampled_indices(
     name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior], seed: int
 ) -> VarianceShares | None:
-    """Estimate the Sobol indices from two independent samples A and B, and from A with one column of B for each
-    wheel.
+    """Estimate the Sobol indices from two independent samples A and B, and from copies of A in which the column of one
+    wheel is from B.
     """
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(uncertainties)])))
     first, second = (

@@ -28,7 +28,7 @@ from geartrain.search.train.output_requirements import OutputRequirement, SpeedR
 KEPT = 2000
 """Maximum number of best combinations that a task returns; further ties are omitted."""
 TIE = 1 + 1e-9
-"""Ratio of two misfits in floats below which they may be equal and are later compared exactly."""
+"""Ratio of two misfits in floats below which they may be equal, so that they are later compared exactly."""
 
 
 class LikelihoodBatch:
@@ -70,7 +70,8 @@ class LikelihoodBatch:
 def decide(one: IntervalConstraint, counts: Mapping[str, Ints]) -> tuple[Bools, Floats]:
     """Return whether each combination satisfies a constraint, exactly, and the value of its function up to rounding.
 
-    Floats decide unless an end of an interval is within their error bound. Rational arithmetic decides then.
+    Floats decide, except that exact rational arithmetic decides if the value is within its error bound of an end of an
+    interval.
     """
     function = one.function
     assert isinstance(function, Formula)
@@ -110,7 +111,7 @@ class PosteriorTally:
     examined  number of combinations
     turning   number of combinations with which the train turns
     weight    sum of the likelihoods
-    square    sum of the squared likelihoods, for intervals
+    square    sum of the squared likelihoods, for confidence intervals
     by        sum of the likelihoods for each count of each wheel
     sizes     weighted sums of products of two counts, each relative to the `origin_of` its wheel
     best      pairs (misfit, indices of counts), ascending
@@ -127,7 +128,7 @@ class PosteriorTally:
         self.ranked = True
 
     def join(self, other: Mapping[str, Any]) -> None:
-        """Add the result of `sample_task`."""
+        """Add the sums of one task, as returned by `sample_task`."""
         self.examined += other["examined"]
         self.turning += other["turning"]
         self.weight += other["weight"]
@@ -141,7 +142,9 @@ class PosteriorTally:
 
 
 def _with_ties(misfits: Sequence[float] | Floats, most: int) -> int:
-    """Return how many of some ascending misfits are among the first `most`, or tied with the last of these."""
+    """Return the number of leading entries of a list of ascending misfits that includes the first `most` and all ties
+    of the last of these.
+    """
     if len(misfits) < most:
         return len(misfits)
     return int(np.searchsorted(misfits, misfits[most - 1] * TIE, side="right"))
@@ -204,7 +207,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
 
 @dataclass(frozen=True, slots=True)
 class _Scale:
-    """Observation in floats: observed speed, and reciprocal tolerances below and above it."""
+    """Observation of a speed in floats: observed speed, and reciprocal tolerances below and above it."""
 
     wanted: float
     signed: bool
@@ -228,7 +231,9 @@ class _Scale:
 
 
 def misfit_of(witness: OutputRequirement) -> Callable[[Floats], Floats]:
-    """Return a function from speeds of an output to their misfits, sums of (error / tolerance)^2, up to rounding."""
+    """Return a function from speeds of an output to misfits, which are sums of (error / tolerance)^2, up to
+    rounding.
+    """
     scales = [_Scale.of(claim) for claim in witness.demands if not claim.exact]
 
     def misfit(speeds: Floats) -> Floats:

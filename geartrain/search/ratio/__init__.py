@@ -1,4 +1,4 @@
-"""Search for one ratio by one to five stages of gear pairs; complete, or limited to the best solutions with proof.
+"""Search for one ratio by one to five stages of gear pairs: all solutions, or the solutions that are proved to be best.
 
 product_windows    sorted products of tooth counts, generated in windows of value
 stage_problem      the search problem as plain data, feasible pairings of a multiset, total orders of solutions

@@ -44,10 +44,10 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
 
 
 def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.bool_]]:
-    """Return floor(factor x edge), at most `cap`, and whether the product is an integer.
+    """Return floor(factor x edge), at most `cap`, and whether the product factor x edge is an integer.
 
-    For int64 the remainder factor n - floor d is computed modulo 2^64. With d below 2^52, and a float64 estimate of the
-    floor that is within 3 of it, the remainder is less than 2^63 and therefore exact.
+    For int64 the remainder factor n - floor d, with edge = n/d, is computed modulo 2^64. With d below 2^52, and a
+    float64 estimate of the floor that is within 3 of it, the remainder is less than 2^63 and therefore exact.
     """
     n, d = edge.numerator, edge.denominator
     if factors.dtype == object:
@@ -68,7 +68,9 @@ def _wrapped(number: int) -> np.int64:
 
 
 def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
-    """Return for each pair the rank of its absolute error, compared exactly. Equal errors have equal ranks."""
+    """Return for each ratio of two products the rank of its absolute error, compared exactly. Equal errors have equal
+    ranks.
+    """
     ratios, which = distinct_quotients(tops, beneaths)
     misses = [abs(ratio / value - 1) for ratio in ratios]
     places = {miss: at for at, miss in enumerate(sorted(set(misses)))}
@@ -76,7 +78,9 @@ def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
 
 
 def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
-    """Return the minimum and maximum absolute relative error of ratios from `low` to `high`."""
+    """Return the minimum and maximum absolute relative error with respect to `value` of all ratios from `low` to
+    `high`.
+    """
     first, last = low / value - 1, high / value - 1
     return max(first, -last, Fraction(0)), max(last, -first)
 
@@ -169,7 +173,7 @@ def _ends(products: ProductWindows, bound: int) -> Places:
 
 
 def multisets(number: int, size: int) -> int:
-    """Return the number of multisets of `size` elements from `number` counts: C(n + k - 1, k)."""
+    """Return the number of multisets of `size` elements from `number` counts: C(number + size - 1, size)."""
     return comb(number + size - 1, size)
 
 
@@ -232,7 +236,7 @@ def _chosen(numbers: Ints, size: int) -> Ints:
 
 
 def row_products(chosen: Ints) -> Ints:
-    """Return the product along each row, in the dtype of the counts."""
+    """Return the product of the counts in each row, in the dtype of the counts."""
     found = np.ones(len(chosen), dtype=chosen.dtype)
     for column in chosen.T:
         found = found * column

@@ -132,7 +132,9 @@ def _multisets(number: int, size: int) -> Ints:
 
 
 def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
-    """Return whether each ratio over / under is within the tolerance. Floats decide except near the tolerance."""
+    """Return whether each ratio over / under is within the tolerance of the requested ratio. Floats decide except near
+    the tolerance.
+    """
     limit, value = float(question.tolerance), question.value
     errors = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
     inside = np.asarray(errors <= limit)
@@ -154,7 +156,9 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
 
 
 class StageFilter:
-    """Filter of pairs of multisets by the constraints. It counts the solutions and keeps the best."""
+    """Filter that tests pairs of multisets of tooth counts by the constraints, counts the solutions and keeps the
+    best.
+    """
 
     def __init__(self, question: StageProblem) -> None:
         self.question = question
@@ -192,7 +196,7 @@ class StageFilter:
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """Return the reason for which pairs of multisets without a feasible pairing are rejected."""
+    """Return the reason for rejecting pairs of multisets that have no feasible pairing, as text."""
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
@@ -248,14 +252,14 @@ def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) 
 
 
 def _density(question: StageProblem) -> float:
-    """Estimate the number of candidates per unit of absolute relative error."""
+    """Estimate the number of candidates per unit of absolute relative error near the requested ratio."""
     span = log(question.top[-1] / question.top[0]) + log(question.beneath[-1] / question.beneath[0])
     # factor 2: errors of both signs; logarithms of ratios spread over about `stages` times the span
     return 2 * question.candidates / max(question.stages * span, 1e-3)
 
 
 def _start(question: StageProblem) -> Fraction:
-    """Return a tolerance, at most 1, within which about 16 times the requested number of pairs is expected."""
+    """Return a tolerance, at most 1, within which about 16 times the requested number of solutions is expected."""
     return rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
 
 

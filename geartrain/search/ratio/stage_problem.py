@@ -106,9 +106,9 @@ class StageConstraints(Result):
         if not 0 <= self.internal <= stages:
             raise QuestionError(
                 Problem(
-                    f"internal is {self.internal}",
-                    f"with {stages} meshes, 0 to {stages} can be internal",
-                    f"give internal from 0 to {stages}",
+                    f"the number of internal meshes is {self.internal}",
+                    f"a train of {stages} stages has 0 to {stages} internal meshes",
+                    f"give a number from 0 to {stages}",
                 )
             )
         minimum, most = self.totals
@@ -124,7 +124,7 @@ class StageProblem:
     """Search for quotients of two products of `stages` counts each that are within a tolerance of a value."""
 
     value: Fraction
-    """Requested ratio, positive."""
+    """Requested ratio, positive: numerator product divided by denominator product."""
     stages: int
     """Number of stages, 1 to 5."""
     top: Set
@@ -147,23 +147,23 @@ class StageProblem:
 
     @cached_property
     def over(self) -> ProductWindows:
-        """Products of the numerator counts."""
+        """Products of all multisets of numerator counts."""
         return products_of(self.top, self.stages, self.plain_integers)
 
     @cached_property
     def under(self) -> ProductWindows:
-        """Products of the denominator counts."""
+        """Products of all multisets of denominator counts."""
         return products_of(self.beneath, self.stages, self.plain_integers)
 
     @property
     def reach(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum ratio of the products."""
+        """Minimum and maximum ratio that the products can give."""
         low, high = Fraction(self.top[0], self.beneath[-1]), Fraction(self.top[-1], self.beneath[0])
         return low**self.stages, high**self.stages
 
     @cached_property
     def edges(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum ratio that are within the tolerance and within the range of the products."""
+        """Minimum and maximum ratio that are within the tolerance and are possible with the products."""
         minimum, most = self.reach
         return max(self.value * (1 - self.tolerance), minimum), min(self.value * (1 + self.tolerance), most)
 
@@ -333,7 +333,7 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints
 
 
 def cut(rows: Ints, best: int, value: Fraction) -> Ints:
-    """Return the first `best` rows of `BestStages` in their exact order."""
+    """Return the first `best` rows of a table of `BestStages` in their exact order."""
     if len(rows) > best:
         # errors in floats select slightly too many rows, which are then compared as Fractions
         first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
@@ -349,13 +349,13 @@ def cut(rows: Ints, best: int, value: Fraction) -> Ints:
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
-    """Return the sort key of one solution."""
+    """Return the sort key of one solution in the given order."""
     miss = abs(Fraction(prod(top), prod(beneath)) / value - 1)
     return first, miss, sum(top) + sum(beneath), max(*top, *beneath), tuple(top), tuple(beneath)
 
 
 class BestStages:
-    """List of the n best of all rows that are added, in bounded memory.
+    """List of the n best of all rows (solutions) that are added, in bounded memory.
 
     The columns of a row are: primary criterion of the order, smaller is better; products of numerator and denominator;
     counts of numerator and denominator, each ascending.

@@ -317,8 +317,8 @@ def _stages(key: StageRank, question: StageProblem) -> GearStages:
 
 
 def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
-    """Return the shortfall of a search whose external and internal meshes contradict the requested sense of
-    rotation.
+    """Return the counts of rejected candidates of a search whose external and internal meshes contradict the requested
+    sense of rotation.
     """
     stages, internal = question.stages, question.fit.internal
     # one more or one less internal mesh reverses the sense
@@ -339,8 +339,8 @@ def _too_large(question: StageProblem, considered: int) -> Shortfall:
 
 
 def _check_reach(question: StageProblem) -> None:
-    """Raise `RangeError` if the tables of products would not fit in memory or the counts cannot give a similar
-    ratio.
+    """Raise `RangeError` if the tables of products would not fit in memory, or if the ratio is far from all ratios that
+    the counts can give.
     """
     for counts in (question.top, question.beneath):
         check_memory(counts, question.stages, question.plain_integers)
@@ -364,7 +364,9 @@ def _question_error(what: str, why: str, fix: str) -> QuestionError:
 
 
 def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
-    """Return the number of rejected pairs of multisets by reason. With the solutions they add up to `considered`."""
+    """Return the number of rejected pairs of multisets by reason; with the solutions, these numbers add up to
+    `considered`.
+    """
     removed = {f"count above {question.fit.largest}": considered - question.considered}
     removed["no pairing with equal centre distances"] = question.considered - question.candidates
     removed[OUTSIDE] = question.candidates - sum(outcome.removed.values()) - outcome.count
@@ -372,7 +374,7 @@ def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> M
 
 
 def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
-    """Return the rejected pairs by reason; for an empty result also the nearest miss and suggestions."""
+    """Return the rejected pairs of multisets by reason; for an empty result also the nearest miss and suggestions."""
     if not outcome.complete:
         return Shortfall(considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts")
     removed = account(question, considered, outcome)

@@ -28,9 +28,9 @@ The answer
 - `train_construction`: a complete declaration of a candidate
 - `explained_facts`: exact marginals of facts over all trains, the fact of maximum entropy, and the family tree, a
   trie over meshes
-- `dropped_facts`: counts without each hard fact, and reasons why nothing explains the evidence
-- `candidate_rules`: a published train in the names of the evidence, the rules that it breaks, and the problem that
-  would admit it
+- `dropped_facts`: counts without each hard constraint, and reasons why no train explains the evidence
+- `candidate_rules`: a published train with the names of the evidence, the rules that it breaks, and the problem
+  that would admit it
 - `known_rank`: the rank of a known train, and the smallest sets of facts that distinguish it (all sets of up to
   three)
 - `reconstruction`: the request, and all steps in one call

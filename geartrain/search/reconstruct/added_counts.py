@@ -1,9 +1,10 @@
 """Number of choices of tooth counts of added wheels that give every dial its speed, by variable elimination.
 
-Wheels that change the speeds of the same dials form a group, of which only the quotient matters. A dial with one group
-left determines the quotient of this group. Otherwise all possible quotients of the smallest group are tried. Tables of
-products are faster here than the exact join of uncertain tooth counts (`search.join`): 1 to 4 ms per topology instead
-of 5 to 7 ms, and for seven added wheels 0.6 s instead of 90 s.
+Wheels that change the speeds of the same dials form a group, of which only the quotient (product of the driving counts
+divided by product of the driven counts) matters. A dial that depends on only one remaining group determines the
+quotient of this group. Otherwise all possible quotients of the smallest group are tried. Tables of products are faster
+here than the exact join of uncertain tooth counts (`search.join`): 1 to 4 ms per topology instead of 5 to 7 ms, and for
+seven added wheels 0.6 s instead of 90 s.
 """
 
 from __future__ import annotations
@@ -51,7 +52,9 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Wheels are distinguishable."""
+    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Exchanged counts are different
+    choices.
+    """
     minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
     last = min(maximum**drivers // num, maximum**driven // den)
@@ -210,7 +213,9 @@ class AddedCounts:
         self._count = lru_cache(maxsize=1 << 18)(self._count_groups)
 
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
-        """Count the assignments that give all dials their speeds. Wheels are distinguishable."""
+        """Count the assignments that give all dials their speeds. Exchanging two different counts gives another
+        assignment.
+        """
         alike = _merged_dials(added.groups, wanted)
         minimum, maximum = self.range
         return int(self._count(added.groups, alike) * (maximum - minimum + 1) ** added.idle) if alike is not None else 0
@@ -282,7 +287,7 @@ class AddedCounts:
 
     @staticmethod
     def _next(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, Quotients, bool] | None:
-        """Return the group to eliminate next, bounds of its quotient, and whether only one dial depends on it."""
+        """Return the group to eliminate next, the bounds of its quotient, and whether only one dial depends on it."""
         if not groups:
             return None
         alone: dict[int, Quotients] = {}
@@ -314,7 +319,9 @@ _LISTED_TOGETHER = 3
 
 
 def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Return two small groups that determine the speed of an exact dial by themselves, with their total quotient."""
+    """Return two small groups that determine the speed of a dial of exact speed by themselves, with their total
+    quotient.
+    """
     best, fewest = None, _LISTED_TOGETHER + 1
     for dial, (low, high) in wanted:
         own = [at for at, group in enumerate(groups) if dial in group[0]]
@@ -325,7 +332,7 @@ def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction
 
 
 def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
-    """Return whether the dials on which no remaining group acts have their speeds."""
+    """Return whether all dials that depend on no remaining group have their required speeds."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
     return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
 
@@ -360,14 +367,16 @@ def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
 
 
 class OpenCounts(NamedTuple):
-    """Added wheels without tooth counts, the quotients required of them, and the limits set by rings, sorted."""
+    """Added wheels without tooth counts, with the required quotients of these counts and the limits set by rings,
+    sorted.
+    """
 
     added: AddedWheels
     wanted: Wanted
     limits: tuple[AddedKind, ...] = ()
 
     def kinds(self) -> Iterator[tuple[AddedKind, int]]:
-        """Yield each kind of added wheels with the number of wheels."""
+        """Yield each kind of added wheels with its number of wheels."""
         limited = {kind: self.limits.count(kind) for kind in self.limits}
         for kind, number in limited.items():
             yield kind, number
@@ -401,18 +410,20 @@ class AddedCountSums:
         self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
     def total(self, requested: OpenCounts) -> int:
-        """Return the total number of choices."""
+        """Return the total number of choices of tooth counts."""
         return self._counts.count_limited(requested.added, requested.wanted, requested.limits)
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
-        """Return for each tooth count the number of choices in which a given wheel of a kind has it, without zeros."""
+        """Return, for each tooth count, the number of choices in which a given wheel of a kind has this count; zeros
+        are omitted.
+        """
         minimum, maximum = self._counts.range
         most = maximum if kind.most is None else min(kind.most, maximum)
         found = ((count, self.total(requested.with_one(kind, count))) for count in range(minimum, most + 1))
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return for each tooth count the number of choices in which some wheel has it, by inclusion-exclusion."""
+        """Return, for each tooth count, the number of choices in which some wheel has it, by inclusion-exclusion."""
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)
@@ -421,7 +432,7 @@ class AddedCountSums:
     def _without_count(
         self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
     ) -> int:
-        """Return how many of `number` choices give no wheel of some kinds a certain tooth count."""
+        """Return how many of `number` choices give no wheel of some kinds a given tooth count."""
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]

@@ -39,17 +39,17 @@ def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
 
 
 def rings_mesh(arbor: Arbor, rings: Rings) -> bool:
-    """Return whether all rings in the subtree of an arbor mesh with wheels of fewer teeth."""
+    """Return whether every ring in the subtree of an arbor meshes only with wheels of fewer teeth."""
     return all(may_mesh(wheel, mate, rings) for wheel, mate in _meshes(arbor))
 
 
 def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
-    """Return whether a used ring has at most `maximum` teeth, so that it may limit the counts of added wheels."""
+    """Return whether a used ring has at most `maximum` teeth, so that it may limit the tooth counts of added wheels."""
     return any(wheel.name in rings and wheel.teeth <= maximum for wheel in topology.used)
 
 
 class CountTokens:
-    """Negative numbers that replace the tooth counts of added wheels and identify each wheel."""
+    """Negative numbers (tokens) that replace the tooth counts of added wheels and identify each wheel."""
 
     def __init__(self, added: AddedWheels) -> None:
         self._owners: list[tuple[Dials, bool]] = []
@@ -225,7 +225,7 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return the arbors that one wheel drives by the given chains."""
+        """Return the arbors that one wheel drives at the beginning of the given chains."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:

@@ -36,7 +36,7 @@ class NamedArbor:
     driven: NamedWheel | None
     """Driven wheel; None for the input arbor."""
     dials: tuple[str, ...]
-    """Names of the dials that the arbor shows, sorted."""
+    """Sorted names of the dials whose pointers the arbor carries."""
     drives: tuple[tuple[NamedWheel, NamedArbor], ...]
     """Pairs of a driving wheel and an arbor that it drives."""
 
@@ -95,7 +95,9 @@ class FreeNames:
     """Names of wheels that are already used."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
-        """Return the name of the next added arbor, derived from the first dial that it shows if there is one."""
+        """Return the name of the next added arbor, derived from the first dial whose pointer it carries if there is
+        one.
+        """
         name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
         link = free_name(name, "arbor", self.links)
         self.links.add(link)

@@ -1,4 +1,5 @@
-"""Rules of a problem applied to one candidate: the rules that it breaks, and the problem that would admit it.
+"""Rules of a reconstruction problem applied to one candidate: the rules that it breaks, and the problem that would
+admit it.
 
 A published train is read as a candidate: its surviving wheels are identified by their names.
 """
@@ -35,17 +36,17 @@ Rule = Literal[
     "dial", "speed", "place", "wheel", "arbor", "count", "driven", "idler", "end", "ring", "teeth", "arbors", "beside",
     "seen", "apart", "coaxial", "distance",
 ]  # fmt: skip
-"""Kinds of rules.
+"""Kinds of rules of a reconstruction problem, each with the condition that a candidate must satisfy.
 
-dial      every dial is shown
+dial      every dial has its pointer in the train
 speed     a dial has its speed and sense
-place     a dial is on its arbor
+place     the pointer of a dial is on its arbor
 wheel     every surviving wheel meshes
 arbor     every surviving arbor is in the train
 count     a surviving wheel has one of its possible tooth counts
 driven    the driven wheel of a surviving arbor is a surviving wheel
 idler     a driven wheel does not drive
-end       an arbor that drives nothing shows a dial
+end       an arbor that drives nothing carries a pointer
 ring      a ring meshes only with wheels of fewer teeth
 teeth     the tooth counts of added wheels are within their limits
 arbors    the number of added arbors is within its limit
@@ -64,9 +65,9 @@ class BrokenRule(Result):
     KEYS = ("rule", "subject", "what", "change")
 
     rule: Rule
-    """Kind of the rule."""
+    """Kind of the broken rule, one of `Rule`."""
     subject: tuple[str, ...]
-    """Names of the dial, wheels or arbors concerned; empty for a rule on added parts."""
+    """Names of the dial, wheels or arbors that break the rule; empty for a rule on added parts."""
     what: str
     """Property of the candidate that breaks the rule."""
     change: str | None
@@ -329,7 +330,7 @@ class KnownTrain:
     name: str
     """Name of the train."""
     arbor: Arbor
-    """Input arbor. The train shows the dials of the problem that its meshes reach, at any speed."""
+    """Input arbor. The train has the pointers of all dials of the problem that its meshes reach, at any speed."""
     added: Mapping[str, int]
     """Tooth count of each added wheel, by its name in the train."""
     notes: tuple[str, ...]
@@ -337,7 +338,7 @@ class KnownTrain:
 
 
 def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping[str, str] | None = None) -> KnownTrain:
-    """Read a train as a candidate of a problem whose arbors turn in the frame.
+    """Read a train as a candidate of a problem whose arbors turn in the frame, not on a carrier.
 
     same   name in the problem of wheels and outputs that the train names differently; other parts must have equal
            names, except for capitals
@@ -403,7 +404,7 @@ class _TrainReading:
 
     @cached_property
     def _joined(self) -> dict[str, str]:
-        """First link of the group that pins and slots on the frame join, for each link of the train."""
+        """First link of the group of each link, where pins and slots on the frame connect the links of a group."""
         tree, frame = find_tree(self.train), self.train.frame
         pairs = ((coupling.pin, coupling.slot) for coupling in self.train.couplings if coupling.kind == "pin_and_slot")
         joints = (pair for pair in pairs if all(tree.bears(frame, link) for link in pair))
@@ -444,7 +445,7 @@ class _TrainReading:
 
     @cached_property
     def _driven(self) -> dict[str, DrivenArbor]:
-        """Mesh that drives each link that is reached from the input on the frame, breadth first."""
+        """Mesh that drives each link that meshes connect to the input on the frame, in breadth-first order."""
         rings = {own for own, name in self._survivors.items() if name in self.problem.rings}
         return walk_meshes(self.train, self._source, self._joined, rings)
 
@@ -464,7 +465,7 @@ class _TrainReading:
 
     @cached_property
     def _shown(self) -> dict[str, str]:
-        """Link that shows each dial, if meshes reach it."""
+        """Link that carries the pointer of each dial, if meshes reach it."""
         found = {}
         for dial in self.problem.dials:
             link = self._links.get(dial.place) if dial.place not in (None, NEW) else self._pointer(dial)
@@ -473,7 +474,7 @@ class _TrainReading:
         return found
 
     def _pointer(self, dial: SearchedDial) -> str | None:
-        """Return the link of a dial of unknown place: the output of the same name, otherwise a link of the same
+        """Return the link of a dial whose arbor is not known: the output of the same name, otherwise a link of the same
         speed.
         """
         called = {**{name: name for name in self.train.outputs}, **self.same}
@@ -505,7 +506,9 @@ class _TrainReading:
 
 
 def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: ReconstructionProblem) -> None:
-    """Raise `QuestionError` if a pair of equal names does not name parts of a train and of the problem."""
+    """Raise `QuestionError` if a pair of names declared equivalent does not map a part of a train to a part of the
+    problem.
+    """
     own = {name for train in trains for name in (*train.wheels, *train.outputs)}
     requested = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}
     requested |= {dial.name for dial in problem.dials}

@@ -1,4 +1,6 @@
-"""Sensitivity of the number of explanations to each hard fact: the search is repeated without it."""
+"""Sensitivity of the number of explanations to each hard constraint of the evidence: the search is repeated
+without it.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,7 @@ _MINIMUM_TEETH = 3  # lower end of the widened range of added tooth counts
 
 @dataclass(frozen=True)
 class ChangedQuestion:
-    """Problem with one change, and a description of the change."""
+    """Reconstruction problem with one change of the evidence, and a description of the change."""
 
     change: str
     problem: ReconstructionProblem
@@ -31,7 +33,7 @@ class ChangedQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ChangedCount(Result):
-    """Number of trains that explain a problem with one change."""
+    """Number of trains that explain the evidence with one change."""
 
     KEYS = ("change", "solutions", "complete", "refused")
 
@@ -51,7 +53,7 @@ class ChangedCount(Result):
 
     @property
     def fewest(self) -> int | None:
-        """Minimum number of added wheels of a train; None if no train explains the problem."""
+        """Minimum number of added wheels of a train; None if no train explains the changed evidence."""
         return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
@@ -76,7 +78,7 @@ def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]
 
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """Return the problems that result from dropping each hard fact in turn."""
+    """Return the problems that result from dropping each hard constraint of the evidence in turn."""
     # a change without effect on the problem needs no search
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
@@ -90,7 +92,7 @@ def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
 def _admitting(
     problem: ReconstructionProblem, rule: Rule, subject: Sequence[str], change: str, *values: Fraction
 ) -> tuple[str, ReconstructionProblem]:
-    """Return the description of a change, and the problem without the rule that the change removes."""
+    """Return the description of a change, and the problem without the rule that the change drops."""
     return change, admitting_question(problem, [BrokenRule(rule, tuple(subject), "", change, values)])
 
 
@@ -148,7 +150,7 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
 
 
 def _unsigned(dial: SearchedDial) -> SearchedDial:
-    """Return the dial with bounds of the magnitude of its speed instead of the speed."""
+    """Return the dial with its sense of rotation dropped: the bounds of the speed become bounds of its magnitude."""
     ends = sorted(map(abs, (dial.minimum, dial.maximum)))
     minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
     return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
@@ -180,13 +182,14 @@ class MissingExplanation(Result):
     """
 
     dials: tuple[LoneDial, ...]
-    """Results for each dial by itself."""
+    """Minimum number of added wheels that explain each dial if the other dials are dropped."""
     uncertainties: tuple[ChangedCount, ...]
-    """Single changes of the evidence that would leave an explanation, ordered by the number of added wheels."""
+    """Single changes of the evidence with which at least one train explains it, ordered by the number of added wheels.
+    """
     requested: int
-    """Number of changes that were tried."""
+    """Number of changes of the evidence that were tried."""
     refused: tuple[str, ...]
-    """Changes that could not be searched."""
+    """Changes for which the search was refused."""
 
 
 def explain_missing(problem: ReconstructionProblem, execution: Execution | None = None) -> MissingExplanation:
@@ -200,7 +203,7 @@ def explain_missing(problem: ReconstructionProblem, execution: Execution | None 
 
 
 def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
-    """Search an explanation of one dial by itself. Surviving arbors that do not lead to it may be unused."""
+    """Search for an explanation of one dial by itself. Surviving arbors that do not lead to it may be unused."""
     dial = problem.dials[at]
     # known meshes may belong to arbors of other dials
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
@@ -215,8 +218,8 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
 
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problem with each count of each surviving wheel that differs by at most `MISREAD` from a possible
-    count, small differences first.
+    """Yield the problem with another tooth count of one surviving wheel, for each count that differs by at most
+    `MISREAD` from a possible count, small differences first.
     """
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:

@@ -48,7 +48,7 @@ Limits = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True)
 class PointerBounds:
-    """Minimum and maximum speed of a pointer, and declared facts that do not bound it.
+    """Minimum and maximum speed of a pointer, and the declared facts that were not used as bounds.
 
     The bounds are bounds of the magnitude if `signed` is False.
     """
@@ -63,7 +63,8 @@ class PointerBounds:
 
 
 def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Return the bounds of the speed of an output relative to the base; with `free_sense`, bounds of its magnitude.
+    """Return the bounds of the speed of an output relative to the base, the link that carries the arbors; with
+    `free_sense`, bounds of its magnitude.
 
     Raise `DeclarationError` if the admissible speeds are not one range.
     """
@@ -126,7 +127,7 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """Yield pairs: a declared range of a speed, and True if the range has a sign."""
+    """Yield pairs: a declared range of a speed, and True if the range is signed, False for a range of the magnitude."""
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)
@@ -192,7 +193,7 @@ class EvidenceQuestion(Shown):
     base: BaseLink
     """Link that carries the arbors. The speeds of the problem are relative to this link."""
     joined: Joined
-    """Links that given couplings join to each arbor, by the name of the arbor."""
+    """Links that form one arbor because given couplings join them, by the name of the arbor."""
     unused: tuple[str, ...]
     """Declarations that do not affect the result, one line for each."""
 

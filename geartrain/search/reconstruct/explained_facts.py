@@ -25,7 +25,7 @@ from geartrain.search.weighted_alternatives import entropy
 from geartrain.train import Train
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]
-"""Kinds of facts.
+"""Kinds of facts about a candidate.
 
 mesh     one wheel drives another, `e4 > f1`
 pair     two surviving wheels mesh, in either direction
@@ -42,7 +42,7 @@ _KINDS: tuple[FactKind, ...] = get_args(FactKind)
 AN_ADDED_ARBOR = "an added arbor"
 YES, NO, NONE, OUTSIDE, UNUSED = "yes", "no", "none", "not in the train", "not used"
 _ELSE: dict[FactKind, str] = {"driver": OUTSIDE, "pointer": OUTSIDE, "count": UNUSED, "added": NONE}
-"""Answer that applies if a candidate has no entry for a fact; `NO` for the other kinds."""
+"""Answer to a fact for which a candidate has no entry, by kind of fact; `NO` for kinds that are not listed."""
 
 LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer")
 """Kinds of facts that an examination of surviving or new fragments can establish."""
@@ -69,7 +69,7 @@ class FactAnswer(Result):
     KEYS = ("answer", Key("weight", "share", float), "solutions")
 
     answer: str
-    """Name, tooth count, `yes` or `no`."""
+    """Answer to the fact: a name, a tooth count, `yes` or `no`."""
     share: Fraction
     """Posterior probability of this answer, 0 to 1."""
     solutions: int
@@ -96,7 +96,7 @@ class FactMarginal(Result):
 
     @property
     def trains(self) -> int:
-        """Number of candidates."""
+        """Number of candidates over which the probabilities are computed."""
         return sum(answer.solutions for answer in self.answers)
 
     def share(self, answer: str) -> Fraction:
@@ -141,7 +141,7 @@ class FactTally:
         answers[answer] = before[0] + weight * number, before[1] + number
 
     def facts(self) -> Iterator[Fact]:
-        """Yield all facts except the facts `used` of wheels that every train uses."""
+        """Yield all facts, except facts of the kind `used` on wheels that every train uses."""
         used = {wheel: Fact("used", wheel) for wheel in self._wheels}
         used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
         yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
@@ -203,7 +203,7 @@ class ExplainedFacts:
         )
 
     def _parts(self, one: FactMarginal) -> Hashable:
-        """Return the partition of the listed trains by a fact, with the sums over all trains of each set."""
+        """Return the sets into which a fact partitions the listed trains, each with its sums over all trains."""
         fact = Fact(one.kind, one.subject)
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
         rest = frozenset(range(len(self._weighed))).difference(*parts)
@@ -225,7 +225,7 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
 
 
 def _order_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
-    """Yield the facts that do not depend on the tooth counts of added wheels."""
+    """Yield the facts of a candidate that do not depend on the tooth counts of added wheels."""
     for arbor in train.arbors():
         for dial in lost.intersection(arbor.dials):
             yield Fact("pointer", dial), AN_ADDED_ARBOR if arbor.added else arbor.name
@@ -327,7 +327,7 @@ class FamilyTrain(Result):
 
 @dataclass(frozen=True, slots=True)
 class FamilyBranch(Result):
-    """Consecutive meshes that all candidates of a branch of the family tree have in common."""
+    """Branch of the family tree: consecutive meshes that all candidates in the branch have in common."""
 
     KEYS = ("parent", "meshes", Key("weight", "share", float), "solutions", "trains")
 
@@ -426,7 +426,7 @@ class CandidateFindings(Result):
     share: float = 0.0
     """Total posterior probability of the candidates in the family tree, 0 to 1."""
     of_all: bool = False
-    """True if the facts cover all trains, False if they cover only the trains of the family tree."""
+    """True if the facts are computed over all trains, False if only over the trains of the family tree."""
     marginals: tuple[FactMarginal, ...] = ()
     """Marginal distribution of every fact except facts of the kind `pair`."""
     next_facts: tuple[NextFact, ...] = ()
@@ -434,7 +434,7 @@ class CandidateFindings(Result):
     family: tuple[FamilyBranch, ...] = ()
     """Family tree of the candidates. Its probabilities are relative to these candidates."""
     assumptions: tuple[ChangedCount, ...] = ()
-    """Number of explanations without each hard fact, if requested."""
+    """Number of explanations without each hard constraint of the evidence, if requested."""
     missing: MissingExplanation | None = None
     """Reasons why the evidence has no explanation; None if it has an explanation, or if the reasons were not
     searched.

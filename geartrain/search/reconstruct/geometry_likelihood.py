@@ -189,7 +189,8 @@ def _is_nearer(one: str | None, other: str | None, length: Fraction, geometry: S
 
 
 def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
-    """Return the likelihood of the measurements given a candidate, up to a common factor; 0 if it is impossible.
+    """Return the likelihood of the measurements for a candidate, up to a common factor; 0 if the candidate is
+    impossible.
 
     arbor   input arbor of the candidate
     """
@@ -207,7 +208,7 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
 
 _MINIMUM = -700.0  # exp(-700) is still positive; only an impossible candidate has likelihood 0
 _End = tuple[str | None, tuple[str | None, int]]
-"""Name of an arbor, and name and tooth count of a wheel on it."""
+"""Mesh partner: name of an arbor, and name and tooth count of a wheel on it."""
 
 
 class _Mesh(NamedTuple):

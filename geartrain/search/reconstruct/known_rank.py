@@ -1,4 +1,4 @@
-"""Rank of a known train among all explanations of the evidence, or the rules that it breaks."""
+"""Rank of a known train among all trains that explain the evidence, or the rules that it breaks."""
 
 from __future__ import annotations
 
@@ -47,14 +47,14 @@ MAXIMUM, MINIMUM = "maximum", "minimum"
 _KINDS = (*LOOKED_FOR, MAXIMUM, MINIMUM)
 _Subject = tuple[str, str]
 _MOST_TOGETHER = 3
-"""Maximum number of facts in a distinguishing set."""
+"""Maximum number of facts in a set that distinguishes one train from all others."""
 _MOST_TRAINS = 2000
 """Maximum number of trains among which one train is distinguished."""
 
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """Distinguishing fact: it is true of a given train, but not of all trains."""
+    """Distinguishing fact: it is true of a given explanation, but not of all explanations."""
 
     kind: str
     """Kind of the fact: one of `LOOKED_FOR`, or `MAXIMUM` or `MINIMUM`."""
@@ -73,7 +73,7 @@ class TellingFacts(Result):
     facts: tuple[TellingFact, ...]
     """All distinguishing facts, in ascending order of the number of trains that share them."""
     sets: tuple[tuple[TellingFact, ...], ...]
-    """Smallest sets of facts that only this train satisfies, all of one size of at most three.
+    """Smallest sets of facts that are true only of this train; all sets have the same size, at most three.
 
     Facts that are true of the same trains are represented by the first of these facts.
     """
@@ -117,7 +117,9 @@ def _observable_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> 
 
 
 def _trains_with(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
-    """Yield the indices of trains for which a fact is true. A fact on a limit is true if a train respects the limit."""
+    """Yield the indices of trains for which a fact is true. A fact of the kind `MAXIMUM` or `MINIMUM` is true if all
+    added wheels of the train respect the limit.
+    """
     for at, one in enumerate(said):
         own = one.get(fact)
         if fact[0] == MAXIMUM:
@@ -131,7 +133,7 @@ def _trains_with(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer:
 
 
 def _smallest_sets(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterable[tuple[TellingFact, ...]]:
-    """Return the smallest sets of facts that only the given train satisfies."""
+    """Return the smallest sets of facts that are true only of the given train."""
     for number in range(1, _MOST_TOGETHER + 1):
         found = [
             tuple(first[each] for each in some)
@@ -152,7 +154,7 @@ class TrainPlace(Result):
     ranks: tuple[int, int]
     """First and last rank by probability. They differ if several trains are equally probable."""
     trains: int
-    """Number of explanations."""
+    """Number of explanations among which the train is ranked."""
     ranks_alike: tuple[int, int]
     """First and last rank among explanations with the same number of added wheels."""
     trains_alike: int
@@ -160,7 +162,7 @@ class TrainPlace(Result):
     weight: float
     """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
-    """Probability of the best explanation divided by the probability of this train, at least 1."""
+    """Probability of the most probable explanation divided by the probability of this train, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,11 +176,11 @@ class AdmittingQuestion(Result):
     arbors: int
     """Number of arbors that the train adds."""
     requested: int
-    """Maximum number of added wheels of the search: the number that the train adds, if permitted."""
+    """Maximum number of added wheels in the search: the number that the train adds, or the limit if that is smaller."""
     solutions: tuple[int, ...]
     """Number of explanations with exactly 0, 1, 2, ... added wheels."""
     place: TrainPlace | None
-    """Rank of the train; None if it adds more wheels than were searched."""
+    """Rank of the train; None if it adds more wheels than the search covers."""
     refused: str | None = None
     """Reason why the changed problem was not searched; None if it was searched."""
 
@@ -212,7 +214,7 @@ class RankedQuestion:
     """Problem with all its explanations, among which known trains are ranked."""
 
     evidence: Train
-    """Declared evidence, whose arbors turn in the frame."""
+    """Declared evidence in which all arbors turn in the frame."""
     problem: ReconstructionProblem
     """Reconstruction problem of the evidence."""
     found: Reconstructions

@@ -22,16 +22,16 @@ _ONE_START = "a train on a carrier begins at one link: the frame, or one other d
 
 @dataclass(frozen=True)
 class BaseLink:
-    """Base of a train: the link that carries its arbors, and the link that drives it."""
+    """Base of a train: the link that carries its arbors, and the link at which the train begins."""
 
     name: str
-    """Name of the frame or of a carrier."""
+    """Name of the base: the frame or a carrier."""
     speed: Fraction
     """Speed of the base relative to the frame [turns per unit]."""
     source: str
     """Link at which the train begins."""
     driven: Fraction
-    """Speed of `source` relative to the base [turns per unit]."""
+    """Speed of the link `source` relative to the base [turns per unit]."""
 
     @property
     def is_carrier(self) -> bool:
@@ -39,12 +39,15 @@ class BaseLink:
         return bool(self.speed)
 
     def seen(self, relative_to: str) -> Fraction:
-        """Return the speed of the base relative to the base itself or to the frame [turns per unit]."""
+        """Return the speed of the base relative to a link, which is the base itself or the frame [turns per unit]."""
         return Fraction(0) if relative_to == self.name else self.speed
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of evidence, in which `base_problems` must find no problem."""
+    """Return the base of a reconstruction: the link that carries its arbors, and the link at which the train begins.
+
+    The evidence must be valid, so that `base_problems` yields no problem.
+    """
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
     if carrier is None:
@@ -55,7 +58,9 @@ def find_base(evidence: Train) -> BaseLink:
 
 
 def base_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield problems that leave the base or the input of the train undetermined or that are not supported."""
+    """Yield problems of evidence that leave the base or the input of the train undetermined or that are not
+    supported.
+    """
     carrier = _carrier(evidence)
     if not evidence.case(None).exact:
         place = evidence.place("inputs")
@@ -100,7 +105,7 @@ def _input_problems(evidence: Train) -> Iterator[Problem]:
 def _frame_problems(evidence: Train) -> Iterator[Problem]:
     for at, joint in enumerate(evidence.revolutes):
         if evidence.frame not in joint.pair:
-            what = "an arbor on a moving link is supported only if that link is the `carrier`"
+            what = "an arbor turns on a moving link that is not the `carrier`"
             why = "ignoring the arbor could change the trains that are found"
             fix = "name the link as `carrier` with its speed as an input, or remove the joint"
             yield Problem(what, why, fix, evidence.place("revolutes", at))
@@ -201,9 +206,9 @@ Joined = Mapping[str, tuple[str, ...]]
 
 
 def joined_arbors(evidence: Train) -> Joined:
-    """Return the groups of links that given couplings join.
+    """Return the groups of links that given couplings join to one arbor.
 
-    A group is named after the input if that is in the group, otherwise after its first link with wheels.
+    A group is named after the input link if the group contains it, otherwise after its first link with wheels.
     """
     found = {}
     for links in joined_groups(evidence.links, (pair for pair, _ in _pairs(evidence))):
@@ -317,7 +322,7 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
 
 
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:
-    """Yield problems of joined links on different axes, because the axes restrict their meshes differently.
+    """Yield problems of joined links on different axes, because each axis would exclude other meshes.
 
     problem   problem in which the links are not yet joined
     """

@@ -27,9 +27,11 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
 class PathColumns:
     """Columns of a path list for fast comparison of many paths with a path to another dial.
 
-    codes          code of the pass, 0 if the arbor is avoided, shape (arbors, rows)
-    driven         number of the driven wheel with its count, 0 if absent, shape (arbors, rows)
-    driver         number of the driving wheel by name, 0 if absent, shape (arbors, rows)
+    A pass is the pair of a driven and a driving wheel by which a path passes through an arbor.
+
+    codes          code of the pass, 0 if the path avoids the arbor, shape (arbors, rows)
+    driven         identifying number of the driven wheel and its count, 0 if absent, shape (arbors, rows)
+    driver         identifying number of the driving wheel, 0 if absent, shape (arbors, rows)
     passes_added   True if the path has an added idler
     used           bit mask of the used surviving arbors, then wheels, for each row
     """
@@ -98,7 +100,7 @@ def _bits(each: ArborPass, number: dict[str, int]) -> int:
 
 
 Choice = dict[str, int]
-"""Row of the path list of each dial."""
+"""Choice of one path for each dial, as a row of its path list."""
 
 _EVEN_SHARES = 50
 """Minimum number of paths that are distributed in turn over the parts of a search."""
@@ -169,8 +171,8 @@ class PathChoice:
     # compatibility of ends
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> Bools:
-        """Return whether each path forms a tree with two chosen paths: of the three, two must separate from the third
-        together.
+        """Return whether each path forms a tree with two chosen paths: two of the three paths must separate from the
+        third at the same arbor.
         """
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
         third = self.lists[dial].arbors[rows]
@@ -179,8 +181,8 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _agreeing(self, end: str, row: int, dial: str) -> Rows:
-        """Return the paths that have the quotient of the first chosen path, or leave room for added wheels on one of
-        the two paths only.
+        """Return the paths that have the quotient of the first chosen path, or permit added wheels on one of the two
+        paths only.
         """
         (low, high), exact = self.lists[end].bounds, self.lists[dial].dial.is_exact
         kept = []

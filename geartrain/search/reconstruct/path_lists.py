@@ -36,11 +36,12 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, arbor_
 
 
 _Fits = Bools
-"""Compatibility matrix of the passes of two arbors, by their codes; code 0 means that the path avoids the arbor."""
+"""Compatibility matrix of the passes of a path through two arbors, by their codes; code 0 if the path avoids the arbor.
+"""
 
 
 def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
-    """Return the connected components of arbors under the known meshes, as indices with the input at 0.
+    """Return the connected components of the arbors under the known meshes, as arbor indices; the input has index 0.
 
     Each arbor except the first of a component meshes with an earlier arbor.
     """
@@ -129,7 +130,7 @@ class PathGrowth:
     """Partial paths through some of the arbors, one in each row of the arrays."""
 
     codes: NDArray[np.uint16]
-    """Code of the pass of each arbor, from 1; 0 if the path avoids the arbor."""
+    """Code of the pass (driven and driving wheel) on each arbor, from 1; 0 if the path avoids the arbor."""
     ratio: Floats
     """Speed of the end of the path without the added wheels, as a magnitude [turns per unit]."""
     powers: NDArray[np.int8]
@@ -162,7 +163,7 @@ class PathGrowth:
         )
 
     def columns(self) -> tuple[NDArray[Any], ...]:
-        """Return all arrays, each with one row per path."""
+        """Return all arrays of the partial paths, each with one row per path."""
         numbers = self.drivers, self.driven, self.added, self.idle, self.need
         return self.codes, self.ratio, self.powers, *numbers, self.ended
 
@@ -172,7 +173,7 @@ class PathGrowth:
         return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
 
     def kept(self, rows: Bools | np.bool_ | slice) -> PathGrowth:
-        """Return the selected rows of all arrays."""
+        """Return the selected paths, with the corresponding rows of all arrays."""
         return PathGrowth(*(column[rows] for column in self.columns()))
 
     def along(
@@ -231,13 +232,13 @@ _PIECE = 1 << 19
 
 
 AddedArbors = tuple[int, int]
-"""Number of added arbors with two wheels on a path, and of added arbors with one wheel, an idler."""
+"""Numbers of added arbors on a path: arbors with two wheels, and arbors with one wheel (idlers)."""
 
 
 class PathList:
     """Possible paths to a dial, one per row of the arrays.
 
-    along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
+    along   only permitted pass of some surviving arbors, all other arbors excluded; None for all paths
 
     codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; shape
                          (rows, arbors)
@@ -394,7 +395,7 @@ class PathList:
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> Bools:
-        """Return a boolean matrix of which plans of added arbors are possible on which paths."""
+        """Return a boolean matrix, shape (paths, plans): True if a path is possible with a plan of added arbors."""
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, (compounds, idlers) in enumerate(plans):

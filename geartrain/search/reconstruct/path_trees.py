@@ -24,7 +24,8 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branch
 HERE = "="
 IDLER = "~"
 BESIDE = "+"
-"""Exits of an arbor other than its surviving wheels: its own dial, its driven wheel, an added wheel."""
+"""Exits by which a path can leave an arbor other than surviving wheels: its own dial, its driven wheel, an added wheel.
+"""
 
 Block = tuple[str, Dials]
 """Exit of an arbor, and the dials to which it leads."""
@@ -42,8 +43,8 @@ def exit_of(each: ArborPass) -> str:
 def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Yield each partition of dials into the dials that an arbor shows and, for each of its wheels, the dials to
-    which the wheel leads.
+    """Yield each partition of dials into the dials whose pointers an arbor carries and, for each of its wheels, the
+    dials to which the wheel leads.
 
     Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
 
@@ -94,15 +95,15 @@ class DialPath(NamedTuple):
     """Part of the path to a dial that is not yet in the tree."""
 
     arbors: int
-    """Bit mask of the surviving arbors."""
+    """Bit mask of the surviving arbors on this part of the path."""
     passes: Mapping[int, ArborPass]
-    """Driven and driving wheel of the path on each surviving arbor, by the index of the arbor; 0 is the input."""
+    """Driven and driving wheel of the path on each surviving arbor, by the index of the arbor; index 0 is the input."""
     compounds: int
     """Number of added arbors with two wheels before the last arbor."""
     idlers: int
     """Number of added arbors with an idler before the last arbor."""
     wheels: int
-    """Number of added wheels."""
+    """Number of added wheels on this part of the path."""
     ends_new: bool
     """True if the last arbor is added."""
 
@@ -113,7 +114,7 @@ class DialPath(NamedTuple):
 
     @property
     def new(self) -> int:
-        """Number of added arbors."""
+        """Number of added arbors on this part of the path."""
         return self.compounds + self.idlers + self.ends_new
 
 
@@ -266,7 +267,7 @@ class PathTrees:
     # arbors at which paths end or separate
 
     def _branching(self, at: int, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield branchings at a surviving arbor that shows dials or has several exits, or at the input arbor."""
+        """Yield branchings at a surviving arbor that carries pointers or has several exits, or at the input arbor."""
         first = paths_first(paths).passes[at]
         ways = {dial: (exit_of(path.passes[at]),) for dial, path in paths.items()}
         paid = int(first.driven == ADDED)
@@ -286,7 +287,7 @@ class PathTrees:
                 )
 
     def _new_branching(self, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield branchings at an added arbor that shows dials or has several exits."""
+        """Yield branchings at an added arbor that carries pointers or has several exits."""
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):
@@ -341,7 +342,7 @@ class PathTrees:
 
 
 def paths_first(paths: Paths) -> DialPath:
-    """Return any of the paths, to read properties that all of them share."""
+    """Return any one of the paths, from which properties that all paths share can be read."""
     return next(iter(paths.values()))
 
 
@@ -380,7 +381,7 @@ def _ways_from_added(path: DialPath) -> Iterator[str]:
 
 
 def _arbors(bits: int) -> Iterator[int]:
-    """Yield the indices, from 1, of the bits that are set."""
+    """Yield the indices, from 1, of the arbors whose bits are set in a bit mask."""
     at = 1
     while bits:
         if bits & 1:

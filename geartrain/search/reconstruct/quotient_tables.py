@@ -56,7 +56,7 @@ class QuotientTables:
 
     @cache  # noqa: B019 -- lives as long as the search
     def _few(self, wheels: int) -> Floats | None:
-        """Return all quotients of at most `wheels` added counts; None if there are too many."""
+        """Return all quotients of products of at most `wheels` added counts; None if there are too many."""
         tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
         known = [table for table in tables if table is not None]
         return _distinct(np.concatenate(known)) if len(known) == len(tables) else None

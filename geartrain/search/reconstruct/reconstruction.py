@@ -56,11 +56,12 @@ class ReconstructionRequest(Shown):
     lost: tuple[str, ...] = ()
     """Arbors of the train that are treated as lost."""
     source: str | None = None
-    """Link at which the reconstructed part of the train begins (with `lost`); by default the first part that contains
-    the lost arbors.
+    """Link at which the reconstructed part of the train begins, used with `lost`; by default the first part that
+    contains the lost arbors.
     """
     seen: bool = False
-    """True if the meshes of surviving wheels are known, and no more arbors are added than are lost (with `lost`)."""
+    """True if the meshes of surviving wheels are known, and no more arbors are added than are lost; used with `lost`.
+    """
     wheels: int | None = None
     """Maximum number of added wheels; by default the number in the evidence."""
     idlers: bool = False
@@ -70,17 +71,21 @@ class ReconstructionRequest(Shown):
     counts_only: bool = False
     """True to count trains without listing them."""
     prior_of: Literal["solution", "class"] = "solution"
-    """Unit of the prior: one weight for every train, or one weight for every equivalence class of equal ratios."""
+    """Unit of the uniform prior: the same weight for every train, or for every equivalence class of trains with equal
+    ratios.
+    """
     sample: int = 0
     """Number of trains to draw at random according to their posterior probabilities."""
     seed: int = 1
-    """Random seed."""
+    """Random seed of the draws requested by `sample`."""
     assumptions: bool = False
-    """True to count the trains again without each hard fact in turn."""
+    """True to recount the trains with each hard constraint of the evidence dropped in turn."""
     known: tuple[Train, ...] = ()
     """Known trains whose ranks among the explanations are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
-    """Name in the evidence of each wheel or output of a known train that has another name there."""
+    """Name in the evidence of each wheel or output that a known train names differently, by its name in the known
+    train.
+    """
 
 
 class ReconstructionRun:
@@ -94,7 +99,7 @@ class ReconstructionRun:
         """Receive the problem before the search begins."""
 
     def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Receive the expected cost of the search."""
+        """Receive the expected cost of the search before it begins."""
 
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor of the search."""
@@ -110,7 +115,7 @@ class ReconstructionRun:
         return nullcontext(Execution())
 
     def searched(self, complete: bool) -> None:
-        """Receive the end of all searches, and whether they are complete."""
+        """Receive the notification that all searches have ended, and whether they are complete."""
 
     def part(self, what: str) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor for another part of the work.
@@ -193,7 +198,7 @@ class ReconstructionAnswer(Result):
     base: BaseLink | None = None
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
-    """Links that given couplings join to each arbor, by the name of the arbor."""
+    """Links that form one arbor because given couplings join them, by the name of the arbor."""
     expected: ExpectedCost | None = None
     """Estimated cost of the search, computed before the search."""
     drawn: tuple[RankedTrain, ...] = ()
@@ -300,7 +305,7 @@ def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> 
 
 
 def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tuple[ChangedCount, ...]:
-    """Return the counts without each hard fact; after an interruption, only the counts that are complete."""
+    """Return the counts without each hard constraint; after an interruption, only the counts that are complete."""
     changed = without_each_fact(problem)
     counted: list[ChangedCount] = []
     with run.assume(problem, changed, counted) as execution:
@@ -325,8 +330,9 @@ def _ranks_of_known(
 
 
 def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Reconstructions]:
-    """Return a function that runs a reconstruction search to completion, without listing candidates, and raises
-    `KeyboardInterrupt` if the search is interrupted.
+    """Return a function that runs a reconstruction search to completion, without listing candidates.
+
+    The function raises `KeyboardInterrupt` if the search is interrupted.
     """
 
     def search(requested: ReconstructionProblem) -> Reconstructions:
@@ -346,9 +352,9 @@ def _findings(
     counts_only: bool,
     run: ReconstructionRun,
 ) -> CandidateFindings:
-    """Return the facts of the candidates, or the reasons why nothing explains the evidence.
+    """Return the facts derived from the candidates, or the reasons why no train explains the evidence.
 
-    With `counts_only` the result has only the counts without each hard fact.
+    With `counts_only` the result has only the counts without each hard constraint.
     """
     if counts_only:
         return CandidateFindings(assumptions=dropped)

@@ -30,7 +30,9 @@ Size = tuple[str | None, int]
 NEW = "new"
 """Value of `SearchedDial.place` for a dial whose arbor does not survive."""
 UNMEASURED_SPREADS = 3
-"""Maximum difference of the modules of a measured wheel and an unmeasured mate, in standard deviations `module`."""
+"""Maximum relative difference between the modules of a measured wheel and an unmeasured mate, in units of the standard
+deviation `module`.
+"""
 _MOST_UNCERTAINTIES = 3  # wheels that a message names
 
 
@@ -74,7 +76,7 @@ class SurvivingGeometry:
 
     @cached_property
     def measured(self) -> Mapping[str | None, MeasuredWheel]:
-        """Measured wheels by name."""
+        """Measured wheels by their names."""
         return {wheel.name: wheel for wheel in self.wheels}
 
     def module_of(self, size: Size) -> Fraction | None:
@@ -256,7 +258,7 @@ class ReconstructionProblem(Shown):
     input: SurvivingArbor
     """Arbor at which the train begins."""
     arbors: tuple[SurvivingArbor, ...]
-    """Other surviving arbors."""
+    """Surviving arbors other than the input arbor."""
     dials: tuple[SearchedDial, ...]
     """Pointers with the required ranges of their speeds."""
     additions: Additions
@@ -280,7 +282,7 @@ class ReconstructionProblem(Shown):
     factors: PriorFactors = PriorFactors()
     """Factors that reduce the prior weight of a candidate reconstruction."""
     geometry: SurvivingGeometry = NO_GEOMETRY
-    """Measurements of surviving wheels. Pairs that these measurements exclude are already in `apart` and
+    """Measurements of surviving wheels and axes. Pairs that these measurements exclude are already in `apart` and
     `coaxial`.
     """
 
@@ -389,7 +391,7 @@ class RequestedQuestion(Result):
 
     @classmethod
     def of(cls, problem: ReconstructionProblem) -> RequestedQuestion:
-        """Count the arbors, wheels, combinations of counts, and dials of a problem."""
+        """Count the arbors, wheels, combinations of tooth counts, and dials of a problem."""
         arbors, limits = (problem.input, *problem.arbors), problem.additions
         counts = [len(wheel.counts) for arbor in arbors for wheel in arbor.wheels]
         teeth = (limits.minimum, limits.maximum)

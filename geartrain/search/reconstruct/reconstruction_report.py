@@ -1,4 +1,4 @@
-"""Report of a reconstruction: the evidence, the numbers of trains that explain it, and the best trains.
+"""Report of a reconstruction: the evidence, the number of trains consistent with it, and the best-ranked trains.
 
 Further sections describe known trains, common facts, facts to look for, and the family tree.
 """
@@ -232,7 +232,9 @@ def _place(dial: SearchedDial) -> str:
 
 
 def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
-    """Yield sections on the ranks of known trains, the rules that they break, and their ranks without these rules."""
+    """Yield sections on the ranks of known trains, the rules that they break, and their ranks if these rules are
+    dropped.
+    """
     if not known:
         return
     header = ("train", "added wheels", "added arbors", "rank", "rank, equal wheels", "weight", "maximum / weight")
@@ -270,7 +272,7 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
 
 
 def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
-    """Return table rows that group facts by the number of trains for which they are true."""
+    """Return table rows in which facts are grouped by the number of trains for which they are true."""
     rows: dict[int, list[str]] = {}
     for fact in facts:
         rows.setdefault(fact.solutions, []).append(_fact_text(fact))
@@ -338,7 +340,9 @@ def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
-    """Yield sections on facts common to all candidates, and on the probabilities of answers that differ."""
+    """Yield sections on facts common to all candidates, and on the probabilities of facts in which candidates
+    differ.
+    """
     if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
@@ -431,7 +435,9 @@ def _equivalent_text(facts: Sequence[Fact]) -> str:
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
-    """Yield the section on the numbers of trains without each hard fact; `given` are the numbers with all facts."""
+    """Yield the section on the numbers of trains without each hard constraint; `given` are the numbers with all
+    constraints.
+    """
     if not changes:
         return
     header = ("assumption", *(f"{added} added" for added in range(len(given))), "trains")
@@ -445,7 +451,9 @@ def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
-    """Yield sections on the reasons why nothing explains the evidence; `most` is the maximum number of added wheels."""
+    """Yield sections on the reasons why no train explains the evidence; `most` is the maximum number of added
+    wheels.
+    """
     if found is None:
         return
     line = "Result for each dial by itself. Surviving arbors that do not lead to this dial need not be used."
@@ -455,8 +463,8 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     )
     uncertainties = [(one.change, str(one.fewest), str(one.total)) for one in found.uncertainties]
     tried = (
-        f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard fact is dropped, or a "
-        f"surviving count is changed by up to {MISREAD} teeth."
+        f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard constraint is dropped, or "
+        f"a surviving count is changed by up to {MISREAD} teeth."
     )
     lines = [tried] if uncertainties else [tried, "No single change leaves an explanation."]
     if found.refused:

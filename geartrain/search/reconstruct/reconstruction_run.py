@@ -24,12 +24,14 @@ if TYPE_CHECKING:
 
 _LARGE = 15  # decimal logarithm of the number of choices of tooth counts above which it is printed
 _STEPS = 1000
-"""Number of steps of a progress bar."""
+"""Number of steps into which a progress bar is divided."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 
 
 class CommandRun(ReconstructionRun):
-    """Run with progress bars on standard error and journals in a folder. Ctrl-C interrupts one part at a time."""
+    """Execution with progress bars on standard error and journals in a folder. Ctrl-C interrupts one stage at a
+    time.
+    """
 
     def __init__(self, folder: Path | None, options: RunOptions) -> None:
         self._folder, self._options = folder, options
@@ -48,7 +50,7 @@ class CommandRun(ReconstructionRun):
         if seconds := rough(cost.whole):
             workers = self._options.workers
             shared = f", shared by {workers} processes" if workers not in (None, "1") else ""
-            timed = f"one part in {cost.parts} of the search was timed"
+            timed = f"a few of {cost.parts} parts of the search were timed"
             tell(f"expected time: about {_duration_text(seconds)} in one process{shared}; {timed}")
 
     @contextmanager
@@ -64,7 +66,9 @@ class CommandRun(ReconstructionRun):
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> Iterator[Execution]:
-        """Yield an executor. An interruption keeps the finished counts and the journal."""
+        """Yield an executor for the counts of changed problems. An interruption keeps the finished counts and the
+        journal.
+        """
         requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
         with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
             try:
@@ -76,13 +80,15 @@ class CommandRun(ReconstructionRun):
             close_journal(given.journal, cut)
 
     def searched(self, complete: bool) -> None:
-        """Close the journal of the search, unless the interrupted count of assumptions needs it."""
+        """Close the journal of the search, unless interrupted counts of changed problems still need it."""
         if not self._is_needed_to_resume:
             close_journal(self._journal, not complete)
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """Yield an executor with a progress bar. An interruption omits the part from the answer."""
+        """Yield an executor with a progress bar for another part of the work. An interruption omits the part from the
+        answer.
+        """
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
                 yield Execution(executor, tell=bar.reach)

@@ -1,4 +1,6 @@
-"""Exact counts and candidates of a problem: topologies are weighted, and the best trains are listed or sampled."""
+"""Exact counts and candidates of a reconstruction: topologies are weighted, and the best trains are listed or
+sampled.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +91,7 @@ class Candidate(Result):
 
 @dataclass(frozen=True, slots=True)
 class WeightClass(Result):
-    """Explanations with the same number of added wheels and the same weight."""
+    """Class of explanations with the same number of added wheels and the same weight."""
 
     added: int
     """Number of added wheels of each explanation."""
@@ -119,7 +121,9 @@ class Reconstructions(Result):
     topologies: tuple[CountedTopology, ...] = ()
     """All topologies with the numbers of their trains; empty if trains are weighted individually."""
     weights: tuple[WeightClass, ...] = ()
-    """Numbers of trains, in ascending order of the number of added wheels, then in descending order of weight."""
+    """Numbers of trains by weight, in ascending order of the number of added wheels, then in descending order of
+    weight.
+    """
 
     def _summary(self) -> str:
         listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
@@ -206,7 +210,7 @@ def _count(added: int, topologies: Sequence[CountedTopology], problem: Reconstru
 
 
 def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
-    """Yield all trains of a topology; with `one_order`, one train for each choice of tooth counts."""
+    """Yield all trains of a topology; with `one_order`, only one order of arbors for each choice of tooth counts."""
     limits = problem.additions
     facts = MeshFacts() if one_order else MeshFacts.of(problem)
     topology = each.topology
@@ -232,7 +236,7 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    """Return a sort key of candidates of equal weight."""
+    """Return the sort key that orders candidates of equal weight."""
     return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(astuple(arbor))
 
 
@@ -331,7 +335,7 @@ def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
 
 
 def is_all_listed(found: Reconstructions) -> bool:
-    """Return whether all explanations that are counted are also listed."""
+    """Return whether the list contains all explanations that were counted."""
     return found.complete and len(found.candidates) == sum(count.solutions for count in found.counts)
 
 

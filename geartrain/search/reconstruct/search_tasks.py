@@ -33,7 +33,7 @@ QUICK = 2
 """Maximum number of added wheels for which a search is not divided into parts."""
 _PARTS = 24  # divides evenly over 2, 3, 4, 6, 8 and 12 processes
 _SAMPLES = {4096: 3, 512: 4, 64: 5}
-"""Number of timed parts, by the number of parts of the search. Fewer, larger parts are timed until the time is
+"""Number of parts to time, by the number of parts of the search. Fewer, larger parts are timed until the time is
 measurable.
 """
 _ENOUGH = 0.3
@@ -90,7 +90,9 @@ class TopologyTrains:
         return [OrderPart(requested, self.counts.total(requested), arbors) for requested, arbors in by_limits.items()]
 
     def kinds(self, topology: Topology, arbor: Arbor) -> dict[int, AddedKind]:
-        """Return the kind of each added wheel of one order, by the token that replaces its tooth count."""
+        """Return the kind of each added wheel in one order of the arbors, by the token that replaces its tooth
+        count.
+        """
         return CountTokens(topology.added).kinds(arbor, self._facts.rings, self._maximum)
 
     def draw(self, topology: Topology, probability: Random) -> Arbor:
@@ -202,14 +204,14 @@ def timed_part(task: TopologyTask) -> float:
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
-    """Return the topologies of one part as plain data, each with its numbers of choices and of trains."""
+    """Return the topologies of one part of the search as plain data, each with its numbers of choices and of trains."""
     counted = _search(task.problem).counted(task)
     return [(TOPOLOGIES.dump_python(each.topology, mode="json"), each.choices, each.solutions) for each in counted]
 
 
 @lru_cache(maxsize=2)
 def _search(problem: ReconstructionProblem) -> TopologySearch:
-    """Return the search of a problem. Its path lists are made once per process."""
+    """Return the search of a problem. Its path lists are built once per process."""
     return TopologySearch(problem)
 
 
@@ -239,7 +241,9 @@ class ExpectedCost(Result):
     It is 0 up to two added wheels, where nothing is timed. It excludes the comparison of the listed trains.
     """
     parts: int
-    """Number of parts of which one was timed; 0 if nothing was timed."""
+    """Number of parts into which the search was divided for timing, the maximum over all numbers of added wheels; 0 if
+    nothing was timed.
+    """
 
     @property
     def whole(self) -> float:
@@ -311,7 +315,7 @@ def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) ->
 
 
 def _sampled(problem: ReconstructionProblem, added: int) -> tuple[int, float]:
-    """Return the number of parts of which one was timed, and the extrapolated total time [s]."""
+    """Return the number of parts into which the search was divided for timing, and the extrapolated total time [s]."""
     parts, whole = 0, 0.0
     for parts, samples in _SAMPLES.items():
         # an index outside the range gives an empty part, which measures the fixed cost of every part

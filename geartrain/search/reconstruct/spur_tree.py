@@ -1,7 +1,7 @@
 """Parts of a train that a reconstruction can find: trees of arbors on the frame or on one carrier.
 
-Spur wheels and rings connect the arbors. Links that a pin and slot joins are one arbor. A part without some of its
-arbors is evidence with a known answer, so it measures how much the evidence determines.
+Spur wheels and rings connect the arbors. Links joined by a pin and slot are one arbor. If some arbors of a part are
+treated as lost, the rest is evidence with a known answer, which measures how far the evidence determines the train.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ class SpurTree:
 
     @cached_property
     def able(self) -> tuple[str, ...]:
-        """Arbors that can be lost: all driven arbors without a ring, because rings are never added."""
+        """Arbors that can be treated as lost: all driven arbors without a ring, because rings are never added."""
         wheels = self.train.wheels
         return tuple(link for link in self.driven if not any(wheels[name][1].internal for name in self.wheels_of(link)))
 
@@ -175,7 +175,7 @@ class SpurTree:
         return next((arbor for arbor, links in self.joined.items() if link in links), link)
 
     def link_of(self, pointer: str) -> str:
-        """Return the link whose speed a pointer shows."""
+        """Return the link whose speed a pointer indicates."""
         output = self.train.case(None).outputs.get(pointer)
         return pointer if output is None else output.of or pointer
 
@@ -288,11 +288,11 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
 def _check_input(train: Train) -> None:
     if train.states:
         what = f"'{train.name}' has several states"
-        raise QuestionError(Problem(what, "a reconstruction has one input", "use a train without `states`"))
+        raise QuestionError(Problem(what, "a reconstruction supports only one state", "use a train without `states`"))
     turning = [link for link, speed in train.case(None).inputs.items() if speed]
     if len(turning) != 1:
         what = f"'{train.name}' has {len(turning)} inputs that turn"
-        why = "a reconstruction has one input"
+        why = "a reconstruction supports only one input"
         raise QuestionError(Problem(what, why, "use a train with one input", train.place("inputs")))
 
 
@@ -303,11 +303,13 @@ class _Base:
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Links that couplings join to each link, including the link, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
-    """Meshes of each arbor."""
+    """Meshes of each arbor with other arbors of the base."""
 
 
 class _Parts:
-    """Search for the parts of a train. `loop` describes the last loop of meshes, which excludes a part."""
+    """Search for the parts of a train. `loop` describes the last closed loop of meshes, because of which a part is
+    excluded.
+    """
 
     def __init__(self, train: Train) -> None:
         self.train, self.loop = train, ""
@@ -460,7 +462,7 @@ def _renamed(tree: SpurTree) -> SpurTree:
 
 
 def why_not(train: Train, link: str) -> str:
-    """Return the reason why a link is in none of the parts."""
+    """Return the reason why a link is in none of the parts of a train that a reconstruction can find."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
         return "the link does not turn"
@@ -582,14 +584,17 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
     able = [link for arbor in tree.able if arbor not in arbors for link in tree.links_of(arbor)]
     for link, arbor in zip(lost, arbors, strict=True):
         if arbor == tree.source:
-            what, why = f"'{link}' carries the input", "a reconstruction begins at the input"
+            what, why = f"'{link}' cannot be lost", "it carries the input, and a reconstruction begins at the input"
         elif arbor not in tree.driven:
             what = f"'{link}' cannot be lost"
             why = why_not(tree.train, link) if link in tree.train.links else "the train has no such link"
         elif arbor not in tree.able:
             what, why = f"'{link}' cannot be lost", "the arbor has a ring, and rings are never added"
         elif arbors.count(arbor) > 1:
-            what, why = f"'{link}' is lost twice", "an arbor is lost together with all links that are joined to it"
+            what, why = (
+                f"'{link}' is lost twice",
+                "an arbor is lost together with all links that are joined to it, so it is given only once",
+            )
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))

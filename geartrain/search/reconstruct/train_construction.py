@@ -132,11 +132,11 @@ class TrainConstruction:
 
     given    evidence as plain data
     links, revolutes, gears, couplings   parts of the candidate, as plain data
-    shown    pointer -> its link, and its speed relative to the base
+    shown    link of each pointer, and its speed relative to the base
     meshes   pairs of wheels, the driving wheel first
-    added    added wheels -> tooth counts
-    doubtful surviving wheels with uncertain tooth counts -> counts in this candidate
-    modules  measured wheels whose module changes -> new module [mm]; None if it follows from other wheels
+    added    tooth count of each added wheel
+    doubtful tooth count in this candidate of each surviving wheel with an uncertain tooth count
+    modules  new module [mm] of each measured wheel whose module changes; None if it follows from other wheels
     """
 
     evidence: Train

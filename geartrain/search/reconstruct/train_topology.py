@@ -60,7 +60,7 @@ class ArborPass:
 
     @property
     def added(self) -> int:
-        """Number of added wheels of the path on this arbor."""
+        """Number of added wheels on this arbor that the path uses."""
         return (self.driven == ADDED) + self.added_drivers
 
 
@@ -116,7 +116,7 @@ class Branching:
     driven: PlacedWheel | None
     """Driven wheel: `ADDED` for an added wheel, None on the input arbor."""
     here: Dials
-    """Dials that the arbor shows."""
+    """Dials whose pointers the arbor carries."""
     drives: tuple[tuple[PlacedWheel, tuple[Chain, ...]], ...] = ()
     """Driving wheels, each with the chains that it drives."""
     passes: tuple[Chain, ...] = ()
@@ -177,7 +177,7 @@ class Topology:
 
     @cached_property
     def branchings(self) -> tuple[Branching, ...]:
-        """All arbors at which paths end or separate, in depth-first order from the input."""
+        """All arbors at which paths to dials end or separate, in depth-first order from the input."""
         return self.root, *(chain.end for chain in self.chains if isinstance(chain.end, Branching))
 
     @cached_property

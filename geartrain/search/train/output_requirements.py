@@ -47,7 +47,7 @@ class SpeedRequirement:
 
     @classmethod
     def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """Return the requirement of a target.
+        """Return the speed requirement of a declared target.
 
         share   relative tolerance of the speed; if it is None, the error is minimised
         """
@@ -131,7 +131,7 @@ def _magnitudes(wanted: Fraction, half: Fraction) -> tuple[Interval, ...]:
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
-    """Return the intersection of two unions of intervals."""
+    """Return the intersection of two unions of intervals of speeds."""
     found = []
     for a, b in left:
         for c, d in right:
@@ -172,7 +172,7 @@ class OutputRequirement:
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
-        """Return the interval constraint on the speed; None if every speed is admissible.
+        """Return the interval constraint on the speed of the output; None if every speed is admissible.
 
         share    relative tolerance of graded requirements
         strict   True to exclude the ends of the intervals
@@ -184,7 +184,7 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return a speed with its error according to the graded requirement for which the absolute error is largest."""
+        """Return a speed with its error with respect to the graded requirement that has the largest absolute error."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))
@@ -310,11 +310,11 @@ class SearchPart:
     conditions: tuple[IntervalConstraint, ...]
     """Conditions on loops and links for the train to turn."""
     rules: tuple[CountConstraint, ...]
-    """Constraints on the counts."""
+    """Constraints on the tooth counts of the wheels."""
 
     @property
     def considered(self) -> int:
-        """Number of assignments of tooth counts to the wheels."""
+        """Number of all assignments of admissible tooth counts to the wheels."""
         return prod(len(counts) for counts in self.domains.values())
 
 
@@ -414,7 +414,7 @@ def find_requirements(
 
 
 def _idle(requirement: OutputRequirement) -> Iterator[str]:
-    """Yield a remark on an output that depends on no varied wheel, if it violates its requirements."""
+    """Yield a remark on an output that depends on no varied wheel, if its speed violates its requirements."""
     speed = requirement.function.value({})
     if speed is not None:
         reached = requirement.reached(speed)

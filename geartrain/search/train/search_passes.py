@@ -1,6 +1,6 @@
-"""One pass of a search over a part of a train: its requirements as a join, divided into tasks, and run.
+"""One pass of a search over a part of a train: it is formulated as a join, divided into tasks, and run.
 
-If there are very many assignments only the best are kept, by exact errors.
+If there are very many assignments, only the best are kept; their errors are compared exactly.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _POOL = 20_000
 """Number of stored assignments above which all but the best are discarded."""
 
 Task = dict[str, Any]
-"""Argument of `do_task`, plain data."""
+"""One task of a pass, the argument of `do_task`, as plain data."""
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
@@ -238,7 +238,7 @@ class PassResult:
     listed: bool = True
     """False if there were too many assignments to enumerate; `best` is then empty."""
     cut: bool = False
-    """True if a task exceeded its budget."""
+    """True if a task exceeded its maximum number of steps."""
     stopped: bool = False
     """True if the run was interrupted; the sums then include only finished tasks."""
 
@@ -323,12 +323,14 @@ class PartSearch:
 
 
 def size_of(domains: Domains) -> int:
-    """Return the number of assignments, the product of the numbers of counts."""
+    """Return the number of assignments of tooth counts: the product of the numbers of admissible counts of all
+    wheels.
+    """
     return prod(len(counts) for counts in domains.values())
 
 
 def narrow(domains: Domains, rule: CountConstraint) -> Domains:
-    """Return the domains with the counts of one wheel restricted by a constraint on this wheel."""
+    """Return the domains of all wheels, with the counts of one wheel restricted by a constraint on this wheel."""
     (wheel,) = rule.wheels
     counts = domains[wheel]
     if not counts:

@@ -118,7 +118,7 @@ class PartFindings(Result):
     rules: tuple[str, ...]
     """Names of the constraints on counts."""
     considered: int
-    """Number of assignments of tooth counts to the wheels."""
+    """Number of all assignments of admissible tooth counts to the wheels."""
     count: int
     """Number of assignments that satisfy all requirements, within `tolerance` if that is not None."""
     tolerance: Fraction | None
@@ -231,7 +231,7 @@ class TrainFindings(Tabular, Result):
 
     @property
     def considered(self) -> int:
-        """Number of assignments of all varied wheels."""
+        """Number of all assignments of admissible tooth counts to the varied wheels."""
         return prod(part.considered for part in self.parts)
 
     @property
@@ -269,7 +269,7 @@ class TrainFindings(Tabular, Result):
         solution : Assignment or mapping of str to int
             Solution of the whole train or of one part. `QuestionError` is raised for wheels that were not varied.
         parent : str
-            Train to extend: a shipped train, or a path relative to the file to be written.
+            Train to extend: the name of a bundled example, or a path relative to the file to be written.
         name : str
             Name of the new train; by default the name of the train with "-found".
         """

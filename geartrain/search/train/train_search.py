@@ -39,7 +39,9 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the pass that counts the solutions, the best assignments, and whether they are proved to be the best."""
+    """Return the pass that counts the solutions of a part, the best assignments, and whether they are proved to be the
+    best.
+    """
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.best, passed.listed and passed.complete
@@ -54,8 +56,8 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Return a pass that lists all assignments within its tolerance, which includes at least the requested number
-    or all.
+    """Return a pass that lists all assignments within its tolerance, which includes at least the requested number of
+    assignments, or all of them.
 
     If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
     enumerate within its limit.
@@ -145,7 +147,7 @@ def _has_wrong_sense(search: PartSearch, requirement: OutputRequirement) -> bool
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
-    """Return the assignment with the minimum error that satisfies all constraints.
+    """Return the assignment with the minimum error that satisfies all constraints on counts.
 
     Return None if none was found within the limit of steps.
     """
@@ -232,10 +234,10 @@ def search_train(
 
     The algorithm is an exact join of lists of products of counts, along the factors that the outputs share. The join
     can count many more assignments than it can list. All comparisons use integers. The requirements on an output are
-    its `expect` and `published` values, at their written digits and with their signs, and every target with a
-    tolerance. If no target has a tolerance and `tolerance` is given, the first target is a requirement. The error of an
-    output that has targets but none of these requirements is minimised: the `best` assignments by error are found, and
-    proved to be the best by increasing a common tolerance.
+    its `expect` and `published` values, to the precision of their written digits and with their signs, and every target
+    with a tolerance. If no target has a tolerance and `tolerance` is given, the first target is a requirement. The
+    error of an output that has targets but none of these requirements is minimised: the `best` assignments by error are
+    found, and proved to be the best by increasing a common tolerance.
 
     Parameters
     ----------
@@ -287,7 +289,7 @@ def search_train(
     Examples
     --------
     The lost wheels of the planets' trains (Pennestri, Valentini and Petti 2002, Table 6), within a quarter per cent;
-    of 35,937 assignments for Jupiter 15 are solutions:
+    15 of 35,937 assignments for Jupiter are solutions:
 
     >>> import geartrain
     >>> found = search_train(geartrain.load("pennestri-2002-missing").declaration, best=1)
@@ -362,7 +364,9 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Return why the search of a part is not complete or its solutions are not ranked; "" if neither applies."""
+    """Return the reason why the search of a part is not complete or its solutions are not ranked; "" if neither
+    applies.
+    """
     if passed.stopped:
         return "interrupted: the count covers only the finished part"
     if passed.searched < 1:

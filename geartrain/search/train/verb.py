@@ -141,7 +141,9 @@ def _check_kept(file: str, out: Path | None) -> None:
 
 
 def _parent(file: str, out: Path | None) -> str:
-    """Return the train that a solution extends: a shipped name, or a path relative to the output file."""
+    """Return the train that a solution extends: the name of a bundled example, or a path relative to the output
+    file.
+    """
     import os
 
     from geartrain.train.declaration_files import shipped

@@ -38,7 +38,7 @@ _MODULE = "geartrain_slave"
 
 @dataclass(frozen=True)
 class CoSimulationCase(Shown):
-    """Settings of a functional mock-up unit (FMU) for co-simulation. A field that is None has the declared value.
+    """Settings of a functional mock-up unit (FMU) for co-simulation. None selects the declared value of a setting.
 
     See Also
     --------

@@ -96,7 +96,7 @@ class RackPair:
     contact_ratio: float
     """Transverse contact ratio, 1 to less than 2."""
     lean: HelixData = HelixData()
-    """Helix data of helical wheels."""
+    """Helix data of the pair; zero angles for spur wheels."""
 
     def __post_init__(self) -> None:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
@@ -236,7 +236,7 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """Return the solution of th = slope tan th - H, by Newton's method from pi/6 [rad]."""
+    """Return the angle th [rad] that solves th = slope tan(th) - H, by Newton's method from pi/6."""
     th = pi / 6
     # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):

@@ -149,7 +149,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
 
 
 def _validity_notes(run: TimeRun) -> Iterator[str]:
-    """Yield reasons why teeth in this run may separate below the predicted rates."""
+    """Yield reasons why teeth in this run may separate below the predicted input speeds."""
     if run.driven != "rate":
         yield "These rates assume an input of constant speed; the speed of this input may vary."
     if run.model == "compliant":

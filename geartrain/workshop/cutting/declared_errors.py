@@ -76,7 +76,7 @@ class WheelErrors:
 
     @property
     def true(self) -> bool:
-        """True if the wheel has no errors."""
+        """True if the wheel is free of errors."""
         return not self.tables and not any(each.size for each in self.errors.values())
 
 

@@ -133,11 +133,15 @@ class SideTerms:
     """
 
     driver: Any
-    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by the n of the driver."""
+    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by the pitches n that the driver has
+    passed.
+    """
     driven: Any
-    """Term of the driven wheel [rad of the driven wheel], shape (trials, z), indexed by its own n."""
+    """Term of the driven wheel [rad of the driven wheel], shape (trials, z), indexed by the pitches n that it has
+    passed.
+    """
     pitches: int
-    """Offset of the tooth numbers: the term n of the driver belongs to its tooth n - `pitches`."""
+    """Offset of the tooth numbers: entry n of the driver's term belongs to its tooth n - `pitches`."""
 
 
 @dataclass(frozen=True)
@@ -207,7 +211,10 @@ class DisplacedPair:
                 yield self._side(u, x, int(sign) * steps, back)
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag where tips touch beyond the path of contact [rad]; `tip1`, `tip2` are height errors."""
+        """Return the lag [rad] of the driven wheel while tips touch beyond the path of contact, at driver angles x.
+
+        `tip1` and `tip2` are the errors of the tip heights.
+        """
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
@@ -218,15 +225,15 @@ class DisplacedPair:
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return all quantities tabulated along the path of contact, each at x [rad] as by `_along`.
+        """Return all quantities tabulated along the path of contact, each interpolated at x [rad] by `_along`.
 
-        Order: across, along and tilt of both wheels, normal, even, apart.
+        They are the fields `across`, `along` and `tilt` of both wheels, then `normal`, `even` and `apart` of the contact.
         """
         at = self.contact
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the terms of equation (2) for both wheels at one x [rad]; teeth are indexed by n = tooth + j.
+        """Return the terms of both wheels, docs/cut-by-hand.md (2), at one x [rad]; teeth are indexed by n = tooth + j.
 
         late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
         """
@@ -404,7 +411,7 @@ def mean_lag(contact: DisplacedContact) -> float:
 
 
 def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:
-    """Return the terms of selected trials, for one tooth number in each trial."""
+    """Return the entries of a term array for one tooth number n in each selected trial."""
     return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
 
 

@@ -124,28 +124,33 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Front tooth pair and the back pair n before it, in one phase each, at the minimum backlash of perfect wheels."""
+    """Front tooth pair and the back pair n before it, at the minimum backlash of perfect wheels in one phase of each
+    pair.
+    """
 
     n: int
     phases: tuple[str, str]
     offset: float
-    """Angle alpha_1 at the minimum minus half of n pitches [rad]."""
+    """Driver angle alpha_1 of the front tooth at the minimum, minus half of n pitches [rad]."""
     backlash: float
     """Backlash at the minimum [rad of the driven wheel]."""
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
-    """Return the range of alpha_1 of the front tooth in which both pairs can touch [rad]; empty if low > high."""
+    """Return the range of the front tooth's driver angle in which both tooth pairs can touch [rad]; empty if low >
+    high.
+    """
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
 
 def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
-    """Return the minimum sum of two contacts, each in one phase, and its position [rad]; inf if both never touch.
+    """Return the minimum backlash of a front and a back tooth pair, each in one phase, and the driver angle there [rad].
 
-    The algorithm is Newton's method safeguarded by bisection, starting at half the reach. The last step improves the
-    value only, by a parabola.
+    The backlash is the sum of their contact functions; it is inf if the pairs never touch at once. The algorithm is
+    Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves the value only, by a
+    parabola.
     """
     low, high = common(front, back, delta)
     minimum, most = low, high
@@ -177,7 +182,10 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum of f(x) + f'(delta - x) while both tooth pairs can touch [rad]; inf if they never do."""
+    """Return the minimum over x of f(x) + f'(delta - x) [rad], while both tooth pairs can touch; inf if they never do.
+
+    Here f and f' are the contact functions of the front pair and of the mirrored back pair, and x is the driver angle.
+    """
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
         values = [minimum_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
@@ -186,7 +194,7 @@ def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
 
 
 def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
-    """Return the tooth pair of wheels without errors."""
+    """Return the contact of one tooth pair of wheels without errors."""
     return CutToothPairs.of(sizes, (0.0, 0.0), (0.0, 0.0), 0.0)
 
 
@@ -221,7 +229,10 @@ def farthest(pair: CutGearPair) -> int:
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, where tips meet at entry; 0 without contact, inf if undefined."""
+    """Return the maximum speed ratio of a tooth pair, which occurs where tips meet at entry.
+
+    The result is 0 without contact, and inf if the ratio is undefined.
+    """
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):
@@ -331,7 +342,9 @@ class MeshingCycle:
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Return an upper bound of the backlash of every tooth pair: its value where the nominal minimum is [rad]."""
+        """Return an upper bound of the backlash of every tooth pair [rad]: its value at the position of the nominal
+        minimum.
+        """
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
         with np.errstate(all="ignore"):
@@ -357,7 +370,10 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return an upper bound of the pairs that touch at once; all but two of the cycle if one may never touch."""
+        """Return an upper bound of the number of tooth pairs that touch at once.
+
+        It is the number of pairs in the cycle minus 2 if some tooth pair can never touch.
+        """
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
             return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind
@@ -399,7 +415,10 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return alpha_2 of each driven tooth held by the pair n before with its driver at `reach`; inf without it."""
+        """Return the angle alpha_2 [rad] at which the tooth pair n before holds each driven tooth; inf if it does not touch.
+
+        The driving tooth of the driven tooth's own pair is then at the angle `reach`.
+        """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
         touches = (x <= before.reach) & (before.reach > -inf) & (x > -inf)
@@ -407,7 +426,9 @@ class MeshingCycle:
 
     @staticmethod
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
-        """Return alpha_2 of the driven tooth in contact, or at the exit of its pair after that has left it [rad]."""
+        """Return the angle alpha_2 of the driven tooth in contact at driver angle x [rad]; after contact, its exit
+        angle.
+        """
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
@@ -490,7 +511,10 @@ def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Return a table of J_n for two driving teeth whose distance deviates by up to `spread` from nominal [rad]."""
+    """Return a table of the minimum backlash J_n between a front pair and the back pair n before it [rad].
+
+    The distance of the two driving teeth deviates by up to `spread` from nominal [rad].
+    """
     nodes = np.linspace(-spread, spread, _NODES)
     tooth_pair = even_tooth_pair(sizes)
     values = minimum_sum(tooth_pair, tooth_pair, n * sizes.p1 + nodes)
@@ -516,15 +540,17 @@ class _EntriesAndExits:
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its entry, determined by the pair n before, as a term of each wheel.
+        """Return the angle alpha_2 of a driven tooth at its entry as a sum of terms of both wheels [rad].
 
-        The terms are indexed by the tooth n before.
+        The pair n before determines the angle, and both terms are indexed by the tooth n before.
         """
         driver, driven = self._between(n)
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its exit as given by the pair n later, as a term of each wheel."""
+        """Return the angle alpha_2 of a driven tooth at its exit, given by the pair n later, as terms of both wheels
+        [rad].
+        """
         driver, driven = self._between(n)
         return self._held(driver - self.reach), -driven
 
@@ -541,7 +567,8 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs are compared."""
+        """Mask (trials,): True if the next tooth pair may be late at some position, so that all pairs must be compared.
+        """
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair

@@ -45,7 +45,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         """Return transmission errors [rad of the driven wheel] and speed ratios of selected trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission errors [rad of the driven wheel] and speed ratios at angles S of shape (n,) [rad].
+        """Return transmission errors [rad of the driven wheel] and speed ratios at driver angles S of shape (n,) [rad].
 
         The error is -inf if no teeth touch.
         """
@@ -64,11 +64,11 @@ class TrialTransmissionFunction(TransmissionFunction):
         return found
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission errors at angles S [rad of the driven wheel]."""
+        """Return the transmission errors [rad of the driven wheel] at driver angles S [rad]."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratios dq/dS at angles S [rad]."""
+        """Return the speed ratios dq/dS of the driven angle q at driver angles S [rad]."""
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:

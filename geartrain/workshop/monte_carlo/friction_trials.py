@@ -57,9 +57,9 @@ class FrictionSpread(NamedTuple):
     """
 
     sliding: float
-    """Mean of the coefficient."""
+    """Mean of the sliding friction coefficient [1]."""
     deviation: float
-    """Standard deviation of the coefficient."""
+    """Standard deviation of the sliding friction coefficient [1]."""
 
 
 @dataclass(frozen=True)
@@ -214,7 +214,7 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction:
-    """Return the friction with its coefficient changed by `unit` standard deviations, at least 0."""
+    """Return the friction with its coefficient changed by `unit` times its standard deviation, but not below 0."""
     spread = _spread(friction)
     # a coefficient of friction cannot be negative
     sliding = max(spread.sliding + unit * spread.deviation, 0.0)
@@ -243,17 +243,19 @@ class TrialFigure(Result):
 
     @property
     def mean(self) -> IntervalEstimate:
-        """Mean of the values, with its 95 % confidence interval."""
+        """Mean of the values of the result, with its 95 % confidence interval."""
         return mean_of(self.values)
 
     @property
     def deviation(self) -> IntervalEstimate:
-        """Standard deviation of the values, with its 95 % confidence interval."""
+        """Standard deviation of the values of the result, with its 95 % confidence interval."""
         return deviation_of(self.values)
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentiles with 95 % confidence intervals, by percentage; the outer two enclose 95 % of the values."""
+        """Percentiles of the result with 95 % confidence intervals, by percentage; the outer two enclose 95 % of the
+        values.
+        """
         return percentiles_of(self.values)
 
 
@@ -368,7 +370,9 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Return the results of some trials as plain data: four values for each trial, None if the train locks."""
+    """Return the results of some trials as plain data: four values for each trial, None for trials in which the train
+    locks.
+    """
     return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
 
 
@@ -383,7 +387,7 @@ def _link(plan: FrictionPlan) -> str:
 
 
 def trials_document(found: FrictionTrials) -> Document:
-    """Return the report on trials of friction."""
+    """Return the report on trials with random friction coefficients."""
     return Document("Torques", (), tuple(trial_sections(found)))
 
 

@@ -141,7 +141,7 @@ def _require(what: Collection[object], why: str, fix: str) -> None:
 
 
 def _jam_map(cleared: Sequence[ClearanceCase]) -> Figure:
-    """Draw a map of the probability of a jam over the clearance and the scale of the errors."""
+    """Draw a map of the probability of a jam over the clearance and the factor of the errors."""
     clearances = sorted({each.clearance for each in cleared if each.clearance is not None})
     scales = sorted({each.scale for each in cleared})
     table = np.full((len(clearances), len(scales)), np.nan)  # missing combinations remain blank
@@ -191,7 +191,7 @@ def _bands(errors: Floats) -> Floats:
 def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
     """Draw histograms of each pointer's error [deg], with lines at the percentiles 2.5, 25, 50, 75 and 97.5.
 
-    errors   pointer -> its error in every trial; NaN, in trials that jam, is excluded
+    errors   error in every trial, by pointer; NaN values, from trials that jam, are excluded
     note     text under the last panel, such as the range of positions
     Raises `QuestionError` if there is nothing to draw.
     """
@@ -258,7 +258,7 @@ def _panels(what: Mapping[str, Any], share: bool = False) -> tuple[Figure, list[
 
 
 def _bands_key() -> list[Patch]:
-    """Return legend patches in the visible shades, since each band is drawn over the wider ones."""
+    """Return legend patches in the visible shades of the bands, since each band is drawn over the wider ones."""
     through = np.cumprod([1 - shade for shade in _SHADES])
     return [
         Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)

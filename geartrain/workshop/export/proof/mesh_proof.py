@@ -52,7 +52,7 @@ class MeshProof(Result):
     pair: str
     """Name of the pair."""
     declared: float
-    """Declared backlash along the pitch circles [mm]."""
+    """Declared backlash as an arc on the pitch circles [mm]."""
     minimum: float
     """Minimum measured backlash [mm]."""
     most: float
@@ -142,7 +142,7 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
 
 
 def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
-    """Return the measured values of a mesh that is turned, with findings on the rules."""
+    """Return the measured values of a mesh whose outlines are turned through each other, with findings on the rules."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
     # arc length on the pitch circle of the second wheel, as the declared backlash

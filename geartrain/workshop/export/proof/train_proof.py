@@ -257,7 +257,7 @@ def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
 
 
 def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
-    """Yield findings on flexible wheels that overlap the internal wheel into which they are bent."""
+    """Yield findings on flexible wheels, bent by a wave generator, that overlap their internal wheel."""
     waves = () if work.frame is None else (each for each in work.frame.plan.stack.eccentrics if each.wave is not None)
     for each in waves:
         for gear in work.train.declaration.gears:

@@ -1,8 +1,8 @@
 """Train with compliant teeth: the contacts of `TrainModel`, each with stiffness and damping, and the vibration modes.
 
 Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, docs/dynamics.md (19), with the mass matrix M,
-the damping matrix C, and the stiffness matrix K = sum k r^T r over all pairs and the springs of drives. The row vector r
-gives the opening speed of a pair of stiffness k, at its mean speed ratio, from the speeds of the coordinates.
+the damping matrix C, and the stiffness matrix K = sum k r^T r over all pairs and the springs of drives. The row vector
+r gives the opening speed of a pair of stiffness k, at its mean speed ratio, from the speeds of the coordinates.
 
 Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
 wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
@@ -133,8 +133,8 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def vibration(self) -> tuple[Floats, Floats]:
-        """Squared angular frequencies in ascending order [rad2/s2], and mode shapes phi of the free coordinates, normalised by
-        the mass matrix: phi^T M phi = 1.
+        """Squared angular frequencies in ascending order [rad2/s2], and mode shapes phi of the free coordinates,
+        normalised by the mass matrix: phi^T M phi = 1.
         """
         from scipy.linalg import eigh
 

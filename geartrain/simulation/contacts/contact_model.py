@@ -59,8 +59,7 @@ class ContactPair:
         return self.front is self.back
 
     def opening_row(self, n: int, ratio: float) -> Floats:
-        """Return the coefficients of the n coordinate speeds in the opening speed of the pair, at a given speed ratio.
-        """
+        """Return the coefficients of the n coordinate speeds in the opening speed of the pair, at a given speed ratio."""
         return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 
@@ -217,8 +216,8 @@ class ContactModel:
     def _compliance(self, row: Floats) -> float:
         """Return the compliance of a contact with rigid flanks [1/(kg m2)].
 
-        It is 0 if a free coordinate moves the contact, and otherwise a small value, without which the equations would be
-        singular.
+        It is 0 if a free coordinate moves the contact, and otherwise a small value, without which the equations would
+        be singular.
         """
         if any(value and at not in self.given for at, value in enumerate(row)):
             return 0.0

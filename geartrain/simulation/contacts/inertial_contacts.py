@@ -209,7 +209,7 @@ class InertialContacts:
         return minimum_rate(*self.torques(turns))
 
     def impulses(self, kinks: Floats, width: float) -> Floats:
-        """Return the impulse of each pair at kinks of the transmission functions, divided by the input's speed [N m s2].
+        """Return the impulse of each pair at kinks of the transmission functions, per unit of input speed [N m s2].
 
         Pairs with a negative impulse separate at any input speed. The impulse is 0 where no speed jumps.
 

@@ -2,8 +2,8 @@
 
 A wheel of density rho and thickness t has the moment of inertia rho t (integral of r^2 dA) over its outline, computed
 exactly by Green's theorem. The outline has the teeth that are drawn and cut, and the wheel is a plate without spokes. A
-planet of mass m at a distance r from its carrier's axis adds m r^2 to the inertia of the carrier; its own inertia counts
-about its own axis.
+planet of mass m at a distance r from its carrier's axis adds m r^2 to the inertia of the carrier; its own inertia
+counts about its own axis.
 """
 
 from __future__ import annotations

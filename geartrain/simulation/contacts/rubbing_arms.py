@@ -3,8 +3,8 @@
 T_1 and T_2 are the torques of the driver and of the driven wheel, and tau is the speed ratio. There are four cases: two
 flanks, each with two senses of rotation. On one flank the sliding velocity changes its sign with the sense of rotation.
 With the friction coefficient f, and the coefficients `out` and `into` of the contact geometry, a contact transmits the
-fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards. The driver's torque is then tau/eta(f) times the driven
-torque, and tau/eta(-f) times it backwards, whichever wheel is the power input.
+fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards. The driver's torque is then tau/eta(f) times the
+driven torque, and tau/eta(-f) times it backwards, whichever wheel is the power input.
 """
 
 from __future__ import annotations

@@ -71,7 +71,7 @@ def find_separation(
 
     Examples
     --------
-    A pin at a radius of 10 mm drives a slot, with axes 8 mm apart; the slotted link has an inertia and bearing friction:
+    A pin at a radius of 10 mm drives a slot whose link has inertia and bearing friction; the axes are 8 mm apart:
 
     >>> import geartrain
     >>> train = geartrain.load('''
@@ -115,8 +115,7 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` has a result: all torques have units, and a link that can move has an inertia.
-    """
+    """Return True if `find_separation` has a result: all torques have units, and a link that can move has an inertia."""
     declared = train.declaration
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
@@ -263,8 +262,7 @@ def separation_section(found: SeparationRates) -> Section:
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Yield sentences on the first pair that separates, the searched range of the input, and links of unknown inertia.
-    """
+    """Yield sentences on the first pair that separates, the searched range of the input, and links of unknown inertia."""
     yield _first_separation(found)
     if found.uncounted:
         yield f"Friction not included: {', '.join(found.uncounted)}."
@@ -303,8 +301,8 @@ def _first_separation(found: SeparationRates) -> str:
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return for each pair the minimum input speed at which it separates between kinks [rad/s] and its position, and the
-    width of the narrowest interval between kinks [revolutions of the input].
+    """Return for each pair the minimum input speed at which it separates between kinks [rad/s] and its position, and
+    the width of the narrowest interval between kinks [revolutions of the input].
 
     The best intervals of each pair are refined with ever finer samples.
     """

@@ -134,8 +134,7 @@ class TrainModel:
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """Circuits (pairs and couplings) treated as contacts: all except constant ratios without backlash and losses.
-        """
+        """Circuits (pairs and couplings) treated as contacts: all except constant ratios without backlash and losses."""
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:
@@ -263,8 +262,8 @@ class TrainModel:
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return tables of the transmission functions of both flanks of a pair, its friction terms, and the transmission
-        function of the front flank.
+        """Return tables of the transmission functions of both flanks of a pair, its friction terms, and the
+        transmission function of the front flank.
         """
         if circuit.id in self._pins:
             transmission = self._pins[circuit.id]

@@ -208,8 +208,8 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 def keep_alive(names: dict[str, Any]) -> None:
     """Add a permanent reference to the global variables of the unit's script each time the script runs.
 
-    It compensates for the library through which other tools call Python, which each time releases a reference that it does
-    not own (PythonFMU 0.7.0).
+    It compensates for the library through which other tools call Python, which each time releases a reference that it
+    does not own (PythonFMU 0.7.0).
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(names))
 
@@ -218,8 +218,8 @@ def keep_alive(names: dict[str, Any]) -> None:
 def part_in_order(library: Path) -> None:
     """Register an exit handler that finalises the library before the process ends, if the process is Python.
 
-    Otherwise the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all static objects, and
-    again when it is unloaded.
+    Otherwise the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all static objects,
+    and again when it is unloaded.
     """
     if sys.platform == "linux" and sys.orig_argv and library.is_file():
         atexit.register(ctypes.CDLL(str(library)).finalizePythonInterpreter)

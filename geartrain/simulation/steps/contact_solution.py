@@ -3,10 +3,10 @@
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
 Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. A contact c
-has the impulse P_c, which acts on the coordinates with the coefficients f_c, the row r_c of its opening speed, the bound
-k_c on that speed, and the compliance 1/s_c. The speeds v+ and the impulses P_c are the solution of one system of linear
-equations (13). The compliance is 0 for rigid teeth and stops. Contacts between prescribed coordinates, whose speeds are
-known, have a compliance far below that of any mass, so that the system is regular.
+has the impulse P_c, which acts on the coordinates with the coefficients f_c, the row r_c of its opening speed, the
+bound k_c on that speed, and the compliance 1/s_c. The speeds v+ and the impulses P_c are the solution of one system of
+linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between prescribed coordinates, whose
+speeds are known, have a compliance far below that of any mass, so that the system is regular.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRIC
 
 ENERGIES = 8
 TIME_APART, TIME_COAST, IMPACT_COUNT, IMPACT_ENERGY, IMPACT_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
-"""Columns of the statistics of each pair: numbers of steps apart and on the coast flank; number, energy and maximum speed
-of impacts; impulse, friction energy, maximum gap, and number of changes of flank.
+"""Columns of the statistics of each pair: numbers of steps apart and on the coast flank; number, energy and maximum
+speed of impacts; impulse, friction energy, maximum gap, and number of changes of flank.
 """
 
 COUNTS = 9
@@ -55,7 +55,8 @@ class ContactState(NamedTuple):
     flown: Ints
     """Number of steps since each pair separated.
 
-    `stop_rate`, shape (stops, 2), has the speed of each stopped link one step ago, and when it last left its stop [rad/s].
+    `stop_rate`, shape (stops, 2), has the speed of each stopped link one step ago, and when it last left its stop
+    [rad/s].
     """
     stop_rate: Floats
 
@@ -111,8 +112,8 @@ class StepEquations(NamedTuple):
     matrix: Floats
     """Matrix of equation (13), docs/dynamics.md, shape (n + contacts, n + contacts); overwritten by the elimination."""
     solution: Floats
-    """Right side of equation (13), docs/dynamics.md, overwritten by the solution: speeds [rad/s] and impulses of the contacts
-    [N m s]; for a prescribed coordinate, the impulse of its drive instead of its speed.
+    """Right side of equation (13), docs/dynamics.md, overwritten by the solution: speeds [rad/s] and impulses of the
+    contacts [N m s]; for a prescribed coordinate, the impulse of its drive instead of its speed.
     """
     v: Floats
     """Speeds of the coordinates at the end of the step [rad/s]."""
@@ -125,8 +126,8 @@ class StepEquations(NamedTuple):
     middle: Floats
     """Mean speeds of the step [rad/s]."""
     gap: Floats
-    """Bound on the opening speed of both flanks if there were no restitution [rad/s]. For compliant teeth, gap of both flanks
-    at the middle of the step without the change of speed in the step [rad].
+    """Bound on the opening speed of both flanks if there were no restitution [rad/s]. For compliant teeth, gap of both
+    flanks at the middle of the step without the change of speed in the step [rad].
     """
     closing: Floats
     """Closing speeds of both flanks before the step [rad/s]."""
@@ -282,8 +283,7 @@ def correct_contacts(
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, stick those that turn against their friction; return the number of changes.
-    """
+    """Release bearings that creep too fast, stick those that turn against their friction; return the number of changes."""
     found = 0
     for m in range(len(system.sliding)):
         rate = 0.0

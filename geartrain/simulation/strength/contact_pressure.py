@@ -151,7 +151,8 @@ class ContactLoad:
         return [X + k * p for k in range(first, last + 1)] or [X]
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Return the force of one tooth pair at each position X [N], and the number of tooth pairs that share the torque.
+        """Return the force of one tooth pair at each position X [N], and the number of tooth pairs that share the
+        torque.
 
         The force is normal to the flanks of spur teeth, and transverse for helical teeth.
         """
@@ -178,8 +179,8 @@ class ContactLoad:
     def single(self) -> tuple[float, float]:
         """Return the positions between which one tooth pair carries the whole load [module].
 
-        Both ends of the path of contact are returned if the contact ratio is below 1, and also for helical teeth, of which
-        one pair never carries the whole load.
+        Both ends of the path of contact are returned if the contact ratio is below 1, and also for helical teeth, of
+        which one pair never carries the whole load.
         """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         low, high = recess - p, p - approach
@@ -345,8 +346,7 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the limits of the path of contact [mm], from the pitch point towards the tip of one wheel, by cause.
-        """
+        """Return the limits of the path of contact [mm], from the pitch point towards the tip of one wheel, by cause."""
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2

@@ -357,8 +357,8 @@ def _frozen(values: Floats) -> Floats:
 
 
 def batch_half_width(means: Floats) -> float | None:
-    """Return the half-width of the 95 % confidence interval of a mean, from the means of equal consecutive batches, shape
-    (n,); None for too few batches.
+    """Return the half-width of the 95 % confidence interval of a mean, from the means of equal consecutive batches,
+    shape (n,); None for too few batches.
 
     The interval is Student's t with n - 1 degrees of freedom, widened by sqrt((1 + r)/(1 - r)) for the lag-1
     correlation r of the batches, whose estimate is 1/n too low on average (Law and Kelton, Simulation Modeling and

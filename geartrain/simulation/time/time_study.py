@@ -140,7 +140,8 @@ class TimeStudy:
     def static_peaks(self) -> Sequence[float | None]:
         """Return the maximum quasi-static torque of each pair [N m], from a rigid run with almost no inertia.
 
-        The values are None for rigid teeth, and if no speed is prescribed, since such a train would accelerate without limit.
+        The values are None for rigid teeth, and if no speed is prescribed, since such a train would accelerate without
+        limit.
         """
         model = self.of.model
         if self.of.yields is None or self.of.case.drive.kind != "rate":

@@ -195,8 +195,8 @@ def radians_per_second(rate: str | float | None) -> float | None:
 class VibrationModes(Tabular, Result):
     """Vibration modes of a train with its flanks in contact, at mean speed ratios.
 
-    The mode shapes phi and angular frequencies w are solutions of K phi = w^2 M phi, with the stiffness matrix K and the
-    mass matrix M.
+    The mode shapes phi and angular frequencies w are solutions of K phi = w^2 M phi, with the stiffness matrix K and
+    the mass matrix M.
 
     See Also
     --------

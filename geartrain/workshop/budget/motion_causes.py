@@ -245,8 +245,8 @@ TRUE_MOTIONS: dict[Body, TrueMotion] = {
 def equation_of_centre(M: Floats, e: float) -> Floats:
     """Return the equation of centre [rad], true minus mean anomaly, at mean anomalies M [rad] for an eccentricity e.
 
-    Kepler's equation is solved for 0 <= e < 1 by Newton's method to rounding accuracy. It starts at the eccentric anomaly
-    E = M + e sin M, from which it converges for the small e of these orbits.
+    Kepler's equation is solved for 0 <= e < 1 by Newton's method to rounding accuracy. It starts at the eccentric
+    anomaly E = M + e sin M, from which it converges for the small e of these orbits.
     """
     E = M + e * np.sin(M)
     for _ in range(_STEPS):

@@ -337,7 +337,8 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
 def find_cutting_trials(
     plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
 ) -> tuple[TrialResults, Floats]:
-    """Return trials with cutting errors, and the output errors [rad] of perfect teeth at the input positions of the trials.
+    """Return trials with cutting errors, and the output errors [rad] of perfect teeth at the input positions of the
+    trials.
 
     The errors of perfect teeth have shape (outputs, trials).
 

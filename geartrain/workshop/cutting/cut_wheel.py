@@ -1,11 +1,11 @@
 """Triangular wheels with cutting errors, and a pair of two of them: CutWheel, CutToothPairs, CutGearPair.
 
 Teeth are numbered in the order in which they pass the line of centres as the wheel turns forward. The tip of tooth i
-is at the angle i p + place[i] behind tooth 0 of a perfect wheel, at the radius R + tip[i]; p is the pitch, R the nominal
-tip radius. Its flanks make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip, with the
-nominal half angle beta. The leading flank faces forward. It pushes if the wheel drives; the trailing flank is pushed if
-the wheel is driven. The radius of an internal wheel is negative, as in the equations of its pair, so a higher tip is
-nearer the centre.
+is at the angle i p + place[i] behind tooth 0 of a perfect wheel, at the radius R + tip[i]; p is the pitch, R the
+nominal tip radius. Its flanks make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip,
+with the nominal half angle beta. The leading flank faces forward. It pushes if the wheel drives; the trailing flank is
+pushed if the wheel is driven. The radius of an internal wheel is negative, as in the equations of its pair, so a higher
+tip is nearer the centre.
 
 Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. After
 lcm(z1, z2) tooth pairs the same teeth meet again. The leading flank of the driver pushes the trailing flank of the
@@ -263,8 +263,7 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if the tips do not meet.
-    """
+    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if the tips do not meet."""
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
@@ -324,8 +323,8 @@ class CutGearPair:
 
         Its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
 
-        If U' is the lag of the mirrored pair at first contact, the back flanks of this pair meet at the lag L(t) = -U'(-t) - p2,
-        with the driver angle t and the pitch p2 of the driven wheel.
+        If U' is the lag of the mirrored pair at first contact, the back flanks of this pair meet at the lag L(t) =
+        -U'(-t) - p2, with the driver angle t and the pitch p2 of the driven wheel.
         """
         return CutGearPair(self.sizes, self.first.mirrored(), self.second.mirrored(1), self.shift)
 

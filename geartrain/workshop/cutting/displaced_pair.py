@@ -227,7 +227,8 @@ class DisplacedPair:
     def _columns(self, x: Any) -> list[Any]:
         """Return all quantities tabulated along the path of contact, each interpolated at x [rad] by `_along`.
 
-        They are the fields `across`, `along` and `tilt` of both wheels, then `normal`, `even` and `apart` of the contact.
+        They are the fields `across`, `along` and `tilt` of both wheels, then `normal`, `even` and `apart` of the
+        contact.
         """
         at = self.contact
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]

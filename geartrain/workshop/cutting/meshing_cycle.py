@@ -146,7 +146,8 @@ def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, 
 def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
-    """Return the minimum backlash of a front and a back tooth pair, each in one phase, and the driver angle there [rad].
+    """Return the minimum backlash of a front and a back tooth pair, each in one phase, and the driver angle there
+    [rad].
 
     The backlash is the sum of their contact functions; it is inf if the pairs never touch at once. The algorithm is
     Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves the value only, by a
@@ -415,7 +416,8 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return the angle alpha_2 [rad] at which the tooth pair n before holds each driven tooth; inf if it does not touch.
+        """Return the angle alpha_2 [rad] at which the tooth pair n before holds each driven tooth; inf if it does not
+        touch.
 
         The driving tooth of the driven tooth's own pair is then at the angle `reach`.
         """
@@ -567,8 +569,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask (trials,): True if the next tooth pair may be late at some position, so that all pairs must be compared.
-        """
+        """Mask (trials,): True if the next tooth pair may be late at some position, so that all pairs must be compared."""
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair

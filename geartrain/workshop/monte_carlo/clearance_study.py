@@ -79,7 +79,8 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of a jam, clash, dwell and loss of contact for each combination of clearance and error factor.
+    """Return the probability of a jam, clash, dwell and loss of contact for each combination of clearance and error
+    factor.
 
     The same random wheels are used in all cases.
 

@@ -1,8 +1,8 @@
 """Sobol indices of a pointer error by wheel or by kind of error: Monte Carlo estimates from two independent samples.
 
 All teeth of a wheel are one input variable, and so is the position of the train's input. With the samples A and B, and
-AB(i) equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares of
-the pointer error f, whose variance is V:
+AB(i) equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares
+of the pointer error f, whose variance is V:
 
     first order   S_i = mean(f(B) (f(AB(i)) - f(A))) / V        total   T_i = mean((f(A) - f(AB(i)))^2) / 2 V
 

@@ -175,16 +175,15 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or until an eighth of a pitch is removed from a flank.
-        """
+        """Return a cut pair filed until it turns without a jam, or until an eighth of a pitch is removed from a flank."""
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
         """Return an upper bound of the jam probability, 2 lcm(z1, z2) Q(j / (2 sigma)).
 
-        Here z1 and z2 are the tooth numbers, j is the nominal backlash, `sigma` the standard deviation of the pitch deviations
-        [pitch], and Q the normal tail probability.
+        Here z1 and z2 are the tooth numbers, j is the nominal backlash, `sigma` the standard deviation of the pitch
+        deviations [pitch], and Q the normal tail probability.
         """
         return jamming_bound(self.sizes, sigma)
 
@@ -255,8 +254,7 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or until an eighth of a pitch is removed from a flank.
-        """
+        """Return a cut pair filed until it turns without a jam, or until an eighth of a pitch is removed from a flank."""
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 

@@ -59,7 +59,7 @@ class ContactPair:
         return self.front is self.back
 
     def opening_row(self, n: int, ratio: float) -> Floats:
-        """Return the coefficients of the n coordinate speeds in the opening speed of the pair, at a given speed ratio."""
+        """Return the coefficients of the n coordinate speeds in the opening speed of the pair, at a speed ratio."""
         return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 

@@ -81,7 +81,7 @@ def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANC
 def tabled_function(
     function: Callable[[Floats], Floats], transmission: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
-    """Return a table of a function of the driver angle, such as a friction term, with a transmission function's kinks."""
+    """Return a table of a function of the driver angle, such as a friction term, with a transmission's kinks."""
     return TabledFunction(0.0, fit(function, transmission.period, folded_kinks(transmission), tolerance), inf)
 
 

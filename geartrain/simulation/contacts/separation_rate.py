@@ -115,7 +115,7 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` has a result: all torques have units, and a link that can move has an inertia."""
+    """Return True if `find_separation` has a result: all torques have units, and a link that can move has inertia."""
     declared = train.declaration
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
@@ -262,7 +262,7 @@ def separation_section(found: SeparationRates) -> Section:
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Yield sentences on the first pair that separates, the searched range of the input, and links of unknown inertia."""
+    """Yield sentences on the first pair that separates, the searched input range, and links of unknown inertia."""
     yield _first_separation(found)
     if found.uncounted:
         yield f"Friction not included: {', '.join(found.uncounted)}."

@@ -134,7 +134,7 @@ class TrainModel:
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """Circuits (pairs and couplings) treated as contacts: all except constant ratios without backlash and losses."""
+        """Circuits (pairs and couplings) treated as contacts: all but constant ratios without backlash and losses."""
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:

@@ -346,7 +346,7 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the limits of the path of contact [mm], from the pitch point towards the tip of one wheel, by cause."""
+        """Return the limits of the path of contact [mm] from the pitch point towards one wheel's tip, by cause."""
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2

@@ -345,7 +345,7 @@ class StrengthQuestion:
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Return the teeth of a wheel cut to suit all mates, or only this mate if another pair of the wheel has faults."""
+        """Return the teeth of a wheel cut to suit all mates, or only this mate if another pair has faults."""
         if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:

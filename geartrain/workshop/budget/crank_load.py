@@ -124,7 +124,8 @@ def find_weight_drive(
 
 
 def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
-    """Return a copy of the train whose only load is the torque `pull` [N m] on the drum, in its direction of rotation."""
+    """Return a copy of the train with the torque `pull` [N m] on the drum, in its sense of rotation, as its only load.
+    """
     from geartrain.analysis.gear_train import GearTrain
 
     speed = train.solve(state)[link]

@@ -263,7 +263,7 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if the tips do not meet."""
+    """Return the sine of half the maximum contact angle of wheel 1, Sorge's equation (4); 0 if tips do not meet."""
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 

@@ -569,7 +569,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask (trials,): True if the next tooth pair may be late at some position, so that all pairs must be compared."""
+        """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs must be compared."""
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair

@@ -175,7 +175,7 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or until an eighth of a pitch is removed from a flank."""
+        """Return a cut pair filed until it turns without a jam, or by at most an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
@@ -254,7 +254,7 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or until an eighth of a pitch is removed from a flank."""
+        """Return a cut pair filed until it turns without a jam, or by at most an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 

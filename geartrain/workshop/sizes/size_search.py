@@ -73,11 +73,11 @@ class SizeSearch:
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Return True if a design turns and satisfies all limits of the search and the limits `more`, False otherwise."""
+        """Return True if a design turns and satisfies all limits of the search and the limits `more`."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective as a function of a point; infeasible designs have larger values than all feasible ones."""
+        """Return the objective as a function of a point; infeasible designs have larger values than feasible ones."""
 
         def figure(at: Point) -> float:
             design = self.design(at)

@@ -96,7 +96,7 @@ class TurnedPair:
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet, one entry for each different combination."""
+        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet, for each different combination."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}

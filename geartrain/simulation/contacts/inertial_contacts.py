@@ -286,7 +286,7 @@ def find_inertial_loads(
     if not any(each.value for each in inertias):
         what = f"no link of '{train.name}' has a moment of inertia"
         fix = "give links an `inertia`, such as `inertia: 30 kg mm2`, or wheels `density`, `thickness` and `module`"
-        raise QuestionError(Problem(what, "inertia is the only cause of separation", fix))
+        raise QuestionError(Problem(what, "teeth separate at a speed that depends on inertia", fix))
     turning = {link: part for link, part in train.links.items() if link != train.frame}
     load, friction = _torques(train, case)
     for key, torques in (("load", load), ("bearing", friction)):

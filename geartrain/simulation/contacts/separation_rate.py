@@ -265,7 +265,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
     """Yield sentences on the first pair that separates, the searched input range, and links of unknown inertia."""
     yield _first_separation(found)
     if found.uncounted:
-        yield f"Friction not included: {', '.join(found.uncounted)}."
+        yield f"Pairs whose friction is not included: {', '.join(found.uncounted)}."
     if not found.complete:
         yield f"The search covered {found.turns:.6g} turns of '{found.input}', which is not a full period."
     if found.unknown:
@@ -282,13 +282,13 @@ def separation_words(pair: PairSeparation) -> tuple[str, str]:
 def _first_separation(found: SeparationRates) -> str:
     first = found.first
     if first is None:
-        return f"No teeth separate at any rate of '{found.input}'."
+        return f"No teeth separate at any speed of '{found.input}'."
     where = f"after {separation_words(first)[1]} turns of '{found.input}'"
     if first.leap:
-        return f"Teeth of {first.pair} separate at any rate: {where} a speed drops abruptly, and flanks cannot pull."
+        return f"Teeth of {first.pair} separate at any speed: {where} a speed drops abruptly, and flanks cannot pull."
     if not first.rate:
         return (
-            f"Teeth of {first.pair} separate at any rate, first {where}: neither load nor bearing friction keeps them "
+            f"Teeth of {first.pair} separate at any speed, first {where}: neither load nor bearing friction keeps them "
             "in contact."
         )
     return (

@@ -156,9 +156,9 @@ def _declared_rate(
         return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.driving_link)))
     if scale is not None:
         return problem.way * scale
-    what = "the train has no rate"
-    why = "the time step is a fraction of the tooth-passing period"
-    raise QuestionError(Problem(what, why, "declare the expected rate, such as `rate: 1 turn/s`, or pass `--rate 1`"))
+    what = "no input speed is declared"
+    why = "the time step is a fraction of the tooth-passing period, which depends on the input speed"
+    raise QuestionError(Problem(what, why, "declare the input speed, such as `rate: 1 turn/s`, or pass `--rate 1`"))
 
 
 def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:

@@ -189,7 +189,9 @@ class TrainModel:
         solved = eliminate(rows)
         if solved.conditions:
             what = f"the prescribed speeds of {', '.join(self.prescribed)} depend on each other"
-            raise QuestionError(Problem(what, "ideal pairs connect these links rigidly", "prescribe only one of them"))
+            raise QuestionError(
+                Problem(what, "pairs with a constant ratio couple these links", "prescribe only one of them")
+            )
         pivots = solved.forms()
         columns = [each for each in range(len(self.index)) if each not in pivots and each not in symbols]
         place = {symbol: at for at, symbol in enumerate((*symbols.values(), *columns))}
@@ -229,7 +231,7 @@ class TrainModel:
             name for at, name in enumerate(self.coordinates) if found[at, at] <= 0 and name not in self.prescribed
         ]
         if lacking:
-            what = f"no inertia turns with {', '.join(lacking)}"
+            what = f"no link that turns with {', '.join(lacking)} has a moment of inertia"
             why = "a link without inertia has no equation of motion after teeth separate"
             fix = "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels"
             raise QuestionError(Problem(what, why, fix))

@@ -283,8 +283,7 @@ def correct_contacts(
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, stick those turning against their friction; return the number of changes.
-    """
+    """Release bearings that creep too fast, stick those turning against friction; return the number of changes."""
     found = 0
     for m in range(len(system.sliding)):
         rate = 0.0

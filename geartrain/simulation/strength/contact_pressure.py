@@ -289,7 +289,7 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
     # an axis ratio below exp(-34) is close to the rounding error: practically a line
     elif ratio(-34.0) < 0:
         why = f"their generatrices cross at only {crossing:.3g} rad"
-        what = "nearly parallel cylinders have no contact ellipse"
+        what = "the contact ellipse of nearly parallel cylinders cannot be computed"
         raise RangeError(Problem(what, why, "use the pressure of a line contact, `hertz_pressure`"))
     else:
         # in logarithms, because long ellipses have axis ratios down to 1e-15

@@ -124,8 +124,7 @@ def find_weight_drive(
 
 
 def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
-    """Return a copy of the train with the torque `pull` [N m] on the drum, in its sense of rotation, as its only load.
-    """
+    """Return a copy of the train whose only load is the torque `pull` [N m] on the drum, in its sense of rotation."""
     from geartrain.analysis.gear_train import GearTrain
 
     speed = train.solve(state)[link]

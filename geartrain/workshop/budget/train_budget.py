@@ -95,7 +95,7 @@ class BudgetQuestion:
         if not 0 < self.span_days < 1e9:
             what = f"a span of {self.span_days:g} days is out of range"
             raise QuestionError(
-                Problem(what, "a span is above 0 and below 1e9 days", "for example, give --span '6940 d'")
+                Problem(what, "a span must be above 0 and below 1e9 days", "for example, give --span '6940 d'")
             )
         if self.samples < 2 or not 0 < self.turns <= 1e6:
             what = f"{self.samples} positions in {self.turns:g} turns are out of range"

@@ -143,7 +143,7 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
         known = wheels if each.kind in OF_WHEELS else pairs
         if each.of and each.of not in known:
             part = "wheel" if each.kind in OF_WHEELS else "pair"
-            what = f"{part} '{each.of}' of the error '{each.kind}' is not in the trials"
+            what = f"the error '{each.kind}' is given for the {part} '{each.of}', which is not in the trials"
             why = f"'{each.kind}' applies only to a {part} with triangular teeth or with a known path of contact"
             raise QuestionError(Problem(what, why, suggest(each.of, known)))
 

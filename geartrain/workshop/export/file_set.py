@@ -217,8 +217,8 @@ def export_files(
     """
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
-        what = f"'{unknown[0]}' is not a kind of export"
-        why = "each kind is the name of a format"
+        what = f"'{unknown[0]}' is not an export format"
+        why = "geartrain does not export files in this format"
         raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
     files += [ExportFile(*each) for each in step_pictures(work)] if "svg" in kinds else []

@@ -174,7 +174,7 @@ def find_friction_plan(
     if not plan.spreads:
         why = "each trial draws friction coefficients from distributions with declared standard deviations"
         fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
-        raise QuestionError(Problem(f"'{train.name}' declares no random friction", why, fix))
+        raise QuestionError(Problem(f"'{train.name}' declares no random friction coefficient", why, fix))
     return plan
 
 

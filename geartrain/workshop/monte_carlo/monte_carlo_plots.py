@@ -103,7 +103,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     """
     if picture not in PICTURES:
         what = f"'{picture}' is not a kind of picture"
-        raise QuestionError(Problem(what, "each kind shows one study", f"use one of {', '.join(PICTURES)}"))
+        raise QuestionError(Problem(what, "the kind selects the study to draw", f"use one of {', '.join(PICTURES)}"))
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
 
@@ -316,7 +316,9 @@ def _check(x: Floats, y: Floats, table: Floats) -> None:
     if not (rising and table.shape == (x.size, y.size) and finite.size and finite.min() >= 0 and finite.max() <= 1):
         what = f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}"
         why = "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)"
-        raise QuestionError(Problem(what, why, "give arrays of shapes (n,), (m,) and (n, m)"))
+        raise QuestionError(
+            Problem(what, why, "give ascending arrays of shapes (n,) and (m,), and probabilities of shape (n, m)")
+        )
 
 
 # -------------------------------------------------------------------------------------------------------- tornado chart

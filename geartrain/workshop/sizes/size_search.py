@@ -147,7 +147,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
     for name, given in free.items():
         if name not in PARAMETERS:
             what = f"'{name}' is not a free parameter of triangular teeth"
-            why = "other sizes follow from these parameters or are fixed"
+            why = "all other sizes are fixed, or follow from the free parameters"
             if name in _CLEARANCES:
                 why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
             raise QuestionError(Problem(what, why, f"use one or more of {', '.join(PARAMETERS)}"))

@@ -115,7 +115,7 @@ def _path_kept() -> Iterator[None]:
 
 
 def _repacked(data: bytes) -> bytes:
-    """Return the same archive with sorted entries and without modification times."""
+    """Return a copy of a ZIP archive with sorted entries and without modification times."""
     found = BytesIO()
     with ZipFile(BytesIO(data)) as old, ZipFile(found, "w", ZIP_DEFLATED) as new:
         for name in sorted(old.namelist()):

@@ -272,7 +272,7 @@ class RootSection:
     """Section of maximum bending stress; lengths in modules."""
 
     x: float
-    """Distance from the wheel's axis; `thickness` is the tooth thickness there [module]."""
+    """Distance of the section from the wheel's axis; `thickness` is the tooth thickness there [module]."""
     thickness: float
     factor: float
     """Bending stress divided by torque/(width module^2)."""
@@ -328,7 +328,10 @@ class ToothSide:
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """Return a force at `radius` on a line at the distance `arm` from the axis [module]: docs/strength.md (4)."""
+        """Return a force that acts at `radius`, on a line at the distance `arm` from the axis [module].
+
+        The result is the load of docs/strength.md (4).
+        """
         # rounding may put the point of load inside the base circle
         pressure = acos(min(arm / radius, 1.0))
         angle = pressure - self.outward * self.half(radius)

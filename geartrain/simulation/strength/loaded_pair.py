@@ -79,7 +79,7 @@ class PairUnderLoad:
     """Gear pair under load, whose pressures, stresses and wear are computed; lengths in mm."""
 
     mesh: GearMesh
-    """Mesh of the pair."""
+    """Declared gear pair with its tooth form."""
     wheels: tuple[WheelUnderLoad, WheelUnderLoad]
     """Both wheels in the order of the pair."""
     module: float

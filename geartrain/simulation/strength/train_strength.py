@@ -176,7 +176,7 @@ class StrengthQuestion:
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Cut teeth by wheel, suited to all mates."""
+        """Cut teeth of each wheel that suit all its mates, by wheel."""
         return self._cut.wheels
 
     @cached_property

@@ -151,11 +151,11 @@ def _sections(found: TimeReport) -> Iterator[Section]:
 def _validity_notes(run: TimeRun) -> Iterator[str]:
     """Yield reasons why teeth in this run may separate below the predicted input speeds."""
     if run.driven != "rate":
-        yield "The separation rates assume an input of constant speed; the speed of this input may vary."
+        yield "Separation rates assume an input of constant speed; the speed of this input may vary."
     if run.model == "compliant":
-        yield "The separation rates assume rigid teeth; compliant teeth vibrate at jumps of the ratio and may separate earlier."
+        yield "Separation rates assume rigid teeth; compliant teeth vibrate at ratio jumps and may separate earlier."
     elif run.restitution:
-        yield "The separation rates assume no restitution; with restitution, teeth bounce wherever their speed ratio jumps."
+        yield "Separation rates assume no restitution; with restitution, teeth bounce wherever their speed ratio jumps."
 
 
 def _summary(run: TimeRun) -> Iterator[str]:

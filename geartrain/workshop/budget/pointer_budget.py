@@ -23,7 +23,7 @@ MEASURES: Mapping[CauseName, str] = {
     "lost motion": "maximum",
     "cutting": "central 95 % range",
 }
-"""Quantity that the degrees of each cause represent, in words."""
+"""Description of the quantity that the degrees of each cause measure, by cause."""
 
 
 @dataclass(frozen=True, slots=True)

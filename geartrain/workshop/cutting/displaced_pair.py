@@ -360,7 +360,10 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag due to tooth pairs k at driver angles S [rad of the driven wheel]; for back flanks a lead."""
+        """Return the lag due to tooth pairs k at driver angles S [rad of the driven wheel].
+
+        For back flanks it is the angle by which the driven wheel is ahead.
+        """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z

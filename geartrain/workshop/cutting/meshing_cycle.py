@@ -472,7 +472,7 @@ def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def _parts(chosen: Bools, size: int) -> Iterator[Ints]:
-    """Yield the indices of the true entries, at most `size` at a time."""
+    """Yield the indices of the true entries of a mask, at most `size` at a time."""
     rows = np.flatnonzero(chosen)
     return (rows[at : at + size] for at in range(0, len(rows), size))
 

@@ -128,10 +128,12 @@ def find_tooth_sizes(
     start : ToothSizes
         Initial design; parameters that are not free keep its values.
     aims : sequence of str
-        One or two of the objectives `loss`, `error`, `impact` and `jam`; two give a Pareto front.
+        One or two of the objectives `loss`, `error` (transmission error), `impact` and `jam` (margin before a jam); two
+        give a Pareto front.
     free : mapping of str to (float, float), optional
-        Bounds of the free parameters `radii`, `window`, `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By
-        default only the radii are free.
+        Bounds of the free parameters `radii` (tip radius ratio divided by tooth ratio), `window` (position in the
+        clearance window, 0 to 1) and `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By default only the
+        radii are free.
     limits : sequence of SizeLimit
         Limits that the design must satisfy.
     probability : ProbabilityLimit, optional

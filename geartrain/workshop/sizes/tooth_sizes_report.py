@@ -123,7 +123,7 @@ def _size(name: str, value: float) -> str:
 
 
 def figure_text(figure: str, value: float) -> str:
-    """Return a string of a property of a design with its unit."""
+    """Return a property of a design with its unit, as a string."""
     if figure == "loss":
         return f"{100 * value:.4f} %"
     if figure in ("error", "backlash", "half_angle"):
@@ -141,7 +141,7 @@ def sizes_text(sizes: ToothSizes) -> str:
 
 
 def free_text(free: Mapping[str, tuple[float, float]]) -> str:
-    """Return a string of the free parameters with their bounds."""
+    """Return the free parameters with their bounds, as a string."""
     parts = []
     for name, (low, high) in free.items():
         unit = (degrees(low), degrees(high), " deg") if name == "half_angle" else (low, high, "")

@@ -276,7 +276,7 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield the common area of a bent flexible wheel and its internal wheel at each position of the wave [mm2]."""
+    """Yield the common area of a bent flexible wheel and its internal wheel [mm2] for each wave generator position."""
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring

@@ -67,7 +67,11 @@ class _State(NamedTuple):
     speed: Floats
     acceleration: Floats
     inverse: Floats
-    """Inverse of the matrix J for virtual work, with friction in each driver's lever arm, shape (n, pairs, pairs)."""
+    """Inverse of the matrix that couples pair errors, with friction in each driver's lever arm, shape (n, pairs,
+    pairs).
+
+    It is used for virtual work.
+    """
     virtual: Floats
     """Virtual speeds of the links, with friction in each driver's lever arm, shape (links, n)."""
 
@@ -100,7 +104,7 @@ class InertialContacts:
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
-        """Return the inverse of J = I - diag(slope) G at each position, shape (n, pairs, pairs).
+        """Return the inverse of the matrix J = I - diag(slope) G that couples pair errors, shape (n, pairs, pairs).
 
         The gains G are the angles of the drivers per error of each pair.
         """
@@ -188,7 +192,10 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques of the pairs under torques f on the links, by the transposed matrices: sense J^-T R^T f."""
+        """Yield the torques that the pairs carry under torques f on the links: sense J^-T R^T f.
+
+        J is the matrix that couples pair errors, and R the response of the links.
+        """
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)

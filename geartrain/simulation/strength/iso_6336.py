@@ -75,7 +75,7 @@ class HelixData:
         return sqrt((4 - contact_ratio) / 3 * (1 - part) + part / contact_ratio)
 
     def single(self, M: float) -> float:
-        """Return the single pair contact factor ZB or ZD from the factor M of a spur wheel.
+        """Return the single pair contact factor ZB or ZD of a helical wheel from the factor M1 or M2 of a spur wheel.
 
         It is 1 from an overlap ratio of 1, with linear interpolation below.
         """
@@ -282,7 +282,10 @@ class RootSection:
         return self.factor * torque / (width * module**2)
 
     def lewis_factor(self, pitch_radius: float) -> float:
-        """Return Lewis's form factor Y = Ft/(b m stress), with the tangential force Ft at `pitch_radius` [module]."""
+        """Return Lewis's form factor Y = Ft/(b m stress), with the face width b and the module m.
+
+        Ft is the tangential force at `pitch_radius` [module].
+        """
         return 1 / (self.factor * pitch_radius)
 
 

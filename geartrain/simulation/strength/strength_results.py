@@ -76,7 +76,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     turns: float | None = None
     """Revolutions of the input over which wear accumulates; None if no service life is given."""
     wear_coefficients: WearRange = NO_WEAR
-    """Minimum and maximum wear coefficient K of Archard's law."""
+    """Minimum and maximum wear coefficient K [1] of Archard's law."""
     neglected: tuple[NeglectedEffect, ...] = ()
     """Pairs and arbors without results, and neglected torque variations, each with the reason."""
     forces: tuple[WheelForce, ...] = ()

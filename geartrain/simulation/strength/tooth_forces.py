@@ -122,7 +122,9 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Return the pitch radius [mm]: m z/2 divided by the cosine of the helix angle."""
+        """Return the pitch radius [mm]: half the normal module times the tooth number, over the cosine of the helix
+        angle.
+        """
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)

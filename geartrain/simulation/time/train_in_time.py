@@ -169,7 +169,10 @@ def find_vibration_modes(
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
-    """Convert a rate to rad/s; return None for None. Raises `QuestionError` if the rate is not a positive speed."""
+    """Convert an input speed to rad/s; return None for None.
+
+    Raises `QuestionError` if the speed is not positive.
+    """
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity

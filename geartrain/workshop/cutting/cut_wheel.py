@@ -47,13 +47,13 @@ class CutWheel:
     """
 
     radius: float
-    """Tip radius R of the perfect wheel [any unit of length]; negative for an internal wheel."""
+    """Tip radius of the perfect wheel [any unit of length]; negative for an internal wheel."""
     half_angle: float
     """Half angle of the teeth of the perfect wheel [rad]."""
     place: Floats
     """Angle of each tip behind its nominal position [rad]."""
     tip: Floats
-    """Height of each tip above R [unit of R]."""
+    """Height of each tip above the nominal tip radius [unit of `radius`]."""
     leading: Floats
     """Angle by which each leading flank, rotated about the tip, is flatter than the half angle [rad]."""
     trailing: Floats
@@ -93,7 +93,7 @@ class CutWheel:
 
     @property
     def r(self) -> Floats:
-        """Radius of each tip [unit of R], negative for an internal wheel."""
+        """Radius of each tip [unit of `radius`], negative for an internal wheel."""
         return self.radius + self.tip
 
     @property
@@ -107,7 +107,7 @@ class CutWheel:
         return CutWheel(self.radius, self.half_angle, *some)
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return the wheel cut about a centre at a distance e from the axis [unit of R], in a direction [rad]."""
+        """Return the wheel cut about a centre at a distance e from the axis [unit of `radius`] in a direction [rad]."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         # the flanks keep their directions, but the radius through the tip turns
@@ -195,8 +195,6 @@ def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tupl
 class CutToothPairs(ToothPair):
     """Contact of many pairs of a driving and a driven tooth; all arrays broadcast with each other and with the angles.
 
-    alpha_1 and alpha_2 are the angles of the driving and of the driven tooth from the line of centres [rad].
-
     R1, R2         radii of the tips, negative for an internal wheel
     beta1, beta2   half angles of the two flanks in contact (rad)
     D              centre distance, negative for an internal pair
@@ -231,9 +229,10 @@ class CutToothPairs(ToothPair):
         )
 
     def contact(self, x: Any) -> Any:
-        """Return the angle alpha_2 of the driven tooth while the driving tooth is at alpha_1 = x [rad].
+        """Return the angle of the driven tooth from the line of centres [rad], with the driving tooth at the angle x
+        [rad].
 
-        It is f(x), the minimum of the angles in the approach and recess phases, valid for |x| up to `reach`.
+        It is the minimum of the angles in the approach and recess phases, valid for |x| up to `reach`.
         """
         return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))  # far out of reach one of them is NaN
 
@@ -330,7 +329,7 @@ class CutGearPair:
 
     @cached_property
     def widest(self) -> float:
-        """Upper bound of |alpha_1|, the driver's angle from the line of centres, at which teeth can touch [rad]; else
+        """Maximum angle of a driving tooth from the line of centres at which it can touch [rad], an upper bound; else
         -inf.
         """
         one, two, sizes = self.first, self.second, self.sizes

@@ -127,9 +127,11 @@ class DisplacedWheel:
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lags of the tooth pairs on the front or back flanks at one position of the driver within a pitch.
+    """Lags of the driven wheel due to the tooth pairs on the front (drive) or back (coast) flanks, at one driver
+    position.
 
-    The lag is the sum of a term of each wheel, indexed by the number n of pitches passed.
+    The position is within a pitch. The lag is the sum of a term of each wheel, indexed by the number n of pitches
+    passed.
     """
 
     driver: Any
@@ -184,7 +186,7 @@ class DisplacedPair:
 
     @property
     def _lag_varies(self) -> bool:
-        """True if the lag of perfect wheels varies along the path of contact."""
+        """True if the lag of the driven wheel of a perfect pair varies along the path of contact."""
         even = self.contact.even
         return bool(even.any() and np.ptp(even) > 0)
 
@@ -275,7 +277,9 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the terms of each front and back tooth pair that can touch at the same driver position."""
+        """Yield the terms of each front (drive-flank) and back (coast-flank) tooth pair that can touch at one driver
+        position.
+        """
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
@@ -360,7 +364,7 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag due to tooth pairs k at driver angles S [rad of the driven wheel].
+        """Return the lag of the driven wheel [rad] due to tooth pairs k at driver angles S [rad].
 
         For back flanks it is the angle by which the driven wheel is ahead.
         """
@@ -386,7 +390,9 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag at driver angles S [rad], and the number of its tooth pair; inf without contact."""
+        """Return the minimum lag of the driven wheel [rad] at driver angles S [rad], and the number of the tooth pair
+        that causes it; inf without contact.
+        """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
         low, high = self.widest
@@ -405,7 +411,7 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of perfect wheels [rad of the driven wheel]; 0 for conjugate flanks at nominal distance."""
+    """Return the mean lag of the driven wheel of a perfect pair [rad]; 0 for conjugate flanks at nominal distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))

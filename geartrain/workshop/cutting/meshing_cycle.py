@@ -62,7 +62,7 @@ class MeshingVerdicts:
     dwell: Bools
     """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
     disengaged: Bools
-    """Mask of losses of contact: at some position no front or no back flanks can touch."""
+    """Mask of losses of contact: at some position no front (drive) flanks or no back (coast) flanks can touch."""
 
     @property
     def jams(self) -> Bools:
@@ -124,14 +124,16 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Front tooth pair and the back pair n before it, at the minimum backlash of perfect wheels in one phase of each
-    pair.
+    """Drive-flank (front) tooth pair and coast-flank (back) pair n before it, at the minimum backlash of perfect
+    wheels.
+
+    Each pair is in one given phase, approach or recess.
     """
 
     n: int
     phases: tuple[str, str]
     offset: float
-    """Driver angle alpha_1 of the front tooth at the minimum, minus half of n pitches [rad]."""
+    """Angle of the front driving tooth from the line of centres at the minimum, minus half of n pitches [rad]."""
     backlash: float
     """Backlash at the minimum [rad of the driven wheel]."""
 
@@ -146,8 +148,8 @@ def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, 
 def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
-    """Return the minimum backlash of a front and a back tooth pair, each in one phase, and the driver angle there
-    [rad].
+    """Return the minimum backlash of a front (drive-flank) and a back (coast-flank) tooth pair, each in one phase, and
+    the driver angle there [rad].
 
     The backlash is the sum of their contact functions; it is inf if the pairs never touch at once. The algorithm is
     Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves the value only, by a
@@ -183,9 +185,10 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum over x of f(x) + f'(delta - x) [rad], while both tooth pairs can touch; inf if they never do.
+    """Return the minimum of f(x) + f'(delta - x) over the driver angles x at which both tooth pairs can touch [rad].
 
-    Here f and f' are the contact functions of the front pair and of the mirrored back pair, and x is the driver angle.
+    Here f and f' are the contact functions of the front (drive-flank) pair and of the mirrored back (coast-flank) pair.
+    The result is inf if the pairs never touch at once.
     """
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
@@ -201,9 +204,10 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
-    """Return the minima of backlash of perfect wheels for all distances n up to `most` tooth pairs.
+    """Return the minima of backlash of perfect wheels, for coast-flank pairs up to `most` tooth pairs before a
+    drive-flank pair.
 
-    For each n, these are the phases whose minimum is within `SLACK` of the smallest.
+    For each distance n, these are the phases whose minimum is within `SLACK` of the smallest.
     """
     tooth_pair = even_tooth_pair(sizes)
     candidates = []
@@ -305,7 +309,8 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Return for each trial the minimum backlash, its front tooth pair, and the distance to its back tooth pair.
+        """Return for each trial the minimum backlash [rad], its front (drive-flank) tooth pair, and the distance to its
+        back (coast-flank) tooth pair.
 
         The distance is the number of tooth pairs by which the back pair precedes the front pair.
 
@@ -354,11 +359,17 @@ class MeshingCycle:
             return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
     def _driven_term(self, n: int) -> Any:
-        """Return the term of the driven teeth in the backlash of a front pair and the back pair n before it [rad]."""
+        """Return the term of the driven teeth [rad] in the backlash of each front (drive-flank) pair and the back
+        (coast-flank) pair n before it.
+        """
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the backlash [rad] of selected front pairs (trial, tooth pair) and back pairs n before, exactly."""
+        """Return the exact backlash [rad] of selected front (drive-flank) pairs and the back (coast-flank) pairs n
+        before them.
+
+        `rows` and `columns` are the indices of the trials and of the front pairs.
+        """
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each
@@ -407,7 +418,11 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash (trials,) where back tooth pairs enter and the driven wheel may dwell [rad]."""
+        """Return the minimum backlash [rad] at positions where a coast-flank pair enters and the driven wheel may
+        dwell.
+
+        The result has shape (trials,).
+        """
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
@@ -416,10 +431,10 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return the angle alpha_2 [rad] at which the tooth pair n before holds each driven tooth; inf if it does not
-        touch.
+        """Return the driven tooth's angle from the line of centres at which the tooth pair n before holds it [rad].
 
-        The driving tooth of the driven tooth's own pair is then at the angle `reach`.
+        The driving tooth of the driven tooth's own pair is then at the angle `reach`. The result is inf without
+        contact.
         """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
@@ -428,15 +443,16 @@ class MeshingCycle:
 
     @staticmethod
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
-        """Return the angle alpha_2 of the driven tooth in contact at driver angle x [rad]; after contact, its exit
-        angle.
+        """Return the driven tooth's angle from the line of centres [rad] in contact at driver angle x [rad].
+
+        After contact it is the angle at which the tooth left.
         """
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask (trials,) of losses of contact: somewhere no front or no back tooth pair can touch."""
+        """Return a mask (trials,) of losses of contact: somewhere no drive flanks or no coast flanks can touch."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -513,7 +529,7 @@ def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Return a table of the minimum backlash J_n between a front pair and the back pair n before it [rad].
+    """Return a table of the minimum backlash J_n [rad] between a drive-flank pair and the coast-flank pair n before it.
 
     The distance of the two driving teeth deviates by up to `spread` from nominal [rad].
     """
@@ -542,7 +558,8 @@ class _EntriesAndExits:
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
-        """Return the angle alpha_2 of a driven tooth at its entry as a sum of terms of both wheels [rad].
+        """Return the driven tooth's angle from the line of centres at its entry [rad], as a sum of terms of both
+        wheels.
 
         The pair n before determines the angle, and both terms are indexed by the tooth n before.
         """
@@ -550,8 +567,9 @@ class _EntriesAndExits:
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return the angle alpha_2 of a driven tooth at its exit, given by the pair n later, as terms of both wheels
-        [rad].
+        """Return the driven tooth's angle from the line of centres at its exit [rad], as a sum of terms of both wheels.
+
+        The pair n later determines the angle.
         """
         driver, driven = self._between(n)
         return self._held(driver - self.reach), -driven

@@ -72,7 +72,9 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean error of perfect wheels [rad] and an rms deviation of 0, as superposition requires."""
+        """Return the mean error of perfect wheels [rad], and 0 as rms deviation, which superposition of errors
+        requires.
+        """
         return self.even, 0.0
 
     def error_range(self) -> tuple[float, float]:
@@ -121,7 +123,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag due to tooth pairs k [rad of the driven wheel]; inf before contact, constant after it."""
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it."""
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)

@@ -283,13 +283,16 @@ class FrictionTrials(Result):
     spreads: Mapping[str, FrictionSpread]
     """Distributions of the friction coefficients, by `train`, pair or coupling."""
     mean: TrialFigure
-    """Mean torque over the run, in the trials without locking [N m, or the unit of the loads]."""
+    """Distribution of the mean torque over the run [N m, or the unit of the loads], in trials in which the train turns.
+    """
     maximum: TrialFigure
-    """Maximum torque over the run, in the trials without locking [N m, or the unit of the loads]."""
+    """Distribution of the maximum torque over the run [N m, or the unit of the loads], in trials in which the train
+    turns.
+    """
     starting: TrialFigure
-    """Starting torque of the train, in the trials without locking [N m, or the unit of the loads]."""
+    """Distribution of the starting torque [N m, or the unit of the loads], in trials in which the train turns."""
     efficiency: TrialFigure
-    """Efficiency over the run: output energy divided by input energy, in the trials in which it is defined."""
+    """Distribution of the efficiency over the run, output energy divided by input energy, where it is defined."""
     locks: ProbabilityEstimate
     """Probability that friction locks the train at some position of the run."""
 

@@ -1,4 +1,4 @@
-"""Report on trials of a train with cutting errors: event rates of pairs, pointer errors and their causes."""
+"""Report on trials of a train with cutting errors: event probabilities of pairs, pointer errors and their causes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Input data of the trials of a train: wheels with errors, pairs with sizes, and the composition of errors.
+"""Input data of the trials of a train: wheels with errors, pairs with sizes, and the motion composed of its pairs.
 
 A `TrialPair` is a gear pair that can be drawn, evaluated, filed and set in motion, with any tooth form. A `TrialPlan`
 contains all pairs of a train and the composition of their errors at the outputs.
@@ -117,7 +117,10 @@ class TrialPair(ABC):
         """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]; NaN if unknown."""
+        """Return an upper bound of the jam probability; NaN if unknown.
+
+        The pitch deviations are normally distributed with the standard deviation `sigma` [pitch].
+        """
         return nan
 
     @property

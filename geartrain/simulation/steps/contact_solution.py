@@ -93,7 +93,7 @@ class CompliantTeeth(NamedTuple):
     damping: Floats
     """Torsional damping [N m s/rad]."""
     peak: Floats
-    """Maximum contact torque in the counted part [N m]; updated by the kernel."""
+    """Maximum contact torque in the evaluated part of the run [N m]; updated by the kernel."""
     impact: Ints
     """Index of the last impact of each pair, -1 for none; updated by the kernel."""
 

@@ -93,7 +93,7 @@ class PairUnderLoad:
     swing: float = 1.0
     """Ratio of the design torque, for stresses, to the mean torque, for wear."""
     remarks: tuple[str, ...] = ()
-    """Restrictions that apply to the wheels of the pair."""
+    """Restrictions on the validity of the results that follow from the wheels of the pair."""
 
     def strength(self) -> PairStrength:
         """Return the stresses, safety factors and wear of the pair."""

@@ -112,7 +112,7 @@ class RunFigures:
 
     @cached_property
     def contacts(self) -> tuple[ContactInTime, ...]:
-        """Results of each contact."""
+        """Results of each pair, pin and escapement in the counted part of the run."""
         steps, time = self.plan.steps, self.duration
         return tuple(
             ContactInTime(

@@ -71,7 +71,9 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Tooth depth divided by the tip radius; for displaced flanks in modules, for bevel gears in rad."""
+        """Tooth depth: divided by the tip radius for triangular teeth, in modules for displaced flanks, in rad for
+        bevel gears.
+        """
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property

@@ -135,11 +135,11 @@ class SideTerms:
     """
 
     driver: Any
-    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by the pitches n that the driver has
+    """Contribution of the driver to the lag [rad of the driven wheel], shape (trials, z), by pitches n that it has
     passed.
     """
     driven: Any
-    """Term of the driven wheel [rad of the driven wheel], shape (trials, z), indexed by the pitches n that it has
+    """Contribution of the driven wheel to the lag [rad of this wheel], shape (trials, z), by pitches n that it has
     passed.
     """
     pitches: int
@@ -201,7 +201,7 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the terms of all tooth pairs that can touch, at the driver angle u within a pitch [rad]."""
+        """Yield the lag contributions of all tooth pairs that can touch, at the driver angle u within a pitch [rad]."""
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
@@ -236,7 +236,7 @@ class DisplacedPair:
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the terms of both wheels, docs/cut-by-hand.md (2), at one x [rad]; teeth are indexed by n = tooth + j.
+        """Return the contributions of both wheels to the lag at one x [rad], docs/cut-by-hand.md (2), by n = tooth + j.
 
         late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
         """
@@ -267,7 +267,9 @@ class DisplacedPair:
 
     @staticmethod
     def _eccentric_terms(wheel: DisplacedWheel, turned: float, stands: float, across: float, along: float) -> Any:
-        """Return the term of an eccentric wheel for each number n of pitches passed [rad of the driven wheel]."""
+        """Return the lag [rad of the driven wheel] due to the eccentricity of a wheel, for each number n of pitches
+        passed.
+        """
         if not np.any(wheel.e):
             return 0.0
         angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + stands
@@ -277,7 +279,7 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the terms of each front (drive-flank) and back (coast-flank) tooth pair that can touch at one driver
+        """Yield the lag contributions of each drive-flank and coast-flank tooth pair that can touch at one driver
         position.
         """
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)

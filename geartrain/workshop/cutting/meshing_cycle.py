@@ -113,7 +113,7 @@ def batch_verdicts(
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
-    """Yield a batch in parts of at most `trials` trials."""
+    """Yield parts of a batch of pairs, each with at most `trials` trials."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
         yield pair.taken(slice(start, min(start + step, count)))

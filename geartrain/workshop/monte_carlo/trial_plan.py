@@ -347,8 +347,8 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def jamming_bound(self, pair: TrialPair) -> float:
-        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed or has other errors than
-        normal pitch deviations, or if no bound is known for its teeth.
+        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed, if it has errors other
+        than normally distributed pitch deviations, or if no bound is known for its teeth.
 
         Parameters
         ----------

@@ -105,7 +105,7 @@ def run(
 
 
 def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
-    """Write a declaration that extends the given train, by its name if it is shipped, else by its path."""
+    """Write a declaration that extends the given train, by its name if geartrain contains it, else by its path."""
     from geartrain.train.yaml_nodes import as_yaml
 
     parent = file

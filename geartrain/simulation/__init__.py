@@ -1,10 +1,11 @@
-"""Motion in time, strength and wear, and co-simulation units of gear trains.
+"""Motion in time, strength and wear of gear trains, and their export as co-simulation units.
 
-Inputs are a train with inertia, loads, a rate and materials. Results are the rate at which teeth first separate, motion
-in time with impacts and energy, vibration modes, contact pressure, root stress and wear, and a co-simulation unit.
+Inputs are a train with moments of inertia, loads, an input speed and materials. Results are the input speed at which
+tooth contact is first lost, motion in time with impacts and an energy balance, vibration modes, contact pressure, root
+stress and wear, and a co-simulation unit.
 
-contacts   moments of inertia, separation rates, and the contact model that is stepped
-steps      the equations of one step, the search for contacts, the energy balance
+contacts   moments of inertia, input speeds at which teeth separate, and the contact model for time integration
+steps      the equations of one time step, the search for closed contacts, the energy balance
 time       runs and their results, spectra, modes, step-by-step simulation
 strength   pressures, stresses and wear of a loaded train: ISO 6336, Hertz, Lewis and Archard
 fmu        co-simulation units (FMI)

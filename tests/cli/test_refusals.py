@@ -97,7 +97,7 @@ export planetary-24-18-60 -o x.pdf | a train cannot be written as '.pdf'
 export planetary-24-18-60 -o x | a train cannot be written as 'x'
 export planetary-24-18-60 -o x.glb --wheel s | a wheel cannot be written as '.glb'
 export planetary-24-18-60 -o x.svg --wheel nobody | the train has no wheel 'nobody'
-export planetary-24-18-60 --to d --as svg,pdf | 'pdf' is not a kind of export
+export planetary-24-18-60 --to d --as svg,pdf | 'pdf' is not an export format
 export planetary-24-18-60 --to d --wheel s | only to one file
 export planetary-24-18-60 -o x.glb --turns many | not a valid number of turns
 export planetary-24-18-60 -o x.stl --module 0mm | a module of 0 mm

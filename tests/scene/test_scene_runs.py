@@ -146,7 +146,7 @@ def test_a_scene_without_a_run_says_nothing_of_one() -> None:
 
 
 def test_a_train_without_inertia_cannot_be_played() -> None:
-    with pytest.raises(QuestionError, match="no inertia turns with"):
+    with pytest.raises(QuestionError, match="no link that turns with"):
         shipped.train("freeth-2008").dynamics(rate="1 turn/s", turns=1)
 
 

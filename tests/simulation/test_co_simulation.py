@@ -152,7 +152,7 @@ def test_a_declaration_written_out_is_read_back_as_it_was() -> None:
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (("planetary-24-18-60", "-o", "x.fmu"), "the train has no rate"),
+        (("planetary-24-18-60", "-o", "x.fmu"), "no input speed is declared"),
         (("moon-triangular", "-o", "x.fmu", "--rate", "1"), "inertia"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--bore", "2mm"), "--bore does not apply"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--time-step", "0s"), "the value must be greater than 0, not 0s"),

@@ -1,8 +1,9 @@
-"""Train with inertia: the rate at which its teeth separate, and the contact model that is stepped (docs/dynamics.md).
+"""Train with inertia: input speed at which tooth contact is lost, and contact model for time integration
+(docs/dynamics.md).
 
 link_inertia        moments of inertia of links, declared or by Green's theorem from the outlines of wheels
 inertial_contacts   torques that pairs carry due to inertia, loads and friction (d'Alembert's principle)
-separation_rate     rate of the input at which teeth first separate (`find_separation`), and impacts of teeth
+separation_rate     input speed at which teeth first separate (`find_separation`), and impacts of teeth
 time_case           inertia, drag, restitution and the drive of a train in one state
 train_model         train as coordinates and contacts, with ideal pairs eliminated exactly
 compliant_train     train model with stiffness and damping of teeth

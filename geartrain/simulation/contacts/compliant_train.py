@@ -1,7 +1,8 @@
 """Train with compliant teeth: the contacts of `TrainModel`, each with stiffness and damping, and the vibration modes.
 
-Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, docs/dynamics.md (19), where K = sum k r^T r over
-all pairs and the springs of drives. r is the row of a pair's opening speed at its mean speed ratio.
+Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, docs/dynamics.md (19), with the mass matrix M,
+the damping matrix C, and the stiffness matrix K = sum k r^T r over all pairs and the springs of drives. The row vector
+r gives the opening speed of a pair of stiffness k, at its mean speed ratio, from the speeds of the coordinates.
 
 Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
 wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
@@ -33,12 +34,12 @@ if TYPE_CHECKING:
 
 
 DAMPING_RATIO = 0.05
-"""Damping ratio of a pair without declared damping and restitution, of the order measured on spur gears."""
+"""Damping ratio [1] of a pair that declares neither damping nor restitution; typical of measurements on spur gears."""
 
 # minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
 _MINIMUM = 0.05
 _SINGLE = 14e9
-"""Stiffness of one pair of steel teeth in contact by face width [N/m2]: ISO 6336-1, method B, simplified."""
+"""Stiffness of a single pair of steel teeth per unit of face width [N/m2]: ISO 6336-1, method B, simplified."""
 
 _STEEL, _BRONZE = 206e9, 110e9  # Young's moduli [N/m2]
 _DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # ranges of density [kg/m3]; brass counts as bronze
@@ -70,7 +71,7 @@ class CompliantTrain(TrainModel):
     def yields(self) -> ToothCompliance:
         """Stiffness [N m/rad] and damping [N m s/rad] of each pair of the contact model, as arrays.
 
-        Raises `QuestionError` if a stiffness is missing, and for escapements.
+        Raises `QuestionError` if a stiffness is unknown, or if the train has an escapement.
         """
         if self.case.escapements:
             what = f"'{self.train.name}' has an escapement, which compliant teeth do not support"
@@ -102,11 +103,14 @@ class CompliantTrain(TrainModel):
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
     def _row(self, pair: ContactPair) -> Floats:
-        """Return the coefficients of a pair's opening speed at the mean speed ratio."""
+        """Return the coefficients of the coordinate speeds in the opening speed of a pair, at its mean speed ratio."""
         return pair.opening_row(len(self.coordinates), pair.front.slope)
 
     def _inertia(self, row: Floats) -> float:
-        """Return the effective inertia of a pair's row [kg m2], 1/(r M^-1 r^T); 0 if all its speeds are prescribed."""
+        """Return the effective inertia of a pair [kg m2]: 1/(r M^-1 r^T), with its `_row` r and the mass matrix M.
+
+        The result is 0 if all speeds in the row are prescribed.
+        """
         free = row[self.free]
         ease = float(free @ np.linalg.solve(self.mass[np.ix_(self.free, self.free)], free)) if free.any() else 0.0
         return 1 / ease if ease else 0.0
@@ -129,8 +133,8 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def vibration(self) -> tuple[Floats, Floats]:
-        """Squared angular frequencies in ascending order [rad2/s2], and modes of the free coordinates with phi^T M phi
-        = 1.
+        """Squared angular frequencies in ascending order [rad2/s2], and mode shapes phi of the free coordinates,
+        normalised by the mass matrix: phi^T M phi = 1.
         """
         from scipy.linalg import eigh
 
@@ -258,10 +262,11 @@ class PairCompliance:
 
 
 def restitution_at(ratio: float) -> float:
-    """Return the coefficient of restitution of a spring and damper without tension, for a damping ratio of 0 or more.
+    """Return the coefficient of restitution of an impact on a spring and a damper that cannot pull.
 
-    They separate where -k g - c dg/dt vanishes, before the spring is fully extended (Schwager and Poeschel 2007). At a
-    damping ratio of 1 the coefficient is 1/e^2.
+    The damping ratio is 0 or more. The bodies separate where the contact force -k g - c dg/dt vanishes (stiffness k,
+    damping c, gap g), before the spring is fully extended (Schwager and Poeschel 2007). At a damping ratio of 1 the
+    coefficient is 1/e^2.
 
     >>> restitution_at(0.0), round(restitution_at(1.0), 6)
     (1.0, 0.135335)

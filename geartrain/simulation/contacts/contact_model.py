@@ -1,7 +1,7 @@
-"""Model of a train for the kernels: coordinates, contacts, bearings, stops and springs.
+"""Contact model of a train for the time-stepping kernels: coordinates, contacts, bearings, stops and springs.
 
-The coordinates are the independent motions while no contact touches. A pair has two rows over the coordinates: the
-speeds of its driver and of its driven side in forward angles.
+The coordinates are the independent motions while all contacts are open. For each pair, two rows of coefficients give
+the forward speeds of its driver and of its driven side from the speeds of the coordinates.
 """
 
 from __future__ import annotations
@@ -59,13 +59,13 @@ class ContactPair:
         return self.front is self.back
 
     def opening_row(self, n: int, ratio: float) -> Floats:
-        """Return the coefficients of the opening speed in the speeds of the n coordinates, at a speed ratio."""
+        """Return the coefficients of the n coordinate speeds in the opening speed of the pair, at a speed ratio."""
         return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 
 @dataclass(frozen=True)
 class Bearing:
-    """Dry friction against a relative speed: sliding torque and maximum sticking torque [N m]."""
+    """Dry friction in a bearing: sliding torque and maximum sticking torque [N m], which oppose its relative speed."""
 
     name: str
     speed: Form
@@ -86,7 +86,7 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Spring that exerts the torque stiffness (rest + rate t - angle) on a linear form of the coordinates.
+    """Spring with the torque stiffness (rest + rate t - angle) at time t; `angle` is a linear form of the coordinates.
 
     Units are N m/rad, rad and rad/s.
     """
@@ -160,7 +160,7 @@ class ContactModel:
         return functions, transmissions, rubbing
 
     def system(self, step: float, yields: ToothCompliance | None = None) -> ContactSystem:
-        """Return the arrays of the kernels for the time step `step` [s].
+        """Return the arrays that the kernels need for the time step `step` [s].
 
         yields   stiffness and damping of compliant teeth, for the midpoint rule; None for rigid teeth
         """
@@ -214,8 +214,10 @@ class ContactModel:
         )
 
     def _compliance(self, row: Floats) -> float:
-        """Return the compliance of a contact with rigid flanks [1/(kg m2)]: 0 if its row has a free coordinate; else a
-        small one, without which the equations would be singular.
+        """Return the compliance of a contact with rigid flanks [1/(kg m2)].
+
+        It is 0 if a free coordinate moves the contact, and otherwise a small value, without which the equations would
+        be singular.
         """
         if any(value and at not in self.given for at, value in enumerate(row)):
             return 0.0

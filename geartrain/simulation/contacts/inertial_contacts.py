@@ -1,15 +1,16 @@
 """Torques that each pair must transmit to keep its flanks in contact at speed: docs/dynamics.md, equations (1) to (6).
 
-While all drive flanks touch, links follow `motion`. Let pair m be displaced virtually: its driven side moves ahead by
-p_m, the input is fixed, and every other pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m,
-so that links move by e = R J^-1 p with the matrix J = I - diag(sense (tau - mean)) G of (5) in docs/motion.md. By
+While all drive flanks touch, links follow `motion`. Let pair m, with driver angle S_m and speed ratio tau of mean value
+`mean`, be displaced virtually: its driven side moves ahead by p_m, the input is fixed, and every other pair keeps
+touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m, so that links move by e = R J^-1 p. R is the
+response of the links to pair errors, and J = I - diag(sense (tau - mean)) G the matrix of (5) in docs/motion.md. By
 d'Alembert's principle the total virtual work is zero. The torque that the flanks must carry, lambda = -sum (T - J_l
-theta'') e, is
+theta'') e over all links with torque T, inertia J_l and acceleration theta'', is
 
-    lambda_m(x, w) = D_m(x) + V_m(x) w + A_m(x) w^2,
+    lambda_m(x, w) = D_m(x) + V_m(x) w + A_m(x) w^2
 
-with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The separation rate is the minimum w
-> 0 at which it vanishes, over all positions.
+at position x and input speed w, with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The
+separation speed is the minimum w > 0 at which it vanishes, over all positions.
 """
 
 from __future__ import annotations
@@ -50,7 +51,10 @@ _NUMBERS = 1 << 22  # maximum number of matrix entries in one batch
 
 
 class CarriedTorques(NamedTuple):
-    """Terms of the torque that each pair must transmit forwards [N m, N m s, N m s2], shape (pairs, n)."""
+    """Terms D [N m], V [N m s] and A [N m s2] of the torque D + V w + A w^2 that each pair must transmit forwards.
+
+    Here w is the input speed [rad/s]. Arrays have shape (pairs, n).
+    """
 
     constant: Floats
     viscous: Floats
@@ -63,7 +67,11 @@ class _State(NamedTuple):
     speed: Floats
     acceleration: Floats
     inverse: Floats
-    """Inverse of J for virtual work, with friction in each driver's lever arm, shape (n, pairs, pairs)."""
+    """Inverse of the matrix that couples pair errors, with friction in each driver's lever arm, shape (n, pairs,
+    pairs).
+
+    It is used for virtual work.
+    """
     virtual: Floats
     """Virtual speeds of the links, with friction in each driver's lever arm, shape (links, n)."""
 
@@ -92,18 +100,21 @@ class InertialContacts:
 
     @cached_property
     def _response(self) -> Floats:
-        """Response R: angles of the links for an error of 1 rad of each pair, shape (links, pairs)."""
+        """Response matrix R: angles of the links per error of each pair [rad/rad], shape (links, pairs)."""
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
-        """Return the inverse of J = I - diag(slope) G at each position, shape (n, pairs, pairs)."""
+        """Return the inverse of the matrix J = I - diag(slope) G that couples pair errors, shape (n, pairs, pairs).
+
+        The gains G are the angles of the drivers per error of each pair.
+        """
         found = np.tile(np.eye(len(self.pairs)), (slope.shape[1], 1, 1))
         found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self.motion._forward.gains
         return np.asarray(np.linalg.inv(found))
 
     @cached_property
     def _slopes(self) -> tuple[CellTable, ...]:
-        """Tables of d tau / dS of each source's transmission function [1/rad]."""
+        """Tables of the derivative of each pair's speed ratio with respect to its driver angle [1/rad]."""
         return tuple(speed_slope(source.transmission) for source in self.sources)
 
     @cached_property
@@ -181,7 +192,10 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques of the pairs under torques f on the links, by the transposed matrices: sense J^-T R^T f."""
+        """Yield the torques that the pairs carry under torques f on the links: sense J^-T R^T f.
+
+        J is the matrix that couples pair errors, and R the response of the links.
+        """
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
@@ -202,10 +216,9 @@ class InertialContacts:
         return minimum_rate(*self.torques(turns))
 
     def impulses(self, kinks: Floats, width: float) -> Floats:
-        """Return the impulse of each pair at kinks of the transmission functions, divided by the input's speed [N m
-        s2].
+        """Return the impulse of each pair at kinks of the transmission functions, per unit of input speed [N m s2].
 
-        Pairs with a negative impulse separate at any rate. The impulse is 0 where no speed jumps.
+        Pairs with a negative impulse separate at any input speed. The impulse is 0 where no speed jumps.
 
         width   distance of the evaluated positions from a kink [revolutions of the input]
         """
@@ -219,7 +232,10 @@ class InertialContacts:
 
 
 def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
-    """Return the minimum w >= 0 beyond which D + V w + A w^2 is negative; infinite if it is never negative."""
+    """Return the minimum input speed w >= 0 [rad/s] above which the torque D + V w + A w^2 becomes negative.
+
+    The result is infinite if the torque is never negative.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(V * V - 4 * D * A)  # NaN if it never vanishes
         q = -(V + np.copysign(root, V)) / 2  # the stable quadratic formula: neither the sum nor the quotients cancel
@@ -231,7 +247,10 @@ def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
 
 
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
-    """Return a table of d tau / dS of a transmission function [1/rad], from a table of its speed ratio tau."""
+    """Return a table of the derivative of the speed ratio tau with respect to the driver angle S [1/rad].
+
+    It is computed from a table of tau.
+    """
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(
         transmission.speed, transmission.period, folded_kinks(transmission), _SLOPE * max(maximum, 1.0), _DEGREE
@@ -243,14 +262,20 @@ def speed_slope(transmission: TransmissionFunction) -> CellTable:
 
 @dataclass(frozen=True)
 class InertialLoads:
-    """Loads on links other than the torques of their pairs, by link, about their own axes, in SI units."""
+    """Inertia, external torques and friction by link, about each link's own axis, in SI units.
+
+    Torques that pairs transmit are not included.
+    """
 
     inertia: Mapping[str, float]
     """Moment of inertia [kg m2], including the planets that the link carries."""
     load: Mapping[str, float]
     """Constant torque [N m], positive about the link's axis."""
     friction: Mapping[str, float]
-    """Friction torque of the bearing while it turns [N m], 0 or more; `drag` has the viscous coefficients [N m s]."""
+    """Dry friction torque of the link's bearing while it turns [N m], 0 or more.
+
+    `drag` has the viscous coefficients [N m s].
+    """
     drag: Mapping[str, float]
     bearer: Mapping[str, str]
     """Name of the link in which each link turns."""
@@ -263,12 +288,12 @@ def find_inertial_loads(
 ) -> InertialLoads:
     """Return the loads of one state. Raises `QuestionError` if no link has an inertia, or a torque has no unit.
 
-    speeds   mean speeds of links: a driving weight or torque acts in the sense in which its link turns
+    speeds   mean speeds of the links, which give the sense in which a driving weight or torque acts
     """
     if not any(each.value for each in inertias):
         what = f"no link of '{train.name}' has a moment of inertia"
         fix = "give links an `inertia`, such as `inertia: 30 kg mm2`, or wheels `density`, `thickness` and `module`"
-        raise QuestionError(Problem(what, "inertia is the only cause of separation", fix))
+        raise QuestionError(Problem(what, "teeth separate at a speed that depends on inertia", fix))
     turning = {link: part for link, part in train.links.items() if link != train.frame}
     load, friction = _torques(train, case)
     for key, torques in (("load", load), ("bearing", friction)):
@@ -294,20 +319,20 @@ def find_inertial_loads(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """Return True if a link other than the input keeps the input turning uniformly, without a steady driving torque."""
+    """Return True if a crank other than the only input drives the train, and no steady driving torque is declared."""
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
 
 def torques_have_units(train: Train, case: StateCase) -> bool:
-    """Return True if every torque in one state has a unit."""
+    """Return True if every torque that acts in one state is declared with a unit."""
     return not any(_is_plain(torque) for torques in _torques(train, case) for torque in torques.values())
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Return loads and bearing friction by link.
+    """Return the declared load torques and bearing friction torques by link.
 
-    Loads on inputs do no virtual work unless a crank drives, so they are omitted.
+    Loads on inputs do no virtual work unless a crank drives the train, so they are omitted.
     """
     # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}

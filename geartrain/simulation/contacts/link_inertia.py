@@ -1,8 +1,9 @@
 """Moments of inertia of links, declared or computed from the plates that their wheels are cut from.
 
-A wheel of density rho and thickness t has I = rho t (integral of r^2 dA) over its outline, exactly by Green's theorem.
-The outline has the teeth that are drawn and cut, and the wheel is a plate without spokes. A planet of mass m at a
-distance r from its carrier's axis adds m r^2 to the carrier; its own inertia counts about its own axis.
+A wheel of density rho and thickness t has the moment of inertia rho t (integral of r^2 dA) over its outline, computed
+exactly by Green's theorem. The outline has the teeth that are drawn and cut, and the wheel is a plate without spokes. A
+planet of mass m at a distance r from its carrier's axis adds m r^2 to the inertia of the carrier; its own inertia
+counts about its own axis.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class LinkInertia(Result):
     carried: float = 0.0
     """Part of `value` due to the masses of planets [kg m2]."""
     missing: tuple[str, ...] = ()
-    """Reasons why the inertia, or a part of it, is unknown."""
+    """Reasons why the inertia, or a part of it, is unknown; empty if it is complete."""
 
 
 class PlateMoments(NamedTuple):
@@ -172,7 +173,7 @@ class _Bodies:
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Teeth by wheel, of all planar wheels."""
+        """Tooth geometry of all planar wheels, by wheel."""
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:

@@ -34,7 +34,8 @@ class PairTables(NamedTuple):
     period: Floats
     """Period of each function [rad]."""
     slope: Floats
-    """Mean slope of each function, which is slope S plus a periodic part; 0 for functions that are not angles."""
+    """Mean slope of each function, which is slope times the driver angle plus a periodic part; 0 if it is not an angle.
+    """
     cells: Ints
     """Number of uniform cells in the period of each function; `start` has the index in `first` of its first cell."""
     start: Ints
@@ -51,7 +52,9 @@ class PairTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """Function of a driver angle S, slope S + a periodic table, with the minimum jump of its derivative."""
+    """Function slope S + p(S) of a driver angle S [rad], with a table of its periodic part p and its minimum slope
+    jump.
+    """
 
     slope: float
     table: CellTable
@@ -78,7 +81,7 @@ def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANC
 def tabled_function(
     function: Callable[[Floats], Floats], transmission: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
-    """Return a table of a function of the driver angle, such as a friction term, with the kinks of a transmission."""
+    """Return a table of a function of the driver angle, such as a friction term, with a transmission's kinks."""
     return TabledFunction(0.0, fit(function, transmission.period, folded_kinks(transmission), tolerance), inf)
 
 

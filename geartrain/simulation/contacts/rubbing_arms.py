@@ -1,9 +1,10 @@
 """Friction terms a_f of the driver's lever arm of a pair: T_1 = (tau + a_f) T_2, docs/dynamics.md (10).
 
-There are four cases: two flanks, each with two senses of rotation. On one flank the sliding velocity changes its sign
-with the sense of rotation. If a contact transmits the fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards,
-the driver's torque is tau/eta(f) times the driven torque, and tau/eta(-f) times it backwards, whichever wheel is the
-power input.
+T_1 and T_2 are the torques of the driver and of the driven wheel, and tau is the speed ratio. There are four cases: two
+flanks, each with two senses of rotation. On one flank the sliding velocity changes its sign with the sense of rotation.
+With the friction coefficient f, and the coefficients `out` and `into` of the contact geometry, a contact transmits the
+fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards. The driver's torque is then tau/eta(f) times the
+driven torque, and tau/eta(-f) times it backwards, whichever wheel is the power input.
 """
 
 from __future__ import annotations
@@ -64,9 +65,10 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
 def _friction_term(
     tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
 ) -> Floats:
-    """Return the friction term tau (1/eta - 1) at driver angles; 0 during a dwell, in which nothing slides.
+    """Return the friction term tau (1/eta - 1) from the speed ratio tau and efficiency eta at each driver angle.
 
-    `way` -1 reverses the sliding. Raises `GearTrainError` if friction locks the teeth.
+    It is 0 during a dwell, in which nothing slides. `way` -1 reverses the sliding. Raises `GearTrainError` if friction
+    locks the teeth.
     """
     sliding, into, out = rubbing
     # NaN marks tooth pairs that do not touch at this angle
@@ -83,7 +85,7 @@ def _friction_term(
 def separate_rubbing(
     moving: MotionProblem, gears: Sequence[GearPair] = ()
 ) -> tuple[dict[str, tuple[TabledFunction, TabledFunction]], tuple[str, ...]]:
-    """Return friction terms of the drive flanks by pair, and the names of the pairs and pins whose losses have no term.
+    """Return friction terms of the drive flanks by pair, and the names of pairs and pins whose friction is neglected.
 
     Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at
     some angle, and gears with a declared efficiency below 1 have none.
@@ -109,7 +111,8 @@ def separate_rubbing(
 def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
     """Return the friction terms of a pin that drives a slot: (r/rho) f |sin d|; None without friction.
 
-    Their sign depends on the slot's torque and on the sense of rotation.
+    The pin has the distances r from its own axis and rho from the slot's axis, f is the friction coefficient, and d is
+    the angle between the pin's arm and the slot. The sign depends on the slot's torque and on the sense of rotation.
     """
     if not transmission.friction:
         return None
@@ -123,7 +126,7 @@ def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
 
 
 def constant_ratio_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
-    """Return the friction terms of a pair with constant ratio and a declared efficiency for either driving wheel.
+    """Return the friction terms of a pair with a constant ratio and a declared efficiency for each driving direction.
 
     None means that the pair has no loss. Raises `GearTrainError` if the pair is self-locking forwards.
     """

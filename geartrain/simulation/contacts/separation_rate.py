@@ -1,4 +1,4 @@
-"""Rate of the input at which teeth first separate, searched over all positions including kinks and jumps.
+"""Input speed at which teeth first separate, searched over all positions including kinks and jumps.
 
 Between kinks of the transmission functions, the torque that each pair must carry is smooth. Every interval is sampled,
 with its ends on their own sides of the kinks, and the best intervals are refined. Where a speed jumps, the sign of the
@@ -71,7 +71,7 @@ def find_separation(
 
     Examples
     --------
-    A slot and a pin at 10 mm, with axes 8 mm apart; the slot drives 100 g cm^2 and a drag of 1 N mm:
+    A pin at a radius of 10 mm drives a slot whose link has inertia and bearing friction; the axes are 8 mm apart:
 
     >>> import geartrain
     >>> train = geartrain.load('''
@@ -115,7 +115,7 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` has a result: torques have units, and a link that can move has an inertia."""
+    """Return True if `find_separation` has a result: all torques have units, and a link that can move has inertia."""
     declared = train.declaration
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
@@ -262,10 +262,10 @@ def separation_section(found: SeparationRates) -> Section:
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Yield sentences on the first separation, the searched range, and links of unknown inertia."""
+    """Yield sentences on the first pair that separates, the searched input range, and links of unknown inertia."""
     yield _first_separation(found)
     if found.uncounted:
-        yield f"Friction not included: {', '.join(found.uncounted)}."
+        yield f"Pairs whose friction is not included: {', '.join(found.uncounted)}."
     if not found.complete:
         yield f"The search covered {found.turns:.6g} turns of '{found.input}', which is not a full period."
     if found.unknown:
@@ -273,7 +273,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
 
 
 def separation_words(pair: PairSeparation) -> tuple[str, str]:
-    """Return the rate above which a pair separates [turn/s] and its position [turn], as strings."""
+    """Return the input speed above which a pair separates [turn/s] and the input position [turn], as strings."""
     if pair.rate is None:
         return "never", "-"
     return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
@@ -282,13 +282,13 @@ def separation_words(pair: PairSeparation) -> tuple[str, str]:
 def _first_separation(found: SeparationRates) -> str:
     first = found.first
     if first is None:
-        return f"No teeth separate at any rate of '{found.input}'."
+        return f"No teeth separate at any speed of '{found.input}'."
     where = f"after {separation_words(first)[1]} turns of '{found.input}'"
     if first.leap:
-        return f"Teeth of {first.pair} separate at any rate: {where} a speed drops abruptly, and flanks cannot pull."
+        return f"Teeth of {first.pair} separate at any speed: {where} a speed drops abruptly, and flanks cannot pull."
     if not first.rate:
         return (
-            f"Teeth of {first.pair} separate at any rate, first {where}: neither load nor bearing friction keeps them "
+            f"Teeth of {first.pair} separate at any speed, first {where}: neither load nor bearing friction keeps them "
             "in contact."
         )
     return (
@@ -301,8 +301,8 @@ def _first_separation(found: SeparationRates) -> str:
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return the minimum rate at which each pair separates between kinks [rad/s], its position, and the width of the
-    narrowest interval between kinks [revolutions].
+    """Return for each pair the minimum input speed at which it separates between kinks [rad/s] and its position, and
+    the width of the narrowest interval between kinks [revolutions of the input].
 
     The best intervals of each pair are refined with ever finer samples.
     """
@@ -335,8 +335,9 @@ def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> t
 
 
 def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
-    """Return the first position at which each pair separates at any rate [revolutions], because a speed jumps and would
-    require a tensile impulse, by index of the pair; other pairs are omitted.
+    """Return the first input position at which each pair separates at any speed [revolutions], by index of the pair.
+
+    There, a jump of the speed ratio would require a tensile impulse. Pairs without such a position are omitted.
     """
     if not len(kinks):
         return {}

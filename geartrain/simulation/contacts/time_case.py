@@ -22,7 +22,10 @@ _EQUAL = 1e-9  # relative tolerance of a speed given in rounded decimals
 
 @dataclass(frozen=True)
 class PowerInput:
-    """Drive of a train: a prescribed speed, a torque, a spring or a compliant hand."""
+    """Drive of a train: a prescribed speed, a torque, a spring, or a compliant hand.
+
+    A compliant hand turns at a prescribed speed and drives the link through a torsional spring.
+    """
 
     link: str
     """Link on which the drive acts."""
@@ -30,9 +33,9 @@ class PowerInput:
     rate: float = 0.0
     """Prescribed speed of the link or of the hand [rad/s]."""
     torque: float = 0.0
-    """Constant torque, also of a weight on its drum [N m]."""
+    """Constant torque on the link, which may be that of a weight on its drum [N m]."""
     stiffness: float = 0.0
-    """Stiffness of a spring or a hand [N m/rad]; `wound` is the initial deflection of the spring [rad]."""
+    """Torsional stiffness of a spring or a hand [N m/rad]; `wound` is the initial deflection of the spring [rad]."""
     wound: float = 0.0
     inertia: float = 0.0
     """Moment of inertia that the drive adds to the link [kg m2]."""
@@ -56,13 +59,13 @@ class TimeCase:
     bearing: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     """Dry friction by link in its bearings: sliding and maximum sticking torque [N m]."""
     load: Mapping[str, float] = field(default_factory=dict)
-    """Torques by link [N m]."""
+    """Load torques by link [N m]."""
     restitution: Mapping[str, float] = field(default_factory=dict)
     """Coefficient of restitution by pair."""
     clearance: Mapping[str, float] = field(default_factory=dict)
     """Clearance of the pin in its slot, by coupling [m]."""
     escapements: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Pitch angle relative to the bearing link [rad], and beat [s], by escape wheel."""
+    """Angular pitch relative to the bearing link [rad], and duration of a beat [s], by escape wheel."""
 
 
 def find_time_case(
@@ -78,7 +81,7 @@ def find_time_case(
     """Return the data of one state in SI units; `rate` and `restitution` override the declared values.
 
     rate    speed of the first input that turns [rad/s]
-    scale   magnitude of the rate if none is declared either, for results that do not depend on it
+    scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
     links = {name: link for name, link in train.links.items() if name != train.frame}
     given = {part.name: train.restitution_of(part) for part in (*train.gears, *train.couplings)}
@@ -140,7 +143,9 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s] from the rate, else from the escapement, the hand, or `scale`."""
+    """Return the speed of the driving link [rad/s] from the declared rate, else from the escapement, the hand, or
+    `scale`.
+    """
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.driving_link])
@@ -151,9 +156,9 @@ def _declared_rate(
         return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.driving_link)))
     if scale is not None:
         return problem.way * scale
-    what = "the train has no rate"
-    why = "the time step is a fraction of the tooth-passing period"
-    raise QuestionError(Problem(what, why, "declare the expected rate, such as `rate: 1 turn/s`, or pass `--rate 1`"))
+    what = "no input speed is declared"
+    why = "the time step is a fraction of the tooth-passing period, which depends on the input speed"
+    raise QuestionError(Problem(what, why, "declare the input speed, such as `rate: 1 turn/s`, or pass `--rate 1`"))
 
 
 def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:

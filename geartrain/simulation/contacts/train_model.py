@@ -1,8 +1,8 @@
 """Reduction of a train and its drive to coordinates and contacts: ideal pairs merge links, other pairs are contacts.
 
-Rows of ideal pairs, locks and brakes are eliminated exactly. Speeds of links are then linear forms of a few
-coordinates, docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with a tooth form, pins, and pairs with a declared
-efficiency are contacts between coordinates.
+Rows of ideal pairs, locks and brakes are eliminated exactly. Speeds of links are then linear forms N of a few
+coordinate speeds, docs/dynamics.md (8), and the mass matrix is M = N^T diag(J) N with the moments of inertia J of the
+links. Pairs with a tooth form, pins, and pairs with a declared efficiency are contacts between coordinates.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class TrainModel:
 
     @cached_property
     def sources(self) -> Mapping[str, PairErrorSource]:
-        """Pairs and pins with variable ratio by name, with their initial phases."""
+        """Pairs and pins with a variable ratio by name, each with its initial phase."""
         names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
         return {source.id: source for source in self.motion._with_sources(names).sources}
 
@@ -134,7 +134,7 @@ class TrainModel:
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """Circuits that are contacts: all except pairs with a constant ratio and neither backlash nor losses."""
+        """Circuits (pairs and couplings) treated as contacts: all but constant ratios without backlash and losses."""
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:
@@ -189,7 +189,9 @@ class TrainModel:
         solved = eliminate(rows)
         if solved.conditions:
             what = f"the prescribed speeds of {', '.join(self.prescribed)} depend on each other"
-            raise QuestionError(Problem(what, "ideal pairs connect these links rigidly", "prescribe only one of them"))
+            raise QuestionError(
+                Problem(what, "pairs with a constant ratio couple these links", "prescribe only one of them")
+            )
         pivots = solved.forms()
         columns = [each for each in range(len(self.index)) if each not in pivots and each not in symbols]
         place = {symbol: at for at, symbol in enumerate((*symbols.values(), *columns))}
@@ -220,7 +222,7 @@ class TrainModel:
 
     @cached_property
     def mass(self) -> Floats:
-        """Mass matrix M = N^T diag(J) N [kg m2]."""
+        """Mass matrix N^T diag(J) N [kg m2], from the moments of inertia J of the links and their `speeds` N."""
         inertia = np.array([self.case.inertia.get(link, 0.0) for link in self.index])
         inertia[self.index[self.case.drive.link]] += self.case.drive.inertia
         found: Floats = self.speeds.T @ (inertia[:, None] * self.speeds)
@@ -229,7 +231,7 @@ class TrainModel:
             name for at, name in enumerate(self.coordinates) if found[at, at] <= 0 and name not in self.prescribed
         ]
         if lacking:
-            what = f"no inertia turns with {', '.join(lacking)}"
+            what = f"no link that turns with {', '.join(lacking)} has a moment of inertia"
             why = "a link without inertia has no equation of motion after teeth separate"
             fix = "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels"
             raise QuestionError(Problem(what, why, fix))
@@ -262,7 +264,9 @@ class TrainModel:
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return tables of both flanks, the friction terms, and the transmission function of the front flank."""
+        """Return tables of the transmission functions of both flanks of a pair, its friction terms, and the
+        transmission function of the front flank.
+        """
         if circuit.id in self._pins:
             transmission = self._pins[circuit.id]
             clearance = self.case.clearance.get(circuit.id, 0.0)
@@ -307,7 +311,7 @@ class TrainModel:
     # ----------------------------------------------------------------------------------------- other parts of the model
 
     def _bearings(self) -> Iterator[Bearing]:
-        """Yield the friction of bearings; the bearings of links with proportional speeds are merged."""
+        """Yield the dry friction of bearings; the bearings of links with proportional speeds are merged."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
             form = self._form(link, self.tree.parent[link][0])

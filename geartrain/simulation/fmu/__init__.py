@@ -1,1 +1,1 @@
-"""Co-simulation units (FMI) of a train that moves in time: creation of the file, and the slave inside it."""
+"""Co-simulation units (FMI) of a train simulated in time: creation of the file, and the slave inside it."""

@@ -38,7 +38,7 @@ _MODULE = "geartrain_slave"
 
 @dataclass(frozen=True)
 class CoSimulationCase(Shown):
-    """Settings of a functional mock-up unit (FMU) for co-simulation. A field that is None has the declared value.
+    """Settings of a functional mock-up unit (FMU) for co-simulation. None selects the declared value of a setting.
 
     See Also
     --------
@@ -115,7 +115,7 @@ def _path_kept() -> Iterator[None]:
 
 
 def _repacked(data: bytes) -> bytes:
-    """Return the same archive with sorted entries and without modification times."""
+    """Return a copy of a ZIP archive with sorted entries and without modification times."""
     found = BytesIO()
     with ZipFile(BytesIO(data)) as old, ZipFile(found, "w", ZIP_DEFLATED) as new:
         for name in sorted(old.namelist()):

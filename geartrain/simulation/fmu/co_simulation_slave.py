@@ -206,20 +206,20 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 
 
 def keep_alive(names: dict[str, Any]) -> None:
-    """Add one reference to the globals of the unit's script each time it is run, which is never released.
+    """Add a permanent reference to the global variables of the unit's script each time the script runs.
 
-    The library through which other tools call Python releases a reference that it does not own, each time (PythonFMU
-    0.7.0).
+    It compensates for the library through which other tools call Python, which each time releases a reference that it
+    does not own (PythonFMU 0.7.0).
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(names))
 
 
 @cache
 def part_in_order(library: Path) -> None:
-    """Register the release of the library before the process ends, if the process is Python.
+    """Register an exit handler that finalises the library before the process ends, if the process is Python.
 
-    Otherwise the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all statics, and
-    again when it is unloaded.
+    Otherwise the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all static objects,
+    and again when it is unloaded.
     """
     if sys.platform == "linux" and sys.orig_argv and library.is_file():
         atexit.register(ctypes.CDLL(str(library)).finalizePythonInterpreter)

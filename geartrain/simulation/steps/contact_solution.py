@@ -2,9 +2,11 @@
 
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
-The speeds v+ and the impulses P_c are the solution of one system of linear equations (13). The compliance 1/s_c is 0
-for rigid teeth and stops. Contacts between prescribed coordinates, whose speeds are known, have a compliance far below
-that of any mass, so that the system is regular.
+Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. A contact c
+has the impulse P_c, which acts on the coordinates with the coefficients f_c, the row r_c of its opening speed, the
+bound k_c on that speed, and the compliance 1/s_c. The speeds v+ and the impulses P_c are the solution of one system of
+linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between prescribed coordinates, whose
+speeds are known, have a compliance far below that of any mass, so that the system is regular.
 """
 
 from __future__ import annotations
@@ -25,12 +27,13 @@ WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRIC
 
 ENERGIES = 8
 TIME_APART, TIME_COAST, IMPACT_COUNT, IMPACT_ENERGY, IMPACT_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
-"""Columns of the counts of each pair: steps apart and on the coast flank, impacts, their energy and maximum speed,
-impulse, friction energy, maximum gap, and changes of flank."""
+"""Columns of the statistics of each pair: numbers of steps apart and on the coast flank; number, energy and maximum
+speed of impacts; impulse, friction energy, maximum gap, and number of changes of flank.
+"""
 
 COUNTS = 9
 IMPACT_COLUMNS = 5
-"""Columns of the list of impacts: time, contact (stops after the pairs), closing speed, energy, impulse."""
+"""Number of columns of the list of impacts: time, contact (stops after the pairs), closing speed, energy, impulse."""
 
 
 class ContactState(NamedTuple):
@@ -52,7 +55,8 @@ class ContactState(NamedTuple):
     flown: Ints
     """Number of steps since each pair separated.
 
-    `stop_rate`, (stops, 2), has the speed at each stop one step ago, and when it was last left.
+    `stop_rate`, shape (stops, 2), has the speed of each stopped link one step ago, and when it last left its stop
+    [rad/s].
     """
     stop_rate: Floats
 
@@ -89,7 +93,7 @@ class CompliantTeeth(NamedTuple):
     damping: Floats
     """Torsional damping [N m s/rad]."""
     peak: Floats
-    """Maximum contact torque in the counted part [N m]; updated by the kernel."""
+    """Maximum contact torque in the evaluated part of the run [N m]; updated by the kernel."""
     impact: Ints
     """Index of the last impact of each pair, -1 for none; updated by the kernel."""
 
@@ -100,16 +104,16 @@ class StepEquations(NamedTuple):
     load: Floats
     """External impulses plus the momentum at the start of the step [N m s]."""
     bound: Floats
-    """Bound k of both flanks of each contact [rad/s]; -inf for a flank that cannot touch."""
+    """Lower bound k on the opening speed at both flanks of each contact [rad/s]; -inf for a flank that cannot touch."""
     ratio: Floats
     """Speed ratio of both flanks of each contact; 0 for stops."""
     arm: Floats
     """Driver's torque divided by the driven side's torque, for both flanks of each contact; 0 for stops."""
     matrix: Floats
-    """Matrix of (13), shape (n + contacts, n + contacts); overwritten by the elimination."""
+    """Matrix of equation (13), docs/dynamics.md, shape (n + contacts, n + contacts); overwritten by the elimination."""
     solution: Floats
-    """Right side of (13), overwritten by the solution: speeds [rad/s] and impulses of the contacts [N m s]; for a
-    prescribed coordinate, the impulse of its drive instead of its speed.
+    """Right side of equation (13), docs/dynamics.md, overwritten by the solution: speeds [rad/s] and impulses of the
+    contacts [N m s]; for a prescribed coordinate, the impulse of its drive instead of its speed.
     """
     v: Floats
     """Speeds of the coordinates at the end of the step [rad/s]."""
@@ -122,8 +126,8 @@ class StepEquations(NamedTuple):
     middle: Floats
     """Mean speeds of the step [rad/s]."""
     gap: Floats
-    """Bound k of both flanks without restitution [rad/s]. For compliant teeth, gap of both flanks at the middle of the
-    step without the change of speed in the step [rad].
+    """Bound on the opening speed of both flanks if there were no restitution [rad/s]. For compliant teeth, gap of both
+    flanks at the middle of the step without the change of speed in the step [rad].
     """
     closing: Floats
     """Closing speeds of both flanks before the step [rad/s]."""
@@ -151,7 +155,7 @@ class StepRules(NamedTuple):
 
 @kernel
 def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Solve for speeds and impulses with the contacts that the state assumes as touching and turning.
+    """Solve for speeds and impulses, with the touching contacts and turning bearings that the state assumes.
 
     creep   maximum creep speed of a stuck bearing [rad/s]
     """
@@ -168,7 +172,7 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 
 @kernel
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Assemble matrix and right side of (13)."""
+    """Assemble the matrix and the right side of the linear equations (13) of docs/dynamics.md."""
     A, b, n = here.matrix, here.solution, len(here.v)
     A[:, :] = 0.0
     A[:n, :n] = system.matrix
@@ -234,7 +238,9 @@ AT_ONCE = 6
 def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
-    """Correct the wrong contact states, all or only the state of lowest index (Murty's method); return their number."""
+    """Correct wrong contact states, all or only that of lowest index (Murty's method); return the number of
+    corrections.
+    """
     # with `single` the first wrong state ends the search, contacts before bearings
     found = correct_contacts(system, state, here, slack, single)
     if len(system.sliding) > 0 and (found == 0 or not single):
@@ -277,7 +283,7 @@ def correct_contacts(
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, stick those that turn against their friction; return their number."""
+    """Release bearings that creep too fast, stick those turning against friction; return the number of changes."""
     found = 0
     for m in range(len(system.sliding)):
         rate = 0.0

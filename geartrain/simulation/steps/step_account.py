@@ -51,7 +51,7 @@ def count_energy(
 ) -> None:
     """Add the work of drives, torques and springs, and the losses by drag, as impulses times mean speeds of the step.
 
-    speed   speeds of drag and springs
+    speed   speeds at which drag and springs are evaluated [rad/s]
     """
     for d in range(len(here.middle)):
         record.energy[WORK_DRIVE] += here.drive[d] * here.middle[d]

@@ -1,19 +1,20 @@
 """Time steps of constant length: nonsmooth time stepping for rigid teeth, the midpoint rule for compliant teeth.
 
 Rigid teeth use the nonsmooth time stepping of Moreau and Jean. Contacts without rebound are enforced at the position
-level, docs/dynamics.md (12). With S* = S + h dS/dt, and F* and tau* at S*,
+level, docs/dynamics.md (12). For a pair with driver angle S, driven angle q, gap g and coefficient of restitution e,
+and a step of length h, the transmission function F* and the speed ratio tau* are evaluated at S* = S + h dS/dt. Then
 
     dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
 
-so that gaps do not drift. The complementarity problem of touching contacts and sticking bearings is solved from the
-solution of the previous step. Wrong contact states are flipped all at once (block pivoting) and, if that does not
-converge, the lowest index first (Murty's method).
+so that gaps do not drift (- and + mark speeds before and after the step). The complementarity problem of touching
+contacts and sticking bearings is solved from the solution of the previous step. Wrong contact states are flipped all at
+once (block pivoting) and, if that does not converge, the lowest index first (Murty's method).
 
 Identical steps of a train at rest are taken at once, up to the next beat of an escapement. Between two beats a clock
 rests most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends
 without speed, and for which no contact state was flipped, is followed by the same step again.
 
-Compliant teeth have stiffness and damping, docs/dynamics.md (15) and (18):
+Compliant teeth have a stiffness k and a damping c, docs/dynamics.md (15) and (18), and the impulse
 
     P = h max(0, -k g - c dg/dt)   where g < 0,
 
@@ -264,7 +265,9 @@ def find_bounds(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Compute speed ratios, lever arms, gaps and bounds k of both flanks at the extrapolated positions."""
+    """Compute speed ratios, lever arms, gaps, and bounds on the opening speeds of both flanks, at extrapolated
+    positions.
+    """
     step, rigid = rules.step, rules.share == 1.0
     for m in range(len(system.tables)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
@@ -330,7 +333,7 @@ def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: F
 def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> float:
     """Return the maximum difference between drivers' speeds and the speeds used for extrapolation [rad/s].
 
-    minimum   fraction of its own speed from which a driver's difference counts
+    minimum   fraction of a driver's own speed below which its difference is ignored
     """
     most = 0.0
     for m in range(len(system.tables)):
@@ -346,7 +349,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed of each stopped link: up to its stop, or back from it [rad/s]."""
+    """Compute the maximum speed of each stopped link [rad/s]: it may reach its stop, or must rebound from it."""
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])

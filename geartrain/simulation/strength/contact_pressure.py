@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 WEAR_RANGE = (1e-7, 1e-3)
-"""Range of the wear coefficient K, from greased metal to dry bronze or brass: four decades."""
+"""Range of Archard's wear coefficient K [1], from greased metal to dry bronze or brass: four decades."""
 
 YIELD_AT = 5 / 3
 """Maximum pressure of a line contact at first yield, divided by the yield stress.
@@ -98,10 +98,11 @@ class ContactPlace(Result):
     where: str
     """Name of the position, such as "pitch point"."""
     position: float
-    """Position past the pitch point along the pitch line [pitch]."""
+    """Position of the contact, measured along the pitch line from the pitch point [pitch]."""
     tooth_pairs: float
-    """Number of tooth pairs in contact, each with the same force; for helical teeth the minimum of its mean over the
-    width.
+    """Number of tooth pairs in contact, each with the same force.
+
+    For helical teeth, the number is averaged over the width, and its minimum during the mesh is used.
     """
     force: float
     """Normal force of one tooth pair [N]."""
@@ -113,7 +114,8 @@ class ContactPlace(Result):
 class ContactLoad:
     """Line contact of a loaded pair with a path of contact: forces and pressures along the path.
 
-    For helical teeth the quantities are those in the transverse section.
+    Positions X along the path are arcs on the pitch line, measured from the pitch point [module]. For helical teeth the
+    quantities are those in the transverse section.
     """
 
     path: PathOfContact
@@ -137,11 +139,11 @@ class ContactLoad:
 
     @property
     def tangential(self) -> float:
-        """Force along the pitch line [N]."""
+        """Tangential force at the pitch line [N]."""
         return self.torque / (self.path.pitch.R1 * self.module)
 
     def tooth_pairs(self, X: float) -> list[float]:
-        """Return the arcs X of all tooth pairs in contact while one touches at X [module]."""
+        """Return the positions of all tooth pairs in contact while one of them is at X [module]."""
         p, (approach, recess) = self.path.pitch.p, self.path.arcs
         # rounding must not lose a pair at the ends of the path
         slack = 1e-9 * p
@@ -149,7 +151,8 @@ class ContactLoad:
         return [X + k * p for k in range(first, last + 1)] or [X]
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Return the force of one tooth pair at each arc X [N], and the number of tooth pairs that share the torque.
+        """Return the force of one tooth pair at each position X [N], and the number of tooth pairs that share the
+        torque.
 
         The force is normal to the flanks of spur teeth, and transverse for helical teeth.
         """
@@ -164,7 +167,7 @@ class ContactLoad:
         return self.tangential / np.array(cosines), np.array(counts)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return pressure [MPa], force [N] and number of tooth pairs in contact at arcs X.
+        """Return pressure [MPa], force [N] and number of tooth pairs in contact at positions X along the path [module].
 
         Lines of contact of helical teeth are longer by 1/cos of the base helix angle, and so is the force normal to the
         flanks; the curvature across the lines is smaller by the cosine.
@@ -174,10 +177,10 @@ class ContactLoad:
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
-        """Return the arcs X between which one tooth pair carries the whole load [module].
+        """Return the positions between which one tooth pair carries the whole load [module].
 
-        The result is both ends of the path of contact with a contact ratio below 1, and for helical teeth, of which one
-        pair never carries the whole load.
+        Both ends of the path of contact are returned if the contact ratio is below 1, and also for helical teeth, of
+        which one pair never carries the whole load.
         """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         low, high = recess - p, p - approach
@@ -286,7 +289,7 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
     # an axis ratio below exp(-34) is close to the rounding error: practically a line
     elif ratio(-34.0) < 0:
         why = f"their generatrices cross at only {crossing:.3g} rad"
-        what = "nearly parallel cylinders have no contact ellipse"
+        what = "the contact ellipse of nearly parallel cylinders cannot be computed"
         raise RangeError(Problem(what, why, "use the pressure of a line contact, `hertz_pressure`"))
     else:
         # in logarithms, because long ellipses have axis ratios down to 1e-15
@@ -305,7 +308,7 @@ class CrossedWheels:
     radii: tuple[float, float]
     """Radii of the pitch circles [mm]."""
     helix: tuple[float, float]
-    """Helix angles [rad], positive for right hands; their sum is the shaft angle."""
+    """Helix angles [rad], positive for right-hand helices; their sum is the shaft angle."""
     module: float
     """Normal module [mm]."""
     pressure_angle: float
@@ -326,7 +329,7 @@ class CrossedWheels:
         return self.radii[at] * sin(transverse) / cos(base_helix_angle(self.helix[at], self.pressure_angle))
 
     def normal_count(self, at: int) -> float:
-        """Return the virtual number of teeth in the normal section, in general not an integer."""
+        """Return the virtual number of teeth of one wheel in the normal section, in general not an integer."""
         return 2 * self.radii[at] / self.module / cos(base_helix_angle(self.helix[at], self.pressure_angle)) ** 2
 
     def tooth_length(self, at: int) -> float:
@@ -343,7 +346,7 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the limits of the path of contact from the pitch point towards the tip of one wheel, by cause [mm]."""
+        """Return the limits of the path of contact [mm] from the pitch point towards one wheel's tip, by cause."""
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2
@@ -357,12 +360,14 @@ class CrossedWheels:
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """Lengths of contact along the line of action towards the tip of the second wheel, and of the first [mm]."""
+        """Lengths of the path of contact [mm], from the pitch point towards the tip of the second wheel and of the
+        first wheel.
+        """
         return min(self._bounds(1).values()), min(self._bounds(0).values())
 
     @property
     def bounded_by(self) -> frozenset[str]:
-        """Causes that end the contact: tip, base or width."""
+        """Causes of both ends of contact: tip, base circle or width of a wheel."""
         return frozenset(min(found, key=found.__getitem__) for found in (self._bounds(0), self._bounds(1)))
 
     @property

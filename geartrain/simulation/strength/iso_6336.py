@@ -75,7 +75,7 @@ class HelixData:
         return sqrt((4 - contact_ratio) / 3 * (1 - part) + part / contact_ratio)
 
     def single(self, M: float) -> float:
-        """Return the single pair contact factor ZB or ZD from the factor M of a spur wheel.
+        """Return the single pair contact factor ZB or ZD of a helical wheel from the factor M1 or M2 of a spur wheel.
 
         It is 1 from an overlap ratio of 1, with linear interpolation below.
         """
@@ -96,7 +96,7 @@ class RackPair:
     contact_ratio: float
     """Transverse contact ratio, 1 to less than 2."""
     lean: HelixData = HelixData()
-    """Helix data of helical wheels."""
+    """Helix data of the pair; zero angles for spur wheels."""
 
     def __post_init__(self) -> None:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
@@ -236,7 +236,7 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """Return the solution of th = slope tan th - H, by Newton's method from pi/6 [rad]."""
+    """Return the angle th [rad] that solves th = slope tan(th) - H, by Newton's method from pi/6."""
     th = pi / 6
     # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):
@@ -272,7 +272,7 @@ class RootSection:
     """Section of maximum bending stress; lengths in modules."""
 
     x: float
-    """Distance from the wheel's axis; `thickness` is the tooth thickness there [module]."""
+    """Distance of the section from the wheel's axis; `thickness` is the tooth thickness there [module]."""
     thickness: float
     factor: float
     """Bending stress divided by torque/(width module^2)."""
@@ -282,7 +282,10 @@ class RootSection:
         return self.factor * torque / (width * module**2)
 
     def lewis_factor(self, pitch_radius: float) -> float:
-        """Return Lewis's form factor Y = Ft/(b m stress), with the tangential force Ft at `pitch_radius` [module]."""
+        """Return Lewis's form factor Y = Ft/(b m stress), with the face width b and the module m.
+
+        Ft is the tangential force at `pitch_radius` [module].
+        """
         return 1 / (self.factor * pitch_radius)
 
 
@@ -328,7 +331,10 @@ class ToothSide:
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """Return a force at `radius` on a line at the distance `arm` from the axis [module]: docs/strength.md (4)."""
+        """Return a force that acts at `radius`, on a line at the distance `arm` from the axis [module].
+
+        The result is the load of docs/strength.md (4).
+        """
         # rounding may put the point of load inside the base circle
         pressure = acos(min(arm / radius, 1.0))
         angle = pressure - self.outward * self.half(radius)

@@ -58,7 +58,8 @@ class WheelUnderLoad:
     gear: int
     """Number of the gear in the transmission function, 1 or 2."""
     z: float
-    """Number of teeth; `teeth` are the cut teeth, in modules. For a bevel, both fields describe the virtual spur wheel.
+    """Number of teeth; `teeth` is the geometry of the cut teeth [module]. For a bevel, both describe the virtual spur
+    wheel.
     """
     teeth: CutTooth | WheelTeeth
     material_name: str
@@ -78,7 +79,7 @@ class PairUnderLoad:
     """Gear pair under load, whose pressures, stresses and wear are computed; lengths in mm."""
 
     mesh: GearMesh
-    """Mesh of the pair."""
+    """Declared gear pair with its tooth form."""
     wheels: tuple[WheelUnderLoad, WheelUnderLoad]
     """Both wheels in the order of the pair."""
     module: float
@@ -86,13 +87,13 @@ class PairUnderLoad:
     width: float
     """Width of the narrower wheel [mm]."""
     wear: WearRange
-    """Minimum and maximum wear coefficient."""
+    """Minimum and maximum wear coefficient [1]."""
     spurs: VirtualSpurs | None = None
     """Virtual spur pair of bevels; None for other wheels."""
     swing: float = 1.0
     """Ratio of the design torque, for stresses, to the mean torque, for wear."""
     remarks: tuple[str, ...] = ()
-    """Restrictions that apply to the wheels of the pair."""
+    """Restrictions on the validity of the results that follow from the wheels of the pair."""
 
     def strength(self) -> PairStrength:
         """Return the stresses, safety factors and wear of the pair."""
@@ -131,7 +132,10 @@ class PairUnderLoad:
 
     @property
     def tangential(self) -> float:
-        """Tangential force at the pitch line [N]: the larger one of both wheels; friction reduces one torque."""
+        """Tangential force at the pitch line [N].
+
+        It is the larger of the forces from the torques on both wheels, because friction reduces one torque.
+        """
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
         # friction reduces the torque on one wheel, so the larger force is used for both
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
@@ -153,7 +157,7 @@ class PairUnderLoad:
 
     @cached_property
     def lean(self) -> HelixData:
-        """Helix data of involute teeth on parallel axes."""
+        """Helix data of involute teeth on parallel axes; zero angles for spur teeth and other forms."""
         helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
         if not helix or not isinstance(form, Involute):
             return HelixData()
@@ -232,7 +236,9 @@ class PairUnderLoad:
         return own.side.load_at(tip, arm)
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
-        """Return the weakest section with the whole load at the tip, and the maximum stress with shared load [MPa]."""
+        """Return the weakest section with the whole load at the tip, and the maximum stress [MPa] if tooth pairs share
+        the load.
+        """
         own, load = self.wheels[at], self.load
         if own.teeth.pins is not None:
             return None, None

@@ -72,7 +72,9 @@ class PinnedDisc:
 
 
 class PinLoad(NamedTuple):
-    """Force at the contact of maximum pressure, and sum of both curvatures there; normalised as in `lobe_load`."""
+    """Force on the pin with the maximum pressure, and sum of the curvatures of pin and lobe; normalised as in
+    `lobe_load`.
+    """
 
     force: float
     curvature: float

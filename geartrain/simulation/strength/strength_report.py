@@ -189,7 +189,7 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
     if not found.verdict:
         yield f"Verdict: {found.verdict.kind}: {found.verdict.text}."
     if found.over is not None:
-        yield f"Stresses by the maximum torque in {figure(found.over, 6)} turns of the input; wear by mean torques."
+        yield f"Stresses from the maximum torque in {figure(found.over, 6)} turns of the input; wear from mean torques."
     weakest = found.weakest
     if weakest is not None:
         where = _WHERE[weakest.what]

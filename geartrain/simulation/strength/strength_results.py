@@ -76,7 +76,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     turns: float | None = None
     """Revolutions of the input over which wear accumulates; None if no service life is given."""
     wear_coefficients: WearRange = NO_WEAR
-    """Minimum and maximum wear coefficient K of Archard's law."""
+    """Minimum and maximum wear coefficient K [1] of Archard's law."""
     neglected: tuple[NeglectedEffect, ...] = ()
     """Pairs and arbors without results, and neglected torque variations, each with the reason."""
     forces: tuple[WheelForce, ...] = ()
@@ -171,7 +171,7 @@ class PairStrength(Result):
     wheels: tuple[WheelStrength, ...]
     """Strength of both wheels, in the order of the pair."""
     notes: tuple[str, ...] = ()
-    """Restrictions of the results, with reasons."""
+    """Restrictions on the validity of the results, with reasons."""
 
 
 @dataclass(frozen=True)
@@ -205,11 +205,13 @@ class ArborStrength(Result):
     stress: float
     """Von Mises equivalent stress of bending and torsion [MPa]."""
     pivot_pressure: float
-    """Bearing pressure on one pivot: total force divided by the product of pivot diameter and pivot length [MPa]."""
+    """Bearing pressure on one pivot [MPa]: total force divided by the product of pivot diameter and pivot length."""
     shoulder_pressure: float | None
     """Contact pressure of the thrust on one shoulder [MPa]; None if the pivots are as thick as the arbor."""
     strength: float | None
-    """Strength of the material of the arbor [MPa]; None if it is not known."""
+    """Strength of the arbor's material [MPa]: 0.2 % proof stress, or tensile strength if it does not yield; None if
+    unknown.
+    """
 
     @property
     def safety(self) -> float | None:
@@ -254,7 +256,9 @@ class WheelStrength(Result):
     has no path of contact.
     """
     strength: float | None
-    """Strength of the material of the wheel [MPa]; None if it is not known."""
+    """Strength of the wheel's material [MPa]: 0.2 % proof stress, or tensile strength if it does not yield; None if
+    unknown.
+    """
     spread: float | None
     """Relative uncertainty of the material's strength; None if it is not known."""
     iso: IsoRoot | None = None
@@ -340,7 +344,9 @@ class FlankStrength(Result):
     material: str
     """Name of the material of the wheel."""
     strength: float | None
-    """Strength of the material of the wheel [MPa]; None if it is not known."""
+    """Strength of the wheel's material [MPa]: 0.2 % proof stress, or tensile strength if it does not yield; None if
+    unknown.
+    """
     spread: float | None
     """Relative uncertainty of the material's strength; None if it is not known."""
     safety: float | None
@@ -382,7 +388,7 @@ class PointContact(Result):
     wheels: tuple[FlankStrength, ...]
     """Strength of both wheels, in the order of the pair."""
     notes: tuple[str, ...] = ()
-    """Restrictions of the results, with reasons."""
+    """Restrictions on the validity of the results, with reasons."""
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,7 @@ class ToothForces:
     modules: Mapping[str, float]
     """Transverse modules by wheel [m]; pairs without a module are omitted."""
     pairs: Mapping[str, PairTorque]
-    """Torques by pair."""
+    """Torques on both wheels of each pair, by pair."""
     meshes: Mapping[str, GearMesh]
     """Pairs with a tooth form, by name."""
     swings: Mapping[str, float] = field(default_factory=dict)
@@ -79,7 +79,9 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
-        """Return radii and tangential forces: the larger one for both wheels, because friction reduces one torque."""
+        """Return radii and tangential forces of both wheels; the larger force is used for both, as friction reduces one
+        torque.
+        """
         pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
         maximum = max(map(abs, pushes))
         return [(radius, copysign(maximum, push)) for radius, push in zip(radii, pushes, strict=True)]
@@ -120,7 +122,9 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Return the pitch radius [mm]: m z/2 divided by the cosine of the helix angle."""
+        """Return the pitch radius [mm]: half the normal module times the tooth number, over the cosine of the helix
+        angle.
+        """
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
@@ -198,7 +202,7 @@ def helical_force(tangential: float, helix: float, pressure_angle: float, fricti
     """Return the force on a wheel at its pitch point: docs/strength.md (18).
 
     tangential       torque divided by pitch radius, in any unit of force
-    helix            helix angle [rad], positive for a right hand; 0 for spur wheels, near pi/2 for a worm
+    helix            helix angle [rad], positive for a right-hand helix; 0 for spur wheels, near pi/2 for a worm
     pressure_angle   normal pressure angle [rad]
     friction_angle   friction angle along the teeth [rad]; negative for the driver, positive for the driven wheel, or
                      reversed if the helix angles reverse the sliding; 0 on parallel axes

@@ -83,7 +83,7 @@ class Service:
     years: float | None = None
     """Years of operation; None if wear is not requested, or `turns` is given."""
     wear: tuple[float, float] | None = None
-    """Minimum and maximum wear coefficient; None for `WEAR_RANGE`."""
+    """Minimum and maximum wear coefficient [1]; None for `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
         """Return the range of wear coefficients.
@@ -151,10 +151,13 @@ class StrengthQuestion:
     meshes: Sequence[GearMesh]
     """Pairs with a tooth form, with their drivers in this load case."""
     scale: float | None
-    """Revolutions per unit of relative speed; None if wear is not requested. `turns` are those of the input."""
+    """Revolutions of a link in the service life per unit of its relative speed; None if wear is not requested.
+
+    `turns` are the revolutions of the input in the service life.
+    """
     turns: float | None
     wear: WearRange
-    """Minimum and maximum wear coefficient."""
+    """Minimum and maximum wear coefficient [1]."""
     over: float | None = None
     """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
     maximum: Mapping[str, float] = field(default_factory=dict)
@@ -173,7 +176,7 @@ class StrengthQuestion:
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Cut teeth by wheel, suited to all mates."""
+        """Cut teeth of each wheel that suit all its mates, by wheel."""
         return self._cut.wheels
 
     @cached_property
@@ -225,7 +228,9 @@ class StrengthQuestion:
         )
 
     def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
-        """Return omitted pairs in the order of the declaration, then arbors, then variation of torques."""
+        """Return the neglected effects: omitted pairs in the order of the declaration, then arbors, then varying
+        torques.
+        """
         swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
             why = "stresses follow from mean torques; `--peak-turns` uses the maximum over some turns"
@@ -340,7 +345,7 @@ class StrengthQuestion:
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Return the teeth of a wheel cut for all mates, or for this pair only if another pair has faults."""
+        """Return the teeth of a wheel cut to suit all mates, or only this mate if another pair has faults."""
         if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:
@@ -432,7 +437,7 @@ class StrengthQuestion:
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), own, steepest)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Return the names of the pairs of the given wheels that carry a torque but have no known forces."""
+        """Return the names of the pairs of given wheels that carry a torque, but whose tooth forces are unknown."""
         known = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs
@@ -488,7 +493,8 @@ def maximum_moment(force: float, couple: float, span: float) -> float:
     """Return the maximum bending moment of a bar between two bearings for any positions of its loads [N mm]:
     docs/strength.md (26).
 
-    A transverse force at x L causes F L x (1 - x) there, and a moment at most M max(x, 1 - x).
+    A transverse force F at the fraction x of the bearing distance L causes the moment F L x (1 - x) there. An applied
+    moment M causes at most M max(x, 1 - x).
 
     >>> maximum_moment(10.0, 0.0, 40.0), maximum_moment(0.0, 50.0, 40.0)
     (100.0, 50.0)

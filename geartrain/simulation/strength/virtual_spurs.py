@@ -71,7 +71,7 @@ class ConeMiddle:
         return abs(self.cones.axle_of(gear))
 
     def radius(self, gear: int) -> float:
-        """Return the pitch radius at mid-width."""
+        """Return the pitch radius of one wheel at mid-width."""
         return self.shrunk * self.module * self.cones.teeth_of(gear) / 2
 
 
@@ -106,7 +106,7 @@ class VirtualSpurs:
         return self.middle.width > _WIDEST * self.middle.reach
 
     def count(self, gear: int) -> float:
-        """Return the virtual number of teeth, in general not an integer."""
+        """Return the virtual number of teeth of one wheel, in general not an integer."""
         # Tredgold's approximation: the back cone is developed into a plane
         return self.middle.cones.teeth_of(gear) / cos(self.middle.cone(gear))
 
@@ -117,7 +117,10 @@ class VirtualSpurs:
 
     @cached_property
     def pair(self) -> ConjugatePair:
-        """Conjugate pair with its path of contact. Raises `GearTrainError` if the form has none."""
+        """Conjugate pair of virtual spur wheels with its path of contact.
+
+        Raises `GearTrainError` if the tooth form has no path of contact.
+        """
         return self.form.pair(self.wheels)
 
     def teeth(self, gear: int) -> CutTooth:

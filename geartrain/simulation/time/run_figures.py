@@ -112,7 +112,7 @@ class RunFigures:
 
     @cached_property
     def contacts(self) -> tuple[ContactInTime, ...]:
-        """Results of each contact."""
+        """Results of each pair, pin and escapement in the counted part of the run."""
         steps, time = self.plan.steps, self.duration
         return tuple(
             ContactInTime(
@@ -240,7 +240,7 @@ class RunFigures:
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
 
     def intervals(self) -> list[float | None]:
-        """Return half the 95 % confidence interval of each mean value; None for short runs."""
+        """Return the half-width of the 95 % confidence interval of each mean value; None for short runs."""
         blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
@@ -310,7 +310,7 @@ class RunFigures:
         )
 
     def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
-        """Yield every result with its value at the longer time step."""
+        """Yield every result together with its value from the run with the longer time step."""
         # a contact may have impacts in only one of the runs
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
@@ -357,8 +357,8 @@ def _frozen(values: Floats) -> Floats:
 
 
 def batch_half_width(means: Floats) -> float | None:
-    """Return half the 95 % confidence interval of a mean from the means of equal consecutive batches, shape (n,); None
-    for too few batches.
+    """Return the half-width of the 95 % confidence interval of a mean, from the means of equal consecutive batches,
+    shape (n,); None for too few batches.
 
     The interval is Student's t with n - 1 degrees of freedom, widened by sqrt((1 + r)/(1 - r)) for the lag-1
     correlation r of the batches, whose estimate is 1/n too low on average (Law and Kelton, Simulation Modeling and
@@ -423,7 +423,9 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return the name and harmonic of the pair with the lowest harmonic near an order; "" if no pair has one."""
+    """Return the name of the pair with the lowest harmonic near a vibration order, and this harmonic; "" if there is
+    none.
+    """
     near = [
         (harmonic, name)
         for name, own in cycles.items()

@@ -217,8 +217,8 @@ class Simulation(Shown):
         if value == self.drive:
             return
         if self.drive_kind == "spring":
-            why = "the torque of a spring cannot be set"
-            raise QuestionError(Problem("the drive is a spring", why, "declare a `drive` other than a spring"))
+            why = "the drive is a spring, whose torque follows from its deflection"
+            raise QuestionError(Problem("the drive cannot be set", why, "declare a `drive` other than a spring"))
         before, self.drive = self.drive, value
         if self.drive_kind == "hand":
             self._system.spring_rate[0] = value

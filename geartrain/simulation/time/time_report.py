@@ -149,13 +149,13 @@ def _sections(found: TimeReport) -> Iterator[Section]:
 
 
 def _validity_notes(run: TimeRun) -> Iterator[str]:
-    """Yield reasons why teeth in this run may separate below the predicted rates."""
+    """Yield reasons why teeth in this run may separate below the predicted input speeds."""
     if run.driven != "rate":
-        yield "These rates assume an input of constant speed; the speed of this input may vary."
+        yield "Separation rates assume an input of constant speed; the speed of this input may vary."
     if run.model == "compliant":
-        yield "These rates assume rigid teeth; compliant teeth vibrate at jumps of the ratio and may separate earlier."
+        yield "Separation rates assume rigid teeth; compliant teeth vibrate at ratio jumps and may separate earlier."
     elif run.restitution:
-        yield "These rates assume no restitution; with restitution, teeth bounce wherever their speed ratio jumps."
+        yield "Separation rates assume no restitution; with restitution, teeth bounce wherever their speed ratio jumps."
 
 
 def _summary(run: TimeRun) -> Iterator[str]:

@@ -67,7 +67,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     link: str
     """Name of the link at which power enters."""
     driven: Literal["rate", "torque", "spring", "hand"]
-    """Kind of drive: prescribed speed, torque (including the torque of a weight), spring, or compliant hand."""
+    """Kind of drive: prescribed speed, torque (including that of a weight), spring, or a hand that turns a spring."""
     step: float
     """Time step [s]."""
     skip: float

@@ -122,7 +122,9 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return up to `_PAIRS` pairs with backlash that are apart for the longest times, in the order of the train."""
+    """Return the `_PAIRS` pairs with backlash that are apart for the longest times, or fewer, in the order of the
+    train.
+    """
     names = [
         name
         for row, name in enumerate(run.gaps.labels[0])
@@ -142,7 +144,7 @@ def _moving(run: TimeRun) -> list[str]:
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
-    """Return a slice of samples around the maximum gap of all drawn pairs, or the last samples."""
+    """Return a slice of samples around the maximum gap of all drawn pairs, or of the last samples."""
     whole = len(run.time)
     first = int(np.searchsorted(run.time, run.skip))
     middle = whole

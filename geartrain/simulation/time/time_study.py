@@ -47,11 +47,11 @@ class TimeStudy:
     skip: float = 1.0
     """Revolutions of the driving link before the counted part."""
     steps: int | None = None
-    """Steps of the coarser run per revolution of the driving link; None for a number that suits its teeth."""
+    """Steps of the coarser run per revolution of the driving link; None to choose it from the tooth-passing periods."""
     samples: int | None = None
-    """Number of samples of the whole run; None for a number that suits a spectrum."""
+    """Number of samples of the whole run; None to choose a number that suits a spectrum."""
     fast: bool | None = None
-    """True to compile the kernels, False not to; None decides by the amount of work."""
+    """True to compile the kernels, False to run them in Python; None to decide by the amount of work."""
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
@@ -140,7 +140,8 @@ class TimeStudy:
     def static_peaks(self) -> Sequence[float | None]:
         """Return the maximum quasi-static torque of each pair [N m], from a rigid run with almost no inertia.
 
-        The values are None for rigid teeth, and if no speed is prescribed, since such a train would run away.
+        The values are None for rigid teeth, and if no speed is prescribed, since such a train would accelerate without
+        limit.
         """
         model = self.of.model
         if self.of.yields is None or self.of.case.drive.kind != "rate":

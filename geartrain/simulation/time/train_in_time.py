@@ -33,11 +33,11 @@ class DrivenTrain:
     train: TrainMechanics
     state: str | None = None
     rate: str | float | None = None
-    """Rate of the first input that turns, as a string with a unit or in rad/s; None for the declared drive."""
+    """Speed of the first input that turns, as a string with a unit or in rad/s; None for the declared drive."""
     restitution: float | None = None
     """Coefficient of restitution of every impact; None for the declared values."""
     outputs: Sequence[str] = ()
-    """Names of recorded outputs or links; by default all outputs, or all links of a train without outputs."""
+    """Names of the outputs or links to record; by default all outputs, or all links of a train without outputs."""
     without: Sequence[str] = ()
     """Names of pairs to omit from the simulation."""
 
@@ -88,7 +88,7 @@ def model_in_time(
 ) -> TrainModel:
     """Return the contact model of a train; `rate` [rad/s] and `restitution` override the declared values.
 
-    scale   rate [rad/s] if none is declared, for results that do not depend on it
+    scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
     train = train.planets_as_one
     declared, case, problem = (
@@ -169,7 +169,10 @@ def find_vibration_modes(
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
-    """Convert a rate to rad/s; return None for None. Raises `QuestionError` if the rate is not a positive speed."""
+    """Convert an input speed to rad/s; return None for None.
+
+    Raises `QuestionError` if the speed is not positive.
+    """
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity
@@ -193,7 +196,10 @@ def radians_per_second(rate: str | float | None) -> float | None:
 
 @dataclass(frozen=True)
 class VibrationModes(Tabular, Result):
-    """Vibration modes of a train with its flanks in contact: solutions of K phi = w^2 M phi at mean speed ratios.
+    """Vibration modes of a train with its flanks in contact, at mean speed ratios.
+
+    The mode shapes phi and angular frequencies w are solutions of K phi = w^2 M phi, with the stiffness matrix K and
+    the mass matrix M.
 
     See Also
     --------

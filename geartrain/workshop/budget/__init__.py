@@ -1,4 +1,4 @@
-"""Error budget of a pointer: its causes in degrees and in days (docs/budgets.md).
+"""Error budget of a pointer: contributions to its error in degrees and in days (docs/budgets.md).
 
 train_budget     options of a budget, collection of all causes, drift of ratios, cutting errors
 motion_causes    error of pins relative to the true motion of Moon and Sun; teeth and backlash

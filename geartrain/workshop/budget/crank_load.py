@@ -30,27 +30,27 @@ YEAR = period_table()["year_tropical_J2000"].value  # d
 MOST_PASSAGES = 600_000
 """Maximum number of tooth engagements in a run multiplied by the number of pairs evaluated at each engagement.
 
-Longer runs are cut off at this number, which takes about two minutes without compiled kernels.
+Longer runs are shortened to this number, which takes about two minutes without compiled kernels.
 """
 SAMPLES = 2_000  # positions of the input in a run
 
 
 def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> TorqueCycle:
-    """Return the torque over the natural run of a train, whose length is `natural_turns`.
+    """Return the torque of a link over the standard run of a train: a year, or its period if that is shorter.
 
-    driving_link   the input
-    of             link whose torque is computed, by default the crank
+    driving_link   name of the input link; `natural_turns` gives its turns in the run
+    of             name of the link whose torque is computed, by default the crank
     """
     turns = natural_turns(train, state, driving_link, of)
     return train.torques(state, turns=turns, samples=SAMPLES, of=of)
 
 
 def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> float:
-    """Return the number of turns of the input in the natural run of a train.
+    """Return the number of turns of the input in the standard run of a train, over which torques are computed.
 
     The run is a year, or the period after which the motion repeats if that is shorter. If the unit of speeds is not a
     time, one unit replaces the year. For a train of constant ratio any run gives the same result, so the run is one
-    unit of time. A run with more than `MOST_PASSAGES` evaluations is cut off.
+    unit of time. A run with more than `MOST_PASSAGES` evaluations is shortened.
     """
     once = abs(train.declaration.case(state).inputs[driving_link]) or 1  # an input of speed 0 has no period
     period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
@@ -105,7 +105,7 @@ def find_weight_drive(
 ) -> WeightDrive | None:
     """Return the torques of the weight that drives a train in one state; None if no weight drives the train.
 
-    link           link of the drum; `driving_link`, the input
+    link           link that carries the drum; `driving_link` is the input link
     under_load     torque over the run under the declared loads; None without loads
     """
     drive = train.declaration.case(state).drive
@@ -124,7 +124,7 @@ def find_weight_drive(
 
 
 def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
-    """Return the same train with the torque `pull` [N m] at the drum as its only load, in its direction of rotation."""
+    """Return a copy of the train whose only load is the torque `pull` [N m] on the drum, in its sense of rotation."""
     from geartrain.analysis.gear_train import GearTrain
 
     speed = train.solve(state)[link]
@@ -164,9 +164,9 @@ class CrankLoad(Result):
     Pointers that cannot be driven are omitted. The mapping is empty without friction.
     """
     over_turn: TorqueCycle | None = None
-    """Torque at each position of the natural run of the train; None without loads, or if the run cannot be computed."""
+    """Torque over the standard run of the train (`natural_turns`); None without loads, or if it cannot be computed."""
     weight: WeightDrive | None = None
-    """Results for the weight that drives the train; None if no weight drives it, or if the run cannot be computed."""
+    """Torques of the weight that drives the train; None if no weight drives it, or if they cannot be computed."""
 
 
 def find_crank_load(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:
@@ -175,7 +175,7 @@ def find_crank_load(train: GearTrain, state: str | None, driving_link: str, link
     Without declared loads, the result contains the efficiency from the input to the output, and the results of a
     driving weight if one is declared.
 
-    links   by pointer, the link that turns
+    links   name of the link that turns with each pointer, by pointer
     """
     found = _at_mean_speeds(train, state, driving_link, links)
     drive = train.declaration.case(state).drive

@@ -1,14 +1,15 @@
-"""Three causes of the error of a pointer: theory of its pins, ripple of teeth, and lost motion.
+"""Three causes of the error of a pointer: its pins in slots, the ripple of teeth, and lost motion.
 
-The ripple is the motion with real teeth minus the motion of the same pins with ideal teeth, at the same positions
-(docs/motion.md, 3), because the anomaly that pins are meant to give is not an error of teeth. Lost motion is the lag of
-a pointer when the crank turns back: the same composition on the coast flanks minus that on the drive flanks.
+The ripple is the motion with the declared teeth minus the motion of the same pins with ideal teeth, at the same
+positions (docs/motion.md, 3), because the anomaly that pins are meant to give is not an error of teeth. Lost motion is
+the lag of a pointer when the crank turns back: the motion on the coast flanks minus that on the drive flanks.
 
 With ideal teeth, the pins give an error d(phi) over one cycle of the pin. The true motion has the equation of centre
-C(M) over one anomalistic revolution. The initial phase of the pin is chosen by the maker, so the phase of M is the one
-that minimises sum (d(phi) - C(phi + phase) - mean)^2. The mean is removed because the pointer is set. The true motion
-of Moon and Sun is Kepler's: M = E - e sin E, tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2). Perturbations of the Moon by
-the Sun (evection, variation, annual equation: 1.3, 0.7 and 0.2 degrees) and of both by the planets are neglected.
+C(M), with the mean anomaly M, over one anomalistic revolution. The initial phase of the pin is chosen by the maker, so
+the phase of M is the one that minimises sum (d(phi) - C(phi + phase) - mean)^2. The mean is removed because the pointer
+can be set. The true motion of Moon and Sun is Kepler's, with eccentricity e, eccentric anomaly E and true anomaly nu: M
+= E - e sin E, tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2). Perturbations of the Moon by the Sun (evection, variation,
+annual equation: 1.3, 0.7 and 0.2 degrees) and of both by the planets are neglected.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ _NEAR = 0.02  # maximum relative difference of a target from the period of the b
 
 @dataclass(frozen=True)
 class ErrorDifference:
-    """Difference of the errors of two compositions with the same outputs at the same positions."""
+    """Difference of the output errors of two composed motions with the same outputs, at the same input positions."""
 
     one: ErrorComposition
     other: ErrorComposition
@@ -92,7 +93,7 @@ class ToothMotion:
 
 
 def without_teeth(motion: Motion) -> Motion:
-    """Return the motion of the same train and pins with ideal teeth: constant ratio, no backlash."""
+    """Return the motion of the same train with ideal teeth (constant ratio, no backlash) and the same pins."""
     from geartrain.dynamics import Motion
 
     return Motion(replace(motion._problem, meshes={}), motion.outputs)
@@ -223,14 +224,14 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """Orbit of a body, with which the anomaly of a pointer is compared."""
+    """Orbit of a celestial body, with whose true motion the anomaly of a pointer is compared."""
 
     eccentricity: float
     """Present eccentricity of the orbit."""
     period: float
     """Sidereal or tropical period [d], to 0.01 d; the target of a pointer must be close to it."""
     words: frozenset[str]
-    """Words in the name of an output or link that indicate the body."""
+    """Words in the name of an output or link that identify the body."""
     source: str
     """Source of the eccentricity."""
 
@@ -242,10 +243,10 @@ TRUE_MOTIONS: dict[Body, TrueMotion] = {
 
 
 def equation_of_centre(M: Floats, e: float) -> Floats:
-    """Return the equation of centre, true minus mean anomaly [rad], at mean anomalies M [rad] for 0 <= e < 1.
+    """Return the equation of centre [rad], true minus mean anomaly, at mean anomalies M [rad] for an eccentricity e.
 
-    Kepler's equation is solved by Newton's method to rounding accuracy. It starts at E = M + e sin M, from which it
-    converges for the small e of these orbits.
+    Kepler's equation is solved for 0 <= e < 1 by Newton's method to rounding accuracy. It starts at the eccentric
+    anomaly E = M + e sin M, from which it converges for the small e of these orbits.
     """
     E = M + e * np.sin(M)
     for _ in range(_STEPS):
@@ -276,12 +277,12 @@ class TheoryError:
 def find_bodies(
     outputs: Iterable[OutputResult], frame: str, unit_days: float | None, named: Mapping[str, Body | None]
 ) -> dict[str, Body]:
-    """Return the body that each link represents, by link.
+    """Return the celestial body that each link represents, by link.
 
     The body is given by `named`, or inferred from a word in the name of the output or link and a target within 2 % of
     the body's period. Outputs that are not relative to the frame are ignored.
 
-    named   by output, the body that it represents whatever its name; None for no body
+    named   body that an output represents, whatever its name, by output; None for no body
     """
     found: dict[str, Body] = {}
     for output in outputs:
@@ -359,7 +360,7 @@ def minimum_difference(error: Floats, e: float) -> Floats:
 
 
 def theory_cause(parts: list[TheoryError]) -> BudgetCause:
-    """Return one cause that combines the theory errors of a pointer's link and of its reference link.
+    """Return one cause that combines the errors of a pointer's link and of its reference link relative to true motion.
 
     Their cycles differ, so peak-to-peak values are added, and rms values are added in quadrature.
     """

@@ -23,7 +23,7 @@ MEASURES: Mapping[CauseName, str] = {
     "lost motion": "maximum",
     "cutting": "central 95 % range",
 }
-"""Quantity that the degrees of each cause represent, in words."""
+"""Description of the quantity that the degrees of each cause measure, by cause."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -232,7 +232,9 @@ class TrainBudget(Tabular, Pictured, Result):
     crank: CrankLoad
     """Torque and efficiency at the crank."""
     jams: tuple[ClearanceCase, ...] = ()
-    """Probability that wheels with cutting errors jam, for each clearance; `jams_note` explains an empty tuple."""
+    """Probability that wheels with cutting errors jam, for each requested clearance; `jams_note` explains an empty
+    tuple.
+    """
     jams_note: str = ""
     """Reason why `jams` is empty; "" if `jams` has entries."""
     reversing_drivers: tuple[str, ...] = ()

@@ -95,7 +95,7 @@ class BudgetQuestion:
         if not 0 < self.span_days < 1e9:
             what = f"a span of {self.span_days:g} days is out of range"
             raise QuestionError(
-                Problem(what, "a span is above 0 and below 1e9 days", "for example, give --span '6940 d'")
+                Problem(what, "a span must be above 0 and below 1e9 days", "for example, give --span '6940 d'")
             )
         if self.samples < 2 or not 0 < self.turns <= 1e6:
             what = f"{self.samples} positions in {self.turns:g} turns are out of range"
@@ -224,7 +224,9 @@ def _float(value: Fraction | None) -> float | None:
 def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
-    """Return by pointer the theory errors of its link and of its reference link, each relative to its body."""
+    """Return the errors of each pointer's link and of its reference link relative to their celestial bodies, by
+    pointer.
+    """
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
@@ -269,7 +271,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def _is_observed(target: Target) -> bool:
-    """Return True if a target is an observed period of the shipped table, False if it is intended by the makers."""
+    """Return True if a target is an observed period of geartrain's table, not one intended by the makers."""
     return target.name is not None and period_table()[target.name].kind == "period"
 
 
@@ -303,7 +305,7 @@ def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
 def cutting_cause(trials: TrialResults, even: Floats, name: str, known: DeclaredPairs) -> BudgetCause:
     """Return the cause "cutting" of one output: the central 95 % range of its errors, with a confidence interval.
 
-    even    errors of perfect teeth at the same positions [rad], shape (outputs, trials)
+    even    errors of perfect teeth at the same input positions [rad], shape (outputs, trials)
     known   pairs and couplings that move the output
     """
     at = trials.plan.outputs.index(name)
@@ -335,7 +337,10 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
 def find_cutting_trials(
     plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
 ) -> tuple[TrialResults, Floats]:
-    """Return trials with cutting errors, and errors of perfect teeth at their positions (outputs, trials) [rad].
+    """Return trials with cutting errors, and the output errors [rad] of perfect teeth at the input positions of the
+    trials.
+
+    The errors of perfect teeth have shape (outputs, trials).
 
     motion   motion with perfect teeth
     """
@@ -350,7 +355,7 @@ def find_cutting_trials(
 def cutting_plan(
     train: GearTrain, cutting: Sequence[str], outputs: Sequence[str], state: str | None, without: Sequence[str]
 ) -> tuple[TrialPlan | None, str]:
-    """Return the plan of the trials, or None with the reason why there is none.
+    """Return the plan of the trials with cutting errors, or None with the reason why no trials are possible.
 
     Raises `GearTrainError` if the errors `cutting` cannot be applied.
     """

@@ -5,5 +5,5 @@ cut_wheel            triangular wheels, one or many, and pairs of two wheels
 displaced_pair       wheels of all other tooth forms, with displaced flanks
 meshing_cycle        events of many pairs at once: jam, clash, dwell, loss of contact
 trial_transmission   transmission functions of many pairs at once
-file_strokes         filing of pairs until they do not jam
+file_strokes         filing of teeth until pairs turn without a jam
 """

@@ -1,10 +1,11 @@
 """Triangular wheels with cutting errors, and a pair of two of them: CutWheel, CutToothPairs, CutGearPair.
 
 Teeth are numbered in the order in which they pass the line of centres as the wheel turns forward. The tip of tooth i
-is at the angle i p + place[i] behind tooth 0 of a perfect wheel (p is the pitch), at the radius R + tip[i]. Its flanks
-make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip. The leading flank faces
-forward. It pushes if the wheel drives; the trailing flank is pushed if the wheel is driven. The radius of an internal
-wheel is negative, as in the equations of its pair, so a higher tip is nearer the centre.
+is at the angle i p + place[i] behind tooth 0 of a perfect wheel, at the radius R + tip[i]; p is the pitch, R the
+nominal tip radius. Its flanks make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip,
+with the nominal half angle beta. The leading flank faces forward. It pushes if the wheel drives; the trailing flank is
+pushed if the wheel is driven. The radius of an internal wheel is negative, as in the equations of its pair, so a higher
+tip is nearer the centre.
 
 Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. After
 lcm(z1, z2) tooth pairs the same teeth meet again. The leading flank of the driver pushes the trailing flank of the
@@ -46,13 +47,13 @@ class CutWheel:
     """
 
     radius: float
-    """Tip radius R of the perfect wheel [any unit of length]; negative for an internal wheel."""
+    """Tip radius of the perfect wheel [any unit of length]; negative for an internal wheel."""
     half_angle: float
     """Half angle of the teeth of the perfect wheel [rad]."""
     place: Floats
     """Angle of each tip behind its nominal position [rad]."""
     tip: Floats
-    """Height of each tip above R [unit of R]."""
+    """Height of each tip above the nominal tip radius [unit of `radius`]."""
     leading: Floats
     """Angle by which each leading flank, rotated about the tip, is flatter than the half angle [rad]."""
     trailing: Floats
@@ -92,7 +93,7 @@ class CutWheel:
 
     @property
     def r(self) -> Floats:
-        """Radius of each tip [unit of R], negative for an internal wheel."""
+        """Radius of each tip [unit of `radius`], negative for an internal wheel."""
         return self.radius + self.tip
 
     @property
@@ -106,7 +107,7 @@ class CutWheel:
         return CutWheel(self.radius, self.half_angle, *some)
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return the wheel cut about a centre at a distance e from the axis [unit of R], in a direction [rad]."""
+        """Return the wheel cut about a centre at a distance e from the axis [unit of `radius`] in a direction [rad]."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         # the flanks keep their directions, but the radius through the tip turns
@@ -164,7 +165,7 @@ class CutWheel:
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """Return the value of one tooth in each trial.
+    """Return the entries of an array of tooth data for one tooth in each trial.
 
     The result is the scalar 0 if an array common to all trials contains only zeros, which saves memory.
     """
@@ -228,18 +229,22 @@ class CutToothPairs(ToothPair):
         )
 
     def contact(self, x: Any) -> Any:
-        """Return alpha_2 of the driven tooth in contact at alpha_1 = x [rad], for |x| up to `reach`.
+        """Return the angle of the driven tooth from the line of centres [rad], with the driving tooth at the angle x
+        [rad].
 
-        It is f(x) = min(approach, recess).
+        It is the minimum of the angles in the approach and recess phases, valid for |x| up to `reach`.
         """
         return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))  # far out of reach one of them is NaN
 
     def approaches(self, x: Any) -> Any:
-        """Return a mask of the contacts at x that are in the approach phase."""
+        """Return a mask: True for tooth pairs in the approach phase at the driver angle x [rad]."""
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio at x in the given phase; infinite if jamming teeth overlap below the driven flank."""
+        """Return the speed ratio tau at driver angle x [rad] in the given phase.
+
+        It is infinite if jamming teeth overlap below the driven flank.
+        """
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
@@ -257,7 +262,7 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1, equation (4); 0 if tips do not reach each other."""
+    """Return the sine of half the maximum contact angle of wheel 1, Sorge's equation (4); 0 if tips do not meet."""
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
@@ -299,7 +304,7 @@ class CutGearPair:
         return CutGearPair(self.sizes, first, second, self.shift)
 
     def tooth_pairs(self, k: Any) -> CutToothPairs:
-        """Return the tooth pairs with the numbers k, which are counted through all turns."""
+        """Return the tooth pairs with the numbers k, where tooth pairs are counted through all turns."""
         i = k % self.sizes.z1
         j = k % self.sizes.z2
         one, two, sizes = self.first, self.second, self.sizes
@@ -308,7 +313,7 @@ class CutGearPair:
         return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the pitch deviations of both teeth of each tooth pair k [rad], positive backwards."""
+        """Return the pitch deviations of both teeth of each tooth pair k [rad], positive if a tooth is late."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
@@ -317,13 +322,16 @@ class CutGearPair:
 
         Its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
 
-        If U' is the lag of the mirrored pair at first contact, the back flanks here meet at L(t) = -U'(-t) - p2.
+        If U' is the lag of the mirrored pair at first contact, the back flanks of this pair meet at the lag L(t) =
+        -U'(-t) - p2, with the driver angle t and the pitch p2 of the driven wheel.
         """
         return CutGearPair(self.sizes, self.first.mirrored(), self.second.mirrored(1), self.shift)
 
     @cached_property
     def widest(self) -> float:
-        """Upper bound of |alpha_1| at which any tooth pair can touch [rad of the driver]; -inf if none can."""
+        """Maximum angle of a driving tooth from the line of centres at which it can touch [rad], an upper bound; else
+        -inf.
+        """
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
         R1, R2 = sizes.signed_radii

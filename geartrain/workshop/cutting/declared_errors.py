@@ -71,12 +71,14 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Tooth depth divided by the tip radius; for displaced flanks in modules, for bevel gears in rad."""
+        """Tooth depth: divided by the tip radius for triangular teeth, in modules for displaced flanks, in rad for
+        bevel gears.
+        """
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property
     def true(self) -> bool:
-        """True if the wheel has no errors."""
+        """True if the wheel is free of errors."""
         return not self.tables and not any(each.size for each in self.errors.values())
 
 
@@ -143,7 +145,7 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
         known = wheels if each.kind in OF_WHEELS else pairs
         if each.of and each.of not in known:
             part = "wheel" if each.kind in OF_WHEELS else "pair"
-            what = f"{part} '{each.of}' of the error '{each.kind}' is not in the trials"
+            what = f"the error '{each.kind}' is given for the {part} '{each.of}', which is not in the trials"
             why = f"'{each.kind}' applies only to a {part} with triangular teeth or with a known path of contact"
             raise QuestionError(Problem(what, why, suggest(each.of, known)))
 

@@ -127,17 +127,23 @@ class DisplacedWheel:
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lags of the tooth pairs on the front or back flanks at one position of the driver within a pitch.
+    """Lags of the driven wheel due to the tooth pairs on the front (drive) or back (coast) flanks, at one driver
+    position.
 
-    The lag is the sum of a term of each wheel, indexed by the number n of pitches passed.
+    The position is within a pitch. The lag is the sum of a term of each wheel, indexed by the number n of pitches
+    passed.
     """
 
     driver: Any
-    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by the n of the driver."""
+    """Contribution of the driver to the lag [rad of the driven wheel], shape (trials, z), by pitches n that it has
+    passed.
+    """
     driven: Any
-    """Term of the driven wheel [rad of the driven wheel], shape (trials, z), indexed by its own n."""
+    """Contribution of the driven wheel to the lag [rad of this wheel], shape (trials, z), by pitches n that it has
+    passed.
+    """
     pitches: int
-    """Offset of the tooth numbers: the term n of the driver belongs to its tooth n - `pitches`."""
+    """Offset of the tooth numbers: entry n of the driver's term belongs to its tooth n - `pitches`."""
 
 
 @dataclass(frozen=True)
@@ -180,7 +186,7 @@ class DisplacedPair:
 
     @property
     def _lag_varies(self) -> bool:
-        """True if the lag of perfect wheels varies along the path of contact."""
+        """True if the lag of the driven wheel of a perfect pair varies along the path of contact."""
         even = self.contact.even
         return bool(even.any() and np.ptp(even) > 0)
 
@@ -195,7 +201,7 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the terms of all tooth pairs that can touch, at the driver angle u within a pitch [rad]."""
+        """Yield the lag contributions of all tooth pairs that can touch, at the driver angle u within a pitch [rad]."""
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
@@ -207,7 +213,10 @@ class DisplacedPair:
                 yield self._side(u, x, int(sign) * steps, back)
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag where tips touch beyond the path of contact [rad]; `tip1`, `tip2` are height errors."""
+        """Return the lag [rad] of the driven wheel while tips touch beyond the path of contact, at driver angles x.
+
+        `tip1` and `tip2` are the errors of the tip heights.
+        """
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
@@ -218,15 +227,16 @@ class DisplacedPair:
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return all quantities tabulated along the path of contact, each at x [rad] as by `_along`.
+        """Return all quantities tabulated along the path of contact, each interpolated at x [rad] by `_along`.
 
-        Order: across, along and tilt of both wheels, normal, even, apart.
+        They are the fields `across`, `along` and `tilt` of both wheels, then `normal`, `even` and `apart` of the
+        contact.
         """
         at = self.contact
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the terms of equation (2) for both wheels at one x [rad]; teeth are indexed by n = tooth + j.
+        """Return the contributions of both wheels to the lag at one x [rad], docs/cut-by-hand.md (2), by n = tooth + j.
 
         late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
         """
@@ -257,7 +267,9 @@ class DisplacedPair:
 
     @staticmethod
     def _eccentric_terms(wheel: DisplacedWheel, turned: float, stands: float, across: float, along: float) -> Any:
-        """Return the term of an eccentric wheel for each number n of pitches passed [rad of the driven wheel]."""
+        """Return the lag [rad of the driven wheel] due to the eccentricity of a wheel, for each number n of pitches
+        passed.
+        """
         if not np.any(wheel.e):
             return 0.0
         angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + stands
@@ -267,7 +279,9 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the terms of each front and back tooth pair that can touch at the same driver position."""
+        """Yield the lag contributions of each drive-flank and coast-flank tooth pair that can touch at one driver
+        position.
+        """
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
@@ -352,7 +366,10 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag due to tooth pairs k at driver angles S [rad of the driven wheel]; for back flanks a lead."""
+        """Return the lag of the driven wheel [rad] due to tooth pairs k at driver angles S [rad].
+
+        For back flanks it is the angle by which the driven wheel is ahead.
+        """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
@@ -375,7 +392,9 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag at driver angles S [rad], and the number of its tooth pair; inf without contact."""
+        """Return the minimum lag of the driven wheel [rad] at driver angles S [rad], and the number of the tooth pair
+        that causes it; inf without contact.
+        """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
         low, high = self.widest
@@ -394,7 +413,7 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of perfect wheels [rad of the driven wheel]; 0 for conjugate flanks at nominal distance."""
+    """Return the mean lag of the driven wheel of a perfect pair [rad]; 0 for conjugate flanks at nominal distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
@@ -404,7 +423,7 @@ def mean_lag(contact: DisplacedContact) -> float:
 
 
 def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:
-    """Return the terms of selected trials, for one tooth number in each trial."""
+    """Return the entries of a term array for one tooth number n in each selected trial."""
     return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
 
 

@@ -1,4 +1,4 @@
-"""Filing of pairs to fit: a pair is turned through its cycle, and a tooth that jams is filed until it passes.
+"""Filing of pairs to fit: a pair is turned through its cycle, and a tooth that jams is filed until the pair turns on.
 
 At minimum backlash, four flanks of two tooth pairs are in contact. The most protruding of them is filed until the tooth
 pairs pass. This is repeated at the next tightest position, until the pair turns through its cycle.
@@ -38,7 +38,7 @@ class FilingWork(Generic[Pair]):
 def file_to_fit(
     pair: Pair, tight_place: Callable[[Pair], TightPlace], stroke: float, deepest: float
 ) -> FilingWork[Pair]:
-    """Return pairs, one for each trial, filed until they pass, one `stroke` of depth at a time.
+    """Return pairs, one for each trial, filed until they turn without a jam, one `stroke` of depth at a time.
 
     A pair remains jammed if more than `deepest` would have to be removed from a flank.
 
@@ -103,7 +103,7 @@ def tight_place(pair: CutGearPair) -> TightPlace:
 
 
 def _flank_height(wheel: CutWheel, side: int) -> Floats:
-    """Return the height of each flank along its normal above nominal, halfway down the tooth, shape (..., z)."""
+    """Return the height of each flank above nominal, along its normal and halfway down the tooth, shape (..., z)."""
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
     half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
     found: Floats = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean

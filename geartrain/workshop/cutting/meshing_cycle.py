@@ -62,7 +62,7 @@ class MeshingVerdicts:
     dwell: Bools
     """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
     disengaged: Bools
-    """Mask of losses of contact: at some position no front or no back flanks can touch."""
+    """Mask of losses of contact: at some position no front (drive) flanks or no back (coast) flanks can touch."""
 
     @property
     def jams(self) -> Bools:
@@ -113,7 +113,7 @@ def batch_verdicts(
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
-    """Yield a batch in parts of at most `trials` trials."""
+    """Yield parts of a batch of pairs, each with at most `trials` trials."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
         yield pair.taken(slice(start, min(start + step, count)))
@@ -124,28 +124,36 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Front tooth pair and the back pair n before it, in one phase each, at the minimum backlash of perfect wheels."""
+    """Drive-flank (front) tooth pair and coast-flank (back) pair n before it, at the minimum backlash of perfect
+    wheels.
+
+    Each pair is in one given phase, approach or recess.
+    """
 
     n: int
     phases: tuple[str, str]
     offset: float
-    """Angle alpha_1 at the minimum minus half of n pitches [rad]."""
+    """Angle of the front driving tooth from the line of centres at the minimum, minus half of n pitches [rad]."""
     backlash: float
     """Backlash at the minimum [rad of the driven wheel]."""
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
-    """Return the range of alpha_1 of the front tooth in which both pairs can touch [rad]; empty if low > high."""
+    """Return the range of the front tooth's driver angle in which both tooth pairs can touch [rad]; empty if low >
+    high.
+    """
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
 
 def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
-    """Return the minimum sum of two contacts, each in one phase, and its position [rad]; inf if both never touch.
+    """Return the minimum backlash of a front (drive-flank) and a back (coast-flank) tooth pair, each in one phase, and
+    the driver angle there [rad].
 
-    The algorithm is Newton's method safeguarded by bisection, starting at half the reach. The last step improves the
-    value only, by a parabola.
+    The backlash is the sum of their contact functions; it is inf if the pairs never touch at once. The algorithm is
+    Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves the value only, by a
+    parabola.
     """
     low, high = common(front, back, delta)
     minimum, most = low, high
@@ -177,7 +185,11 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum of f(x) + f'(delta - x) while both tooth pairs can touch [rad]; inf if they never do."""
+    """Return the minimum of f(x) + f'(delta - x) over the driver angles x at which both tooth pairs can touch [rad].
+
+    Here f and f' are the contact functions of the front (drive-flank) pair and of the mirrored back (coast-flank) pair.
+    The result is inf if the pairs never touch at once.
+    """
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
         values = [minimum_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
@@ -186,15 +198,16 @@ def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
 
 
 def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
-    """Return the tooth pair of wheels without errors."""
+    """Return the contact of one tooth pair of wheels without errors."""
     return CutToothPairs.of(sizes, (0.0, 0.0), (0.0, 0.0), 0.0)
 
 
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
-    """Return the minima of backlash of perfect wheels for all distances n up to `most` tooth pairs.
+    """Return the minima of backlash of perfect wheels, for coast-flank pairs up to `most` tooth pairs before a
+    drive-flank pair.
 
-    For each n, these are the phases whose minimum is within `SLACK` of the smallest.
+    For each distance n, these are the phases whose minimum is within `SLACK` of the smallest.
     """
     tooth_pair = even_tooth_pair(sizes)
     candidates = []
@@ -221,7 +234,10 @@ def farthest(pair: CutGearPair) -> int:
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, where tips meet at entry; 0 without contact, inf if undefined."""
+    """Return the maximum speed ratio of a tooth pair, which occurs where tips meet at entry.
+
+    The result is 0 without contact, and inf if the ratio is undefined.
+    """
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):
@@ -293,7 +309,8 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Return for each trial the minimum backlash, its front tooth pair, and the distance to its back tooth pair.
+        """Return for each trial the minimum backlash [rad], its front (drive-flank) tooth pair, and the distance to its
+        back (coast-flank) tooth pair.
 
         The distance is the number of tooth pairs by which the back pair precedes the front pair.
 
@@ -331,7 +348,9 @@ class MeshingCycle:
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Return an upper bound of the backlash of every tooth pair: its value where the nominal minimum is [rad]."""
+        """Return an upper bound of the backlash of every tooth pair [rad]: its value at the position of the nominal
+        minimum.
+        """
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
         with np.errstate(all="ignore"):
@@ -340,11 +359,17 @@ class MeshingCycle:
             return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
     def _driven_term(self, n: int) -> Any:
-        """Return the term of the driven teeth in the backlash of a front pair and the back pair n before it [rad]."""
+        """Return the term of the driven teeth [rad] in the backlash of each front (drive-flank) pair and the back
+        (coast-flank) pair n before it.
+        """
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the backlash [rad] of selected front pairs (trial, tooth pair) and back pairs n before, exactly."""
+        """Return the exact backlash [rad] of selected front (drive-flank) pairs and the back (coast-flank) pairs n
+        before them.
+
+        `rows` and `columns` are the indices of the trials and of the front pairs.
+        """
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each
@@ -357,7 +382,10 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return an upper bound of the pairs that touch at once; all but two of the cycle if one may never touch."""
+        """Return an upper bound of the number of tooth pairs that touch at once.
+
+        It is the number of pairs in the cycle minus 2 if some tooth pair can never touch.
+        """
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
             return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind
@@ -390,7 +418,11 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash (trials,) where back tooth pairs enter and the driven wheel may dwell [rad]."""
+        """Return the minimum backlash [rad] at positions where a coast-flank pair enters and the driven wheel may
+        dwell.
+
+        The result has shape (trials,).
+        """
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
@@ -399,7 +431,11 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return alpha_2 of each driven tooth held by the pair n before with its driver at `reach`; inf without it."""
+        """Return the driven tooth's angle from the line of centres at which the tooth pair n before holds it [rad].
+
+        The driving tooth of the driven tooth's own pair is then at the angle `reach`. The result is inf without
+        contact.
+        """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
         touches = (x <= before.reach) & (before.reach > -inf) & (x > -inf)
@@ -407,13 +443,16 @@ class MeshingCycle:
 
     @staticmethod
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
-        """Return alpha_2 of the driven tooth in contact, or at the exit of its pair after that has left it [rad]."""
+        """Return the driven tooth's angle from the line of centres [rad] in contact at driver angle x [rad].
+
+        After contact it is the angle at which the tooth left.
+        """
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask (trials,) of losses of contact: somewhere no front or no back tooth pair can touch."""
+        """Return a mask (trials,) of losses of contact: somewhere no drive flanks or no coast flanks can touch."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -449,7 +488,7 @@ def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def _parts(chosen: Bools, size: int) -> Iterator[Ints]:
-    """Yield the indices of the true entries, at most `size` at a time."""
+    """Yield the indices of the true entries of a mask, at most `size` at a time."""
     rows = np.flatnonzero(chosen)
     return (rows[at : at + size] for at in range(0, len(rows), size))
 
@@ -490,7 +529,10 @@ def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Return a table of J_n for two driving teeth whose distance deviates by up to `spread` from nominal [rad]."""
+    """Return a table of the minimum backlash J_n [rad] between a drive-flank pair and the coast-flank pair n before it.
+
+    The distance of the two driving teeth deviates by up to `spread` from nominal [rad].
+    """
     nodes = np.linspace(-spread, spread, _NODES)
     tooth_pair = even_tooth_pair(sizes)
     values = minimum_sum(tooth_pair, tooth_pair, n * sizes.p1 + nodes)
@@ -516,15 +558,19 @@ class _EntriesAndExits:
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its entry, determined by the pair n before, as a term of each wheel.
+        """Return the driven tooth's angle from the line of centres at its entry [rad], as a sum of terms of both
+        wheels.
 
-        The terms are indexed by the tooth n before.
+        The pair n before determines the angle, and both terms are indexed by the tooth n before.
         """
         driver, driven = self._between(n)
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its exit as given by the pair n later, as a term of each wheel."""
+        """Return the driven tooth's angle from the line of centres at its exit [rad], as a sum of terms of both wheels.
+
+        The pair n later determines the angle.
+        """
         driver, driven = self._between(n)
         return self._held(driver - self.reach), -driven
 
@@ -541,7 +587,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs are compared."""
+        """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs must be compared."""
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair

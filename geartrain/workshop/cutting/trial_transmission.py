@@ -45,7 +45,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         """Return transmission errors [rad of the driven wheel] and speed ratios of selected trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission errors [rad of the driven wheel] and speed ratios at angles S of shape (n,) [rad].
+        """Return transmission errors [rad of the driven wheel] and speed ratios at driver angles S of shape (n,) [rad].
 
         The error is -inf if no teeth touch.
         """
@@ -64,15 +64,17 @@ class TrialTransmissionFunction(TransmissionFunction):
         return found
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission errors at angles S [rad of the driven wheel]."""
+        """Return the transmission errors [rad of the driven wheel] at driver angles S [rad]."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratios dq/dS at angles S [rad]."""
+        """Return the speed ratios dq/dS of the driven angle q at driver angles S [rad]."""
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean error of perfect wheels [rad] and an rms deviation of 0, as superposition requires."""
+        """Return the mean error of perfect wheels [rad], and 0 as rms deviation, which superposition of errors
+        requires.
+        """
         return self.even, 0.0
 
     def error_range(self) -> tuple[float, float]:
@@ -121,7 +123,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag due to tooth pairs k [rad of the driven wheel]; inf before contact, constant after it."""
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it."""
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)

@@ -62,7 +62,7 @@ def readme(
     parts: bool,
     proof: TrainProof | None = None,
 ) -> str:
-    """Return the text of the README: readiness for cutting, list of files, parts, assembly, and parts that are missing.
+    """Return the text of the README: verdict on cutting, list of files, parts, assembly, and parts that are missing.
 
     files     paths and descriptions of the files
     missing   problems with parts that could not be made
@@ -105,7 +105,7 @@ def _backlashes(work: SolidModel) -> list[str]:
 
 
 def _angles(backlash: PairBacklash) -> str:
-    """Return the backlash as angles of both wheels in words, with a note if the pair jams."""
+    """Return a phrase with the backlash as angles of both wheels, and a note if the pair jams."""
     turned = ", ".join(
         f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(backlash.wheels, backlash.angles, strict=True)
     )

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
-"""Kinds of files that `export_files` writes."""
+"""Formats of files that `export_files` writes."""
 
 SUFFIXES = {
     **{".glb": "glb", ".stl": "stl", ".step": "step", ".stp": "step"},
@@ -84,7 +84,7 @@ def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
 
 
 def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:
-    """Return the content of one file that contains the whole train.
+    """Return the content of an export file of the whole train in the format `kind`.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
 
 
 def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
-    """Return the content of one file that contains one wheel, for cutting or printing.
+    """Return the content of an export file of one wheel, for cutting or printing, in the format of the suffix.
 
     Parameters
     ----------
@@ -217,8 +217,8 @@ def export_files(
     """
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
-        what = f"'{unknown[0]}' is not a kind of export"
-        why = "each kind is the name of a format"
+        what = f"'{unknown[0]}' is not an export format"
+        why = "geartrain does not export files in this format"
         raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
     files += [ExportFile(*each) for each in step_pictures(work)] if "svg" in kinds else []
@@ -305,7 +305,10 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
 
 def kind_of(name: str) -> str:
-    """Return the kind of a file with a whole train from its name. Raises `GearTrainError` for an unknown suffix."""
+    """Return the kind of export file for a whole train by the suffix of its name.
+
+    Raises `GearTrainError` for an unknown suffix.
+    """
     suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
@@ -330,7 +333,7 @@ def _both(value: Fraction | None) -> tuple[str, str]:
 
 
 def _answers(work: SolidModel) -> Iterator[Answer]:
-    """Yield the exact solution of the train in its state, or in every state if none is selected."""
+    """Yield the exact speeds of the train in the selected state, or in every state if none is selected."""
     states = work.train.states if work.state is None else (work.state,)
     return (work.train.solve(state, method="exact") for state in states or (None,))
 

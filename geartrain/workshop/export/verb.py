@@ -193,7 +193,9 @@ def _sheet(text: str) -> tuple[float, float]:
     unit = sides[-1].strip().lstrip("0123456789.+-/ e")
     if len(sides) != 2 or not unit:
         what = f"'{text}' is not the size of a sheet"
-        raise GearTrainError(Problem(what, "a size is WIDTHxHEIGHT with a unit", "write it as 300x200mm", "--sheet"))
+        raise GearTrainError(
+            Problem(what, "a sheet size is WIDTHxHEIGHT with a unit", "for example, 300x200mm", "--sheet")
+        )
     # a unit after the last side only applies to both sides
     width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)
     return 1000 * quantity("--sheet", width, "length"), 1000 * quantity("--sheet", height, "length")

@@ -1,4 +1,4 @@
-"""Probability of jamming with the same wheels at other clearances and with scaled errors."""
+"""Probability that wheels with cutting errors jam at other clearances and with scaled errors, from the same trials."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Probability of each event in a train at one clearance and one scale of the manufacturing errors.
+    """Probability of a jam, clash, dwell and loss of contact in a train at one clearance and one factor of the errors.
 
     See Also
     --------
@@ -41,7 +41,7 @@ class ClearanceCase(Result):
     events: Mapping[str, ProbabilityEstimate]
     """Probability that each event (jam, clash, stops (jam or clash), dwell, disengaged) occurs in at least one pair."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
-    """Probability of each event by pair."""
+    """Probability of each event (as in `events`) in each pair, by pair."""
 
     @property
     def rates(self) -> EventRates:
@@ -52,7 +52,7 @@ class ClearanceCase(Result):
 def read_clearances(text: str) -> list[float]:
     """Parse a sweep such as `window=0.1:0.9:9` or `clearance_factor=1.005:1.04:8` into equally spaced clearances.
 
-    Fractions of a window are below 1, and clearance factors are at least 1.
+    Fractions of a clearance window are below 1, and clearance factors are at least 1.
     """
     name, _, rest = text.partition("=")
     bounds = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0)}.get(name.strip())
@@ -79,7 +79,8 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of each event at every clearance and every scale of the errors.
+    """Return the probability of a jam, clash, dwell and loss of contact for each combination of clearance and error
+    factor.
 
     The same random wheels are used in all cases.
 

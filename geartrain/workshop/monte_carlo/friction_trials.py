@@ -57,9 +57,9 @@ class FrictionSpread(NamedTuple):
     """
 
     sliding: float
-    """Mean of the coefficient."""
+    """Mean of the sliding friction coefficient [1]."""
     deviation: float
-    """Standard deviation of the coefficient."""
+    """Standard deviation of the sliding friction coefficient [1]."""
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ def find_friction_plan(
     if not plan.spreads:
         why = "each trial draws friction coefficients from distributions with declared standard deviations"
         fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
-        raise QuestionError(Problem(f"'{train.name}' declares no random friction", why, fix))
+        raise QuestionError(Problem(f"'{train.name}' declares no random friction coefficient", why, fix))
     return plan
 
 
@@ -214,7 +214,7 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction:
-    """Return the friction with its coefficient changed by `unit` standard deviations, at least 0."""
+    """Return the friction with its coefficient changed by `unit` times its standard deviation, but not below 0."""
     spread = _spread(friction)
     # a coefficient of friction cannot be negative
     sliding = max(spread.sliding + unit * spread.deviation, 0.0)
@@ -243,17 +243,19 @@ class TrialFigure(Result):
 
     @property
     def mean(self) -> IntervalEstimate:
-        """Mean of the values, with its 95 % confidence interval."""
+        """Mean of the values of the result, with its 95 % confidence interval."""
         return mean_of(self.values)
 
     @property
     def deviation(self) -> IntervalEstimate:
-        """Standard deviation of the values, with its 95 % confidence interval."""
+        """Standard deviation of the values of the result, with its 95 % confidence interval."""
         return deviation_of(self.values)
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentiles with 95 % confidence intervals, by percentage; the outer two enclose 95 % of the values."""
+        """Percentiles of the result with 95 % confidence intervals, by percentage; the outer two enclose 95 % of the
+        values.
+        """
         return percentiles_of(self.values)
 
 
@@ -281,13 +283,16 @@ class FrictionTrials(Result):
     spreads: Mapping[str, FrictionSpread]
     """Distributions of the friction coefficients, by `train`, pair or coupling."""
     mean: TrialFigure
-    """Mean torque over the run, in the trials without locking [N m, or the unit of the loads]."""
+    """Distribution of the mean torque over the run [N m, or the unit of the loads], in trials in which the train turns.
+    """
     maximum: TrialFigure
-    """Maximum torque over the run, in the trials without locking [N m, or the unit of the loads]."""
+    """Distribution of the maximum torque over the run [N m, or the unit of the loads], in trials in which the train
+    turns.
+    """
     starting: TrialFigure
-    """Starting torque of the train, in the trials without locking [N m, or the unit of the loads]."""
+    """Distribution of the starting torque [N m, or the unit of the loads], in trials in which the train turns."""
     efficiency: TrialFigure
-    """Efficiency over the run: output energy divided by input energy, in the trials in which it is defined."""
+    """Distribution of the efficiency over the run, output energy divided by input energy, where it is defined."""
     locks: ProbabilityEstimate
     """Probability that friction locks the train at some position of the run."""
 
@@ -368,7 +373,9 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Return the results of some trials as plain data: four values for each trial, None if the train locks."""
+    """Return the results of some trials as plain data: four values for each trial, None for trials in which the train
+    locks.
+    """
     return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
 
 
@@ -383,7 +390,7 @@ def _link(plan: FrictionPlan) -> str:
 
 
 def trials_document(found: FrictionTrials) -> Document:
-    """Return the report on trials of friction."""
+    """Return the report on trials with random friction coefficients."""
     return Document("Torques", (), tuple(trial_sections(found)))
 
 

@@ -103,7 +103,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     """
     if picture not in PICTURES:
         what = f"'{picture}' is not a kind of picture"
-        raise QuestionError(Problem(what, "each kind shows one study", f"use one of {', '.join(PICTURES)}"))
+        raise QuestionError(Problem(what, "the kind selects the study to draw", f"use one of {', '.join(PICTURES)}"))
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
 
@@ -141,7 +141,7 @@ def _require(what: Collection[object], why: str, fix: str) -> None:
 
 
 def _jam_map(cleared: Sequence[ClearanceCase]) -> Figure:
-    """Draw a map of the probability of a jam over the clearance and the scale of the errors."""
+    """Draw a map of the probability of a jam over the clearance and the factor of the errors."""
     clearances = sorted({each.clearance for each in cleared if each.clearance is not None})
     scales = sorted({each.scale for each in cleared})
     table = np.full((len(clearances), len(scales)), np.nan)  # missing combinations remain blank
@@ -191,7 +191,7 @@ def _bands(errors: Floats) -> Floats:
 def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
     """Draw histograms of each pointer's error [deg], with lines at the percentiles 2.5, 25, 50, 75 and 97.5.
 
-    errors   pointer -> its error in every trial; NaN, in trials that jam, is excluded
+    errors   error in every trial, by pointer; NaN values, from trials that jam, are excluded
     note     text under the last panel, such as the range of positions
     Raises `QuestionError` if there is nothing to draw.
     """
@@ -258,7 +258,7 @@ def _panels(what: Mapping[str, Any], share: bool = False) -> tuple[Figure, list[
 
 
 def _bands_key() -> list[Patch]:
-    """Return legend patches in the visible shades, since each band is drawn over the wider ones."""
+    """Return legend patches in the visible shades of the bands, since each band is drawn over the wider ones."""
     through = np.cumprod([1 - shade for shade in _SHADES])
     return [
         Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
@@ -316,7 +316,9 @@ def _check(x: Floats, y: Floats, table: Floats) -> None:
     if not (rising and table.shape == (x.size, y.size) and finite.size and finite.min() >= 0 and finite.max() <= 1):
         what = f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}"
         why = "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)"
-        raise QuestionError(Problem(what, why, "give arrays of shapes (n,), (m,) and (n, m)"))
+        raise QuestionError(
+            Problem(what, why, "give ascending arrays of shapes (n,) and (m,), and probabilities of shape (n, m)")
+        )
 
 
 # -------------------------------------------------------------------------------------------------------- tornado chart

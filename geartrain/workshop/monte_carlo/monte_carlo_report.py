@@ -1,4 +1,4 @@
-"""Report on trials of a train with cutting errors: event rates of pairs, pointer errors and their causes."""
+"""Report on trials of a train with cutting errors: event probabilities of pairs, pointer errors and their causes."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Return a string of a probability in percent with its interval, such as `1.2 % (0.9..1.6)`; "-" without trials."""
+    """Return a probability in percent with its interval as a string, such as `1.2 % (0.9..1.6)`; "-" without trials."""
     if not each.of:
         return "-"
     low, high = each.interval
@@ -87,19 +87,19 @@ def share_text(each: ProbabilityEstimate) -> str:
 
 
 def _percent(value: float) -> str:
-    """Return a string of a probability in percent, with two significant digits below 10 % and one decimal above."""
+    """Return a probability in percent as a string, with two significant digits below 10 % and one decimal above."""
     percent = 100 * value
     return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
 
 
 def angle_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return a string of an angle [rad] converted to degrees, with its interval, such as `2.04 (1.9..2.2)`."""
+    """Return an angle [rad] converted to degrees, with its interval, as a string such as `2.04 (1.9..2.2)`."""
     value, low, high = (f"{degrees(each):.{digits}g}" for each in (figure.value, figure.low, figure.high))
     return f"{value} ({low}..{high})"
 
 
 def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return a string of a number with its interval, such as `12.4 (11.8..13)`."""
+    """Return a number with its interval as a string, such as `12.4 (11.8..13)`."""
     return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
 
 

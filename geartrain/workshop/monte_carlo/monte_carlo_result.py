@@ -71,9 +71,9 @@ class MonteCarloResult(Tabular, Pictured, Result):
     cleared: Sequence[ClearanceCase] = ()
     """Event probabilities at other clearances, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Pointer errors along a revolution, from `run_course`."""
+    """Pointer errors of each studied output along a revolution, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
-    """Sobol indices, from `find_sobol_indices`."""
+    """Sobol indices of pointer errors, from `find_sobol_indices`."""
 
     def _summary(self) -> str:
         return self.trials._summary()
@@ -170,7 +170,7 @@ _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declare
 def study_trials(
     trials: TrialResults, means: Execution, clearances: Sequence[float], courses: bool, sobol: bool
 ) -> MonteCarloResult:
-    """Return the trials with the results of the requested studies of the first outputs and of other clearances."""
+    """Return the trials together with the requested studies: of the first outputs, and of other clearances."""
     plan, seed, count = trials.plan, trials.seed, trials.wanted
     few = range(min(_FEW, len(plan.outputs)))
     by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
@@ -183,6 +183,6 @@ def study_trials(
 
 
 def with_jamming_map(found: MonteCarloResult, means: Execution, clearances: Sequence[float]) -> MonteCarloResult:
-    """Return a result with the trials repeated at several clearances and scales of the errors."""
+    """Return a result that also contains the trials repeated at several clearances and factors of the errors."""
     of, clearances = found.trials, clearances or _SHARES
     return replace(found, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))

@@ -2,6 +2,7 @@
 
 All teeth of a wheel are one input variable, and so is the position of the train's input. With the samples A and B, and
 AB(i) equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares
+of the pointer error f, whose variance is V:
 
     first order   S_i = mean(f(B) (f(AB(i)) - f(A))) / V        total   T_i = mean((f(A) - f(AB(i)))^2) / 2 V
 
@@ -75,7 +76,8 @@ class SobolIndices(Result):
     trials: int
     """Number of base samples in which the pointer error is finite."""
     indices: tuple[SobolIndex, ...]
-    """Indices of all input variables in descending order of the total; "position" is the position of the input."""
+    """Indices of all input variables in descending order of the total; "position" is the position of the train's input.
+    """
 
 
 def find_sobol_indices(
@@ -165,7 +167,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 
 def _saltelli(values: Floats) -> Floats:
-    """Return first-order and total indices, shape (2, d)."""
+    """Return first-order and total Sobol indices of d input variables, shape (2, d)."""
     # columns f(A), f(AB(1)), ..., f(AB(d)), f(B)
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     # A and B have the same distribution, so their pooled variance is the better estimate
@@ -177,7 +179,7 @@ def _saltelli(values: Floats) -> Floats:
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Streams]]:
-    """Return the input variables that can affect an output, each with its random streams."""
+    """Return the input variables that can affect an output, each with the numbers of its random streams."""
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]

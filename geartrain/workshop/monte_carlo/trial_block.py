@@ -44,7 +44,7 @@ TOWARDS, POSITION, FRICTION = 2, 7, 8
 """Numbers of the streams of the direction of an eccentricity, the position of the input, and friction."""
 Streams = tuple[Container[int], Container[int]]
 EVERY = range(1 << 31)
-"""All numbers of wheels and pairs, or of kinds of error."""
+"""Range that contains the numbers of all wheels and pairs, or of all kinds of error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,9 @@ class RandomStreams:
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
-        """Return random errors as fractions, in an array of shape (trials,) or (trials, teeth)."""
+        """Return random errors as fractions of pitch, half angle or depth, in an array of shape (trials,) or (trials,
+        teeth).
+        """
         if off.way == "value":
             return np.full(shape, off.size)
         rng = self.rng(item, NUMBER[kind])
@@ -78,7 +80,7 @@ def draw_wheel(
 
     Pitch deviations and drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1,
     internal ones -1. In trials in which a wheel cannot be cut, its teeth are returned without errors (displaced flanks:
-    without pitch deviations), so that later code never meets teeth without tips.
+    without pitch deviations), so that later computations always have teeth with tips.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
@@ -219,7 +221,9 @@ def input_positions(drawn: TrialWheels) -> Floats:
 
 @dataclass(frozen=True)
 class TrialPointers:
-    """Composed motion of the train with drawn wheels (`cut`) and with perfect wheels (`even`)."""
+    """Composed motion of the train with drawn wheels (`cut`) and with perfect wheels (`even`), at given input
+    positions.
+    """
 
     cut: ErrorComposition
     even: ErrorComposition
@@ -230,7 +234,9 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return `errors` to first order [rad]: each pair at its mean angle, each pin at its mean ratio."""
+        """Return the first-order approximation of `errors` [rad]: each pair at its mean angle, each pin at its mean
+        ratio.
+        """
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 

@@ -1,4 +1,4 @@
-"""Input data of the trials of a train: wheels with errors, pairs with sizes, and the composition of errors.
+"""Input data of the trials of a train: wheels with errors, pairs with sizes, and the motion composed of its pairs.
 
 A `TrialPair` is a gear pair that can be drawn, evaluated, filed and set in motion, with any tooth form. A `TrialPlan`
 contains all pairs of a train and the composition of their errors at the outputs.
@@ -71,7 +71,8 @@ class TrialPair(ABC):
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
     """Errors of the axes by kind, as fractions of the smaller tooth depth of the two wheels."""
     stroke: float = field(default=0.0, kw_only=True)
-    """Depth of one stroke of the file divided by the same tooth depth; 0 if the pair is not filed."""
+    """Depth of one stroke of the file divided by the smaller tooth depth of the two wheels; 0 if the pair is not filed.
+    """
 
     @property
     @abstractmethod
@@ -91,7 +92,7 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def question(self) -> tuple[float, ...]:
-        """Sizes on which results depend, as part of the key of a journal."""
+        """Numbers on which results of the pair depend, as part of the key of a journal."""
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
@@ -107,14 +108,19 @@ class TrialPair(ABC):
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed by strokes of the declared depth, until it passes or a flank is at its limit."""
+        """Return a cut pair filed by strokes of the declared depth, until it turns without a jam or a flank is at its
+        limit.
+        """
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
         """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]; NaN if unknown."""
+        """Return an upper bound of the jam probability; NaN if unknown.
+
+        The pitch deviations are normally distributed with the standard deviation `sigma` [pitch].
+        """
         return nan
 
     @property
@@ -151,7 +157,7 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Radii, half angles and excess of the centre distance."""
+        """Signed radii, half angles, and excess of the centre distance, which identify the pair in a journal."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
@@ -164,7 +170,7 @@ class TriangularTrialPair(TrialPair):
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial."""
+        """Return the events (jam, clash, dwell, loss of contact) of a cut pair in each trial."""
         return batch_verdicts(pair.sizes, pair.first, pair.second, pair.shift)
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
@@ -172,12 +178,16 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing, limited to an eighth of a pitch."""
+        """Return a cut pair filed until it turns without a jam, or by at most an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the jam probability, with the nominal backlash j."""
+        """Return an upper bound of the jam probability, 2 lcm(z1, z2) Q(j / (2 sigma)).
+
+        Here z1 and z2 are the tooth numbers, j is the nominal backlash, `sigma` the standard deviation of the pitch
+        deviations [pitch], and Q the normal tail probability.
+        """
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
@@ -227,7 +237,7 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Numbers that identify the contact."""
+        """Numbers that identify the contact of the pair in a journal: its ends, flank factors, backlash and lag."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
@@ -238,7 +248,7 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedPair(self.contact, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial."""
+        """Return the events (jam, clash, dwell, loss of contact) of a cut pair in each trial."""
         found: MeshingVerdicts = pair.verdicts()
         return found
 
@@ -247,7 +257,7 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing, limited to an eighth of a pitch."""
+        """Return a cut pair filed until it turns without a jam, or by at most an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
@@ -284,7 +294,7 @@ class TrialPlan(Shown):
     outputs: tuple[str, ...]
     """Names of the outputs."""
     speeds: tuple[Fraction, ...]
-    """Speeds of the outputs relative to the input."""
+    """Speeds of the outputs relative to the input, as ratios of output speed to input speed."""
     reach: tuple[tuple[int, ...], ...]
     """Indices of the pairs that affect each output."""
     span: float
@@ -337,8 +347,8 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def jamming_bound(self, pair: TrialPair) -> float:
-        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed or has other errors than
-        normal pitch deviations, or if no bound is known for its teeth.
+        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed, if it has errors other
+        than normally distributed pitch deviations, or if no bound is known for its teeth.
 
         Parameters
         ----------

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 
 
 FEWEST = 30
-"""Minimum number of trials that turn; with fewer, the statistics of a pointer are computed from all trials."""
+"""Minimum number of trials in which the output turns; with fewer, a pointer's statistics are computed from all trials.
+"""
 
 EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "dwell": DWELL, "disengaged": DISENGAGED}
 
@@ -69,7 +70,9 @@ class TrialResults(Tabular):
     linear: Floats
     """Pointer errors by first-order superposition, shape (first trials, up to about 1024; outputs) [rad]."""
     lags: Floats
-    """Transmission errors minus their means without cutting errors, shape (trials, pairs) [rad of the driven wheel]."""
+    """Transmission error of each pair minus its mean without cutting errors, shape (trials, pairs) [rad of the driven
+    wheel].
+    """
     filing: Floats
     """Numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 * pairs)."""
 
@@ -113,7 +116,7 @@ class TrialResults(Tabular):
 
     @cached_property
     def pairs(self) -> tuple[PairEventRates, ...]:
-        """Event probabilities of each pair."""
+        """Event probabilities of each pair: jam, clash, dwell and loss of contact."""
         return tuple(
             _tally(pair.name, self.marks[:, at], pair.backlash, self.bounds.get(pair.name, nan))
             for at, pair in enumerate(self.plan.pairs)
@@ -257,7 +260,7 @@ def _tally(name: str, marks: Marks, backlash: float, bound: float) -> PairEventR
 
 
 class EventRates(TypedDict):
-    """Probability of each event during a full meshing cycle."""
+    """Probability of each event (jam, clash, dwell, loss of contact) during a full meshing cycle."""
 
     jam: ProbabilityEstimate
     clash: ProbabilityEstimate
@@ -335,7 +338,9 @@ class ConvergenceStep:
 
 
 class FirstOrderError(NamedTuple):
-    """Error of first-order superposition, compared with the exact pointer error, as root mean squares [rad]."""
+    """Root mean squares of the error of first-order superposition, and of the exact pointer error, for comparison
+    [rad].
+    """
 
     off: float
     """Root mean square of the error of first-order superposition [rad]."""
@@ -466,7 +471,7 @@ class PointerErrorCourse(Result):
 
     @property
     def count(self) -> int:
-        """Number of trials whose errors were computed."""
+        """Number of trials in which the errors were computed."""
         return len(self.errors)
 
     @property

@@ -208,7 +208,9 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the trials of one task, the first being `first`, from the plain data of a worker or a journal."""
+    """Return the results of the trials of one task, beginning with number `first`, from the data of a worker or a
+    journal.
+    """
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
 

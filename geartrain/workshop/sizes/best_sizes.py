@@ -70,15 +70,16 @@ class BestToothSizes(Tabular, Pictured, Result):
     outlines: OutlineAgreement
     """Comparison of the best design's results with the results that its drawn outlines give."""
     equal_depth: ToothSizes | None
-    """Design for equally deep teeth, with the window and half angles of `start`; None if it does not turn."""
+    """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it does not turn.
+    """
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, else as `start`; None if it does not turn."""
+    """Design with tip radii in the ratio of the tooth numbers, otherwise as `start`; None if it does not turn."""
     front: tuple[ToothSizes, ...]
     """Pareto front from the best design for the first objective to that for the second; empty for one objective."""
     evaluations: int
     """Number of designs that the search evaluated."""
     stops: float | None
-    """Probability that the best design stops, 0 to 1; None if this probability was not limited."""
+    """Probability that the best design jams or clashes, 0 to 1; None if this probability was not limited."""
     tried: tuple[ToothSizes, ...]
     """Evaluated designs that turn and satisfy all limits."""
 
@@ -127,10 +128,12 @@ def find_tooth_sizes(
     start : ToothSizes
         Initial design; parameters that are not free keep its values.
     aims : sequence of str
-        One or two of the objectives `loss`, `error`, `impact` and `jam`; two give a Pareto front.
+        One or two of the objectives `loss`, `error` (transmission error), `impact` and `jam` (margin before a jam); two
+        give a Pareto front.
     free : mapping of str to (float, float), optional
-        Bounds of the free parameters `radii`, `window`, `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By
-        default only the radii are free.
+        Bounds of the free parameters `radii` (tip radius ratio divided by tooth ratio), `window` (position in the
+        clearance window, 0 to 1) and `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By default only the
+        radii are free.
     limits : sequence of SizeLimit
         Limits that the design must satisfy.
     probability : ProbabilityLimit, optional
@@ -226,12 +229,12 @@ class OutlineAgreement(Result):
 
     @property
     def difference(self) -> float:
-        """Maximum relative difference of all properties [1]."""
+        """Maximum relative difference between the two values of any property [1]."""
         return max(self.differences.values())
 
     @property
     def differences(self) -> Mapping[str, float]:
-        """Relative difference of the two values of each property [1]."""
+        """Relative difference between the two values of each property, by property [1]."""
         pairs = {"loss": self.loss, "error": self.error, "impact": self.impact, "backlash": self.backlash}
         return {name: abs(a - b) / max(abs(a), abs(b), _NOTHING) for name, (a, b) in pairs.items()}
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 PARAMETERS = ("radii", "window", "half_angle")
-"""Parameters of a design that can be free; `half_angle` applies to both wheels."""
+"""Names of the parameters of a design that can be free; `half_angle` applies to both wheels."""
 AIMS = ("loss", "error", "impact", "jam")
 """Objectives of the search. The margin `jam` is maximised, all others are minimised."""
 DIGITS = 6
@@ -27,7 +27,7 @@ DIGITS = 6
 
 
 def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> float:
-    """Return R2/R1 divided by z2/z1 [1] for teeth of equal depth, from equation (3) of Sorge."""
+    """Return the tip radius ratio R2/R1 for teeth of equal depth, divided by z2/z1 [1], from equation (3) of Sorge."""
     R1, R2 = equal_depth(z1, z2, *half_angles)
     return R2 / R1 * z1 / z2
 
@@ -35,8 +35,8 @@ def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> flo
 def impact_of(transmission: TransmissionFunction) -> float:
     """Return the sum of (tau+ - tau-)^2 over the impacts in a pitch, divided by the square of the mean of tau [1].
 
-    This ratio is the energy that inelastic impacts dissipate in a pitch, docs/motion.md (7), divided by the kinetic
-    energy of the driven side.
+    The speed ratio tau jumps from tau- to tau+ at an impact. The result is the energy that inelastic impacts dissipate
+    in a pitch, docs/motion.md (7), divided by the kinetic energy of the driven side.
     """
     # energies are proportional to the square of a speed, and the mass cancels
     return float(sum(leap.size**2 for leap in transmission.speed_leaps() or ())) / float(transmission.ratio) ** 2

@@ -64,7 +64,7 @@ class SizeSearch:
         return self.designs[at]
 
     def place(self, design: ToothSizes) -> Point:
-        """Return the point of a design in the free parameters, which may be outside the bounds."""
+        """Return the coordinates of a design in the space of the free parameters, which may be outside the bounds."""
         return tuple(map(design.parameter, self.free))
 
     @property
@@ -73,11 +73,11 @@ class SizeSearch:
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Return True if a design turns and satisfies all limits of the search and of `more`, False otherwise."""
+        """Return True if a design turns and satisfies all limits of the search and the limits `more`."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective as a function of a point, larger for infeasible designs than for all feasible ones."""
+        """Return the objective as a function of a point; infeasible designs have larger values than feasible ones."""
 
         def figure(at: Point) -> float:
             design = self.design(at)
@@ -147,7 +147,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
     for name, given in free.items():
         if name not in PARAMETERS:
             what = f"'{name}' is not a free parameter of triangular teeth"
-            why = "other sizes follow from these parameters or are fixed"
+            why = "all other sizes are fixed, or follow from the free parameters"
             if name in _CLEARANCES:
                 why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
             raise QuestionError(Problem(what, why, f"use one or more of {', '.join(PARAMETERS)}"))
@@ -170,7 +170,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors stops, evaluated only for the best designs.
+    """Limit on the probability that a pair with cutting errors jams or clashes, evaluated only for the best designs.
 
     See Also
     --------
@@ -178,7 +178,7 @@ class ProbabilityLimit:
     """
 
     bound: float
-    """Maximum probability that the pair stops, 0 to 1."""
+    """Maximum probability that the pair jams or clashes, 0 to 1."""
     probability: Callable[[ToothSizes], float]
     """Function that returns the probability that a design stops, such as `PairTrials.stops`."""
 
@@ -258,7 +258,7 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
 def _bisect_to_limit(
     search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """Bisect between an accepted design and the nearest rejected one, to approach the probability limit."""
+    """Bisect between an accepted design and the nearest rejected one, to approach the limit on the probability."""
     if not refused:
         return search.design(at), probability
     value = search.value(aim)

@@ -83,7 +83,7 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
 
 
 def _aim_figure(found: BestToothSizes) -> Figure:
-    """Draw a panel for each free size."""
+    """Draw the designs of a search for one objective, in one panel for each free parameter."""
     names = list(found.free)
     figure, panels = curve_panels([3.2] * len(names), share=False)
     for axes, name in zip(panels, names, strict=True):

@@ -91,7 +91,10 @@ def _efficiency(aim: str, loss: float | None) -> tuple[str, ...]:
 
 
 def _pairs_section(found: BestTrainSizes) -> Section:
-    """Return the section with each pair before and after; it contains windows and half angles only if they are free."""
+    """Return the section with each pair before and after the optimisation.
+
+    It contains relative clearances (windows) and half angles only if they are free.
+    """
     sizes = [("radii", "radii"), *((name, name.replace("_", " ")) for name in found.free if name != "radii")]
     header = ["pair", "drives", "teeth"]
     for _, words in sizes:
@@ -120,7 +123,7 @@ def _size(name: str, value: float) -> str:
 
 
 def figure_text(figure: str, value: float) -> str:
-    """Return a string of a property of a design with its unit."""
+    """Return a property of a design with its unit, as a string."""
     if figure == "loss":
         return f"{100 * value:.4f} %"
     if figure in ("error", "backlash", "half_angle"):
@@ -129,7 +132,7 @@ def figure_text(figure: str, value: float) -> str:
 
 
 def sizes_text(sizes: ToothSizes) -> str:
-    """Return a sentence that gives the sizes as a tooth form of a declaration."""
+    """Return a sentence that gives the sizes as a tooth form to declare."""
     angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(sizes.half_angles))
     angle = angles if "," not in angles else f"[{angles}]"
     return (
@@ -138,7 +141,7 @@ def sizes_text(sizes: ToothSizes) -> str:
 
 
 def free_text(free: Mapping[str, tuple[float, float]]) -> str:
-    """Return a string of the free parameters with their bounds."""
+    """Return the free parameters with their bounds, as a string."""
     parts = []
     for name, (low, high) in free.items():
         unit = (degrees(low), degrees(high), " deg") if name == "half_angle" else (low, high, "")

@@ -127,7 +127,9 @@ class TrainSizeSearch:
 
     @property
     def _is_joint(self) -> bool:
-        """True if the objective depends on all pairs jointly: power and errors pass from pair to pair."""
+        """True if the objective depends on all pairs jointly, because power losses and errors propagate through the
+        train.
+        """
         return self.aim in ("loss", "error")
 
     # -------------------------------------------------------------------------------------------------------- pairs
@@ -145,7 +147,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train in which every pair with a clearance window is in the middle of this window."""
+        """Train in which the clearance of every pair is in the middle of its clearance window, if it has one."""
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
@@ -154,7 +156,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _meshes(self) -> Mapping[str, TriangularMesh]:
-        """Pairs with triangular teeth that are not declared by lengths, by name."""
+        """Pairs with triangular teeth whose sizes are declared as ratios instead of lengths, by name."""
         found = (mesh for mesh in self._all_meshes if isinstance(mesh, TriangularMesh))
         return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
 
@@ -372,7 +374,7 @@ class PairSizes(Result):
     before: ToothSizes
     """Declared sizes of the pair."""
     apart: ToothSizes
-    """Best sizes of the pair if it is optimised separately."""
+    """Sizes that are best for the pair by itself, optimised separately."""
     together: ToothSizes
     """Best sizes of the pair for the whole train."""
     runs: bool

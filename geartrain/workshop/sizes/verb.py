@@ -43,7 +43,7 @@ _DESIGNS = {1: 60, 2: 500, 3: 900}
 """Approximate number of designs evaluated for each objective, by number of free parameters; for the progress bar."""
 
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
-"""Dimensions of limits; other limits are dimensionless."""
+"""Quantity in which each limit is given, a fraction or an angle; other limits are plain numbers."""
 
 
 def run(
@@ -105,7 +105,7 @@ def run(
 
 
 def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
-    """Write a declaration that extends the given train, by its name if it is shipped, else by its path."""
+    """Write a declaration that extends the given train, by its name if geartrain contains it, else by its path."""
     from geartrain.train.yaml_nodes import as_yaml
 
     parent = file
@@ -119,7 +119,7 @@ def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
 
 @dataclass(frozen=True)
 class SizeQuestion:
-    """Options of `--objective`: one or two objectives, free parameters, limits, and cutting errors."""
+    """Options of `--objective`: one or two objectives, free parameters, limits on designs, and cutting errors."""
 
     best: str | None
     free: tuple[str, ...]

@@ -1,13 +1,13 @@
 """Proof that a train is ready to cut: the written outlines are turned against each other, and the solids are compared.
 
-Input: the train at its sizes, and the drawings written from it. Output: a `TrainProof` with the overlap, backlash,
+Input: the train with its sizes, and the drawings written from it. Output: a `TrainProof` with the overlap, backlash,
 clearance and tip widths of every mesh, the freedom of every link, and all findings. The outlines are read back from the
 written drawings, independently of the equations of the tooth forms.
 
 train_proof    proof of a train, of its solids and of wheels bent by a wave generator
 mesh_proof     proof of one mesh
 turned_pair    two written outlines turned against each other
-link_freedom   freedom of each link given by its teeth
+link_freedom   range of angles of each link that its teeth allow
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ def prove_freedom(
 ) -> FreedomProof:
     """Return the freedom of links other than frame and inputs, and findings where it contradicts the result of `solve`.
 
-    pairs   meshes that were proved to turn individually; `names`, wheels 1 and 2 of each
+    pairs   meshes that were individually proved to turn; `names`, wheels 1 and 2 of each
     """
     try:
         return _Motion(work, pairs, names).prove()
@@ -162,7 +162,9 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle of a wheel's first tooth in the zero pose, from the contact about the first axis [rad]."""
+        """Return the angle of a wheel's first tooth in the zero pose, about the first axis from the side of the mesh
+        [rad].
+        """
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
         x = between - (between @ n) * n

@@ -52,7 +52,7 @@ class MeshProof(Result):
     pair: str
     """Name of the pair."""
     declared: float
-    """Declared backlash along the pitch circles [mm]."""
+    """Declared backlash as an arc on the pitch circles [mm]."""
     minimum: float
     """Minimum measured backlash [mm]."""
     most: float
@@ -142,7 +142,7 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
 
 
 def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
-    """Return the measured values of a mesh that is turned, with findings on the rules."""
+    """Return the measured values of a mesh whose outlines are turned through each other, with findings on the rules."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
     # arc length on the pitch circle of the second wheel, as the declared backlash
@@ -207,7 +207,7 @@ def _findings(
     elif not np.isfinite(proof.most):
         yield _error("T5", f"{pair} slips: one wheel can turn past the other", "the tips do not overlap", _NEARER)
     if proof.clearance < _CLEARANCE * module - TOLERANCE:
-        what = f"{pair}: the clearance between tips and roots is {proof.clearance:.3g} mm"
+        what = f"{pair}: the clearance between tips and roots is only {proof.clearance:.3g} mm"
         why = "if the clearance is too small, tips touch roots, or dirt jams the pair"
         fix = f"deepen the roots, to leave a clearance of {_CLEARANCE * module:.3g} mm"
         yield BuildFinding("T2", "error" if proof.clearance < _TOUCH else "note", Problem(what, why, fix))
@@ -220,10 +220,10 @@ def _findings(
             else "wear or a larger centre distance can reduce it below 1"
         )
         yield BuildFinding(
-            "T3", level, Problem(f"{pair} has a contact ratio of {ratio:.4g}", why, backlash.more_contact)
+            "T3", level, Problem(f"{pair} has a contact ratio of only {ratio:.4g}", why, backlash.more_contact)
         )
     if proof.tip_width < _TIP * module:
-        what = f"{pair} has tips {proof.tip_width:.3g} mm wide"
+        what = f"{pair} has tips only {proof.tip_width:.3g} mm wide"
         yield BuildFinding(
             "T4", "note", Problem(what, "tips narrower than 0.2 modules burn or break", "shorten the addendum")
         )

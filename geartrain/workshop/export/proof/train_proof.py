@@ -257,7 +257,7 @@ def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
 
 
 def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
-    """Yield findings on flexible wheels that overlap the internal wheel into which they are bent."""
+    """Yield findings on flexible wheels, bent by a wave generator, that overlap their internal wheel."""
     waves = () if work.frame is None else (each for each in work.frame.plan.stack.eccentrics if each.wave is not None)
     for each in waves:
         for gear in work.train.declaration.gears:
@@ -276,7 +276,7 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield the common area of a bent flexible wheel and its internal wheel at each position of the wave [mm2]."""
+    """Yield the common area of a bent flexible wheel and its internal wheel [mm2] for each wave generator position."""
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring

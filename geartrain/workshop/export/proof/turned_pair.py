@@ -87,14 +87,16 @@ class TurnedPair:
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Return the free range of wheel 2 through a pitch of wheel 1, or for all different tooth pairs that meet."""
+        """Return the free range of wheel 2 while wheel 1 turns through a pitch, for each different tooth pair that
+        meets.
+        """
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Tooth of wheel 1 and space of wheel 2 that meet, by index; one entry for each different combination."""
+        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet, for each different combination."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -260,7 +262,7 @@ def _tooth_lines(material: Any, ring: bool) -> Any:
 
 
 def _teeth(material: Any, ring: bool) -> tuple[float, float]:
-    """Return tip and root radius [mm]; for a lantern the maximum and minimum radius of its pins."""
+    """Return tip and root radius of a wheel [mm]; for a lantern the maximum and minimum radius of its pins."""
     shapely = plane_geometry()
     radii = np.hypot(*shapely.get_coordinates(_tooth_lines(material, ring)).T)
     ends = float(radii.max()), float(radii.min())

@@ -209,11 +209,11 @@ _MOST_CHOICES = 24
 
 
 def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[Ints]:
-    """Return integer tooth numbers nearly proportional to sin rho (`cones` [rad]), sorted by rising variance of the
-    pitch.
+    """Return sets of integer tooth numbers nearly proportional to the sines of the half-angles `cones` [rad],
+    sorted by rising variance of the pitch.
 
-    The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`). The
-    variance refers to ln(z / sin rho).
+    The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`).
+    The variance is that of ln(z / sin rho), with tooth number z and half-angle rho.
     """
     sine = np.sin(cones)
     last = minimum if upto is None else max(upto, minimum)

@@ -37,10 +37,11 @@ SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 @cache
 def buckingham_constants() -> tuple[float, float, float]:
-    """Return the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
+    """Return the constants c1, c2, c3 of `BuckinghamFriction` (speeds in ft/min) that reproduce the three printed
+    coefficients.
 
-    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) and q = sqrt(V2/V1), the coefficients mu1 and mu2 at the
-    speeds V1 < V2 give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
+    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) and q = sqrt(V2/V1), the coefficients mu1 and mu2 at
+    the speeds V1 < V2 give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
     """
     (_, rest), (slow, low), (fast, high) = BUCKINGHAM
     q = sqrt(fast / slow)

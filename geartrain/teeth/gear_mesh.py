@@ -1,4 +1,4 @@
-"""Gear pair with real teeth of any tooth form, as a train uses it."""
+"""Gear pair of a train with the tooth geometry of any tooth form."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GearMesh(Shown, ABC):
-    """Gear pair with teeth of any real form. Trains, reports and exports access the teeth through this interface.
+    """Gear pair of a train with its tooth geometry, for any tooth form except ideal teeth. Trains, reports and
+    exports access the teeth through this interface.
 
     See Also
     --------
@@ -293,12 +294,14 @@ class GearMesh(Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact with displaced flanks and the present driver; None for tooth forms without one."""
+        """Model of the contact of displaced flanks with the actual driver; None for tooth forms that have no such
+        model.
+        """
         return None
 
     @abstractmethod
     def account(self) -> PairAccount:
-        """Return the report of the pair with its present driver: table rows and results."""
+        """Return the report of the pair with its actual driver: table rows and results."""
 
     def backlash_apart(self, gap: float) -> float | None:
         """Return the backlash at a centre distance other than the declared one.
@@ -341,7 +344,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a tooth of the driven wheel at angle 0, relative to the line of centres [pitch]."""
+        """Distance of a tooth of the driven wheel past the line of centres while the driven angle is 0 [pitch]."""
         return 0.0
 
     @property
@@ -422,7 +425,9 @@ class GearMesh(Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """This mesh as a tuple; if the driver is not determined, the mesh with each of the two wheels driving."""
+        """Meshes to examine, as a tuple: this mesh; if the driver is not determined, the mesh with each of the two
+        wheels driving.
+        """
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 

@@ -183,7 +183,7 @@ class SlidingEfficiency(Result):
 
 
 def _gear_or_none(gear: int) -> int | None:
-    """Return None for 0, which denotes the pair as a whole."""
+    """Return the number of the faulty gear; None for 0, which denotes the pair as a whole."""
     return gear or None
 
 
@@ -212,7 +212,7 @@ class ToothFault(Result):
 
     @property
     def problem(self) -> Problem:
-        """Fault as a problem that names no place in a file."""
+        """Fault as a `Problem` without a location in a file."""
         return Problem(self.what, self.why, self.fix)
 
 
@@ -257,7 +257,7 @@ class PairVerdict(Result):
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """Return a verdict with one fault, to which the given cause and remedy belong.
+        """Return a copy of the verdict with a single fault, which has the given cause and remedy.
 
         Parameters
         ----------
@@ -368,8 +368,8 @@ def motion_figures(
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table in the report of pairs, and the row of one pair. `wide` is True for a table as wide as the
-    page.
+    """Header of a table in the report of pairs, and the row of one pair. `wide` is True for a table that is as wide
+    as the page.
     """
 
     header: tuple[str, ...]

@@ -370,7 +370,9 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function while the driver turns backwards; by default this function itself."""
+        """Return the transmission function that applies while the driver turns backwards; by default this function
+        itself.
+        """
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
@@ -412,7 +414,7 @@ class TransmissionFunction(Shown, ABC):
 
 
 def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """Write S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
+    """Write driver angles S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
 
     The period is split into two parts, so that the first product is exact up to about 10^8 periods.
     """
@@ -446,7 +448,7 @@ class ExactRatio(TransmissionFunction):
         return self._constant(S, float(self.ratio))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return one contact without sliding."""
+        """Return the friction terms of a single contact without sliding."""
         return ContactRubbing(*(self._constant(S, 0.0)[None] for _ in range(3)))
 
     def speed_range(self) -> tuple[float, float]:

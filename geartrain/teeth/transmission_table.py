@@ -95,7 +95,9 @@ class CellTable:
 
     @property
     def breaks(self) -> Floats:
-        """Boundaries of the cells in ascending order [rad]: the uniform steps and the kinks."""
+        """Boundaries of the cells in ascending order [rad]: multiples of the uniform cell width, and the kinks of the
+        function.
+        """
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
         return np.sort(np.concatenate((uniform, self.kinks)))
 

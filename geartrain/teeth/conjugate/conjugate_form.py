@@ -70,7 +70,9 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair with its first wheel driving. A ring gear is gear 2 of the form in either order."""
+        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the form, even if the
+        pair names it first.
+        """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         check_wheels(self, wheels, shaft_angle)
@@ -323,9 +325,9 @@ class ConjugateToothForm(ToothForm):
         return ConjugatePair(path, (half, half))
 
     def _backlash(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
-        """Return the declared backlash as an arc X on the pitch surfaces.
+        """Return the declared backlash as an arc X on the pitch surfaces [module; rad for bevel gears].
 
-        For a bevel pair one module is p / pi on the unit sphere.
+        For a bevel pair, one module is 1 / pi of the circular pitch on the unit sphere.
         """
         return wheels.modules(self.backlash, "backlash") * pitch.p / pi
 
@@ -393,7 +395,7 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
         ring, pinion = pair
         raise refused(
             f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",
-            f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
+            f"the pair names its ring '{ring}' first, but this tooth form numbers the ring as its second wheel",
             f"name the pinion first: `pair: [{pinion}, {ring}]`",
         )
 

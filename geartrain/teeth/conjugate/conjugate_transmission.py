@@ -170,7 +170,8 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds and the friction terms of all tooth pairs in contact, at driver angles S [rad].
+        """Return the sliding speeds, and the friction terms of input and output power, of all tooth pairs in contact at
+        driver angles S [rad].
 
         The tooth pairs share the driver's torque equally.
         """

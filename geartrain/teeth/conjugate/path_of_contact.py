@@ -40,7 +40,7 @@ class PathPiece:
     sin_psi: Curve
     """Sine of the pressure angle at distances d."""
     slope: Curve
-    """Derivative of sin psi with respect to d, which equals d(psi)/dX."""
+    """Derivative of sin psi with respect to the distance d, which equals d(psi)/dX for the arc X."""
     travel: Curve
     """Arc X from `start` to d: the integral of 1/cos psi, docs/shapes.md (1)."""
 
@@ -65,10 +65,12 @@ def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int =
 
 
 def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> PathPiece:
-    """Return the piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S.
+    """Return the piece of a path of contact with constant contact speed `u` along the dedendum, divided by the
+    pitch-line speed.
 
-    By docs/shapes.md (12), eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
-    pitch surface of the gear whose dedendum works.
+    By docs/shapes.md (12), sin psi = eta / S with eta = S(start) sin psi(start) + u (d - start) + b (integral of
+    S). S is d, or sin d for bevel gears, and b is the curvature of the pitch surface of the gear whose dedendum
+    works.
     """
     first, below = float(pitch.S(start)) * sin_start, float(pitch.S_integral(start))
 
@@ -196,14 +198,16 @@ class PathContact(Shown):
     kr: Floats
     """Relative curvature k1 - k2 of the two profiles [1/module]."""
     H: Floats
-    """Ratio kr / cos psi. The Hertzian pressure is proportional to the square root of this ratio."""
+    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the
+    square root of this ratio.
+    """
     Q1: Floats
     """Frictional heat per area of the profile of gear 1, divided by friction coefficient times tangential force."""
     Q2: Floats
     """Frictional heat per area of the profile of gear 2, divided by friction coefficient times tangential force."""
     flash: Floats
-    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|. Blok's flash temperature of equal materials is proportional to
-    it.
+    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, with F_n the normal force at unit tangential force. Blok's
+    flash temperature of equal materials is proportional to it.
     """
     rub: Floats
     """Ratio |S| / cos psi, where S is d, or sin d for bevel gears. The friction loss is proportional to its integral
@@ -371,9 +375,11 @@ class PathOfContact(Shown):
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Compute contact speeds and curvatures, docs/shapes.md (2) to (5).
+        """Return speeds, curvatures, stress and heat of contacts at arcs X and distances d, docs/shapes.md (2) to (5).
 
-        U1 = w + A S, U2 = w - B S; k_i = T_i / U_i; kr = (A + B) sin psi / (U1 U2).
+        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, with w the derivative of S sin psi with
+        respect to d, and A and B the curvatures of the pitch surfaces. The relative curvature is kr = (A + B) sin psi /
+        (U1 U2).
         """
         pitch = self.pitch
         A, B = pitch.A, pitch.B

@@ -84,7 +84,9 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return two signs: direction towards the second axle, and contribution of the first radius along it."""
+        """Return two signs: of the direction towards the second axle, and of the component along it of the radius about
+        the first axle.
+        """
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
     @property
@@ -94,8 +96,8 @@ class DrivenFrame:
         return found
 
     def moved(self, dr: Floats | float, db: Floats | float) -> tuple[Floats, Floats]:
-        """Return the differentials of radius and azimuth about the second axle for differentials dr and db about the
-        first.
+        """Return the differentials of radius and azimuth about the second axle for differentials dr of the radius and
+        db of the azimuth about the first axle.
         """
         e, s = self._signs()
         stretch = self.height * dr
@@ -121,8 +123,8 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Tooth pairs that may touch: driver angle x [rad], shape index of both teeth, angle of the driven tooth `place`
-    [rad], index of the position.
+    """Tooth pairs that may touch: driver angle x [rad], shape indices of both teeth, angle `place` of the driven
+    tooth [rad], and index of the driver position.
     """
 
     x: Floats
@@ -191,8 +193,8 @@ class FirstTouchSearch:
         return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the intervals between search nodes that may be at radii of the driven flank; their `piece2` is not yet
-        chosen.
+        """Return the intervals between search nodes that may be at radii of the driven flank. Their `piece2` is chosen
+        later.
         """
         nodes = self.first.nodes
         pieces, us, begins = (
@@ -266,7 +268,7 @@ class FirstTouchSearch:
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
         """Return the driver's points about the second axle, and the derivatives with respect to u of their radius and
-        azimuth about the first.
+        azimuth about the first axle.
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)

@@ -319,7 +319,9 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
     if not side:
         raise QuestionError(
             Problem(
-                "a tooth has a flank without curves", "both flanks can touch a mate", "give at least one curve for each"
+                "a tooth has a flank without curves",
+                "each flank can touch a mate and needs a profile",
+                "give at least one curve for each flank",
             )
         )
     last = None

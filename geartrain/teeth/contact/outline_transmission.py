@@ -179,7 +179,8 @@ class OutlineTransmission(ToothTransmission):
 
 
 def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cos psi and the terms of input and output power per unit friction coefficient, for a contact at (x, y).
+    """Return the cosine of the pressure angle, and the terms of input and output power per unit friction
+    coefficient, for a contact at (x, y).
 
     (x, y) is relative to the instantaneous pitch point; R1 and R2 are the distances of that point from the axles.
     """
@@ -193,8 +194,8 @@ def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Fl
 
 
 def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cos psi and the terms of input and output power per unit friction coefficient, at driver angles `forward`
-    [rad].
+    """Return the cosine of the pressure angle, and the terms of input and output power per unit friction
+    coefficient, at driver angles `forward` [rad].
     """
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)

@@ -81,7 +81,7 @@ class TriangularMesh(GearMesh):
         return {self.driver: self.transmission.sizes.R1, self.driven: self.transmission.sizes.R2}
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the scale and centre distance of the pair.
+        """Return the scale and the centre distance of the pair.
 
         The scale follows from a wheel whose tip radius is in `tips`, otherwise from declared lengths, otherwise from
         pitch circles that touch.
@@ -128,8 +128,8 @@ class TriangularMesh(GearMesh):
     def separation(self) -> float:
         """Mean separating force divided by the tangential force, at constant torque on the driven wheel.
 
-        The normal makes the angle psi with the pitch line. The sum of its distances from both centres is n1 + n2 =
-        D cos(psi); with a ring gear, the difference: (31) of docs/strength.md.
+        The common normal makes the angle psi with the pitch line. The sum of its distances n1 and n2 from both centres
+        is D cos(psi), with the centre distance D; with a ring gear, it is the difference: (31) of docs/strength.md.
         """
         transmission = self.transmission
         sizes, arms = transmission.sizes, transmission.contact.path.tooth_pair.normal_arms

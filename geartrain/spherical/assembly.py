@@ -40,7 +40,7 @@ def spherical_phasing(configuration: Configuration, teeth: Mapping[str, int] | N
     configuration : Configuration
         Set of gears.
     teeth : mapping of str to int, optional
-        Kind -> tooth count, instead of the counts of the configuration.
+        Tooth count of each kind of gear, instead of the counts of the configuration.
 
     Returns
     -------

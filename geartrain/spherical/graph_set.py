@@ -44,7 +44,7 @@ Edges = Iterable[tuple[Hashable, Hashable]]
 def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
     """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected.
 
-    Two regions of a 3-connected map have in common: no gear, one gear, or the two gears of one mesh.
+    Two regions of a 3-connected map share no gear, one gear, or the two gears of one mesh.
     """
     sides: dict[frozenset[int], list[int]] = {}
     beside: dict[int, list[int]] = {}

@@ -24,11 +24,13 @@ MEAN_PRESSURE = radians(20)
 
 
 def pitch_cone(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
-    """Return the half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md (1).
+    """Return the half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md
+    (1).
 
-    S is the angle between outward axes [rad], 0 < S < pi, and z are the tooth numbers. The formula follows from w_i sin
-    rho_i = -w_j sin rho_j, w_i/w_j = -z_j/z_i and rho_i + rho_j = S (Willis, with the frame as carrier). A half-angle
-    of pi/2 is a crown gear, and a larger one an internal gear.
+    S is the angle between the outward axes of the meshing gears i and j [rad], 0 < S < pi, and z are the tooth
+    numbers. With the speeds w, the formula follows from w_i sin rho_i = -w_j sin rho_j, w_i/w_j = -z_j/z_i and
+    rho_i + rho_j = S (Willis, with the frame as carrier). A half-angle of pi/2 is a crown gear, and a larger one an
+    internal gear.
     """
     return np.asarray(np.arctan2(np.sin(S), np.cos(S) + np.divide(z_j, z_i)), dtype=float)
 
@@ -68,10 +70,9 @@ def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
 
 
 def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
-    """Return the virtual tooth number of the spur gear on the back cone (Tredgold), z / cos rho, which determines
-    undercut.
+    """Return the virtual tooth number of the spur gear on the back cone (Tredgold), which determines undercut.
 
-    The result is inf for crown and internal gears.
+    It is z / cos rho for z teeth and the half-angle rho of the pitch cone, and inf for crown and internal gears.
     """
     share = np.cos(rho)
     # the cosine of pi/2 in floats is 6e-17

@@ -69,7 +69,7 @@ def suggest_tooth_counts(
     tolerance : float
         Tolerance of the closing error of loops whose angles are known only as floats [pitch].
     fixed : mapping of str to int, optional
-        Kind -> tooth number, for kinds whose tooth number is given.
+        Tooth number of each kind of gear whose tooth number is given.
 
     Returns
     -------

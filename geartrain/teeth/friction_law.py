@@ -1,4 +1,5 @@
-"""Friction that depends on speed: friction laws that can replace a coefficient, and a pair under such a law.
+"""Friction that depends on speed: friction laws that can replace a coefficient, and the friction of a pair
+under such a law.
 
 The measured values are from W. D. Smith, "Optimal shapes for gears" (1993): Buckingham's for lubricated cast iron, and
 Dokos's for dry steel. Smith prints their end values but not their tables. The docstring of each law describes the
@@ -167,7 +168,7 @@ class BuckinghamFriction(FrictionLaw):
     def coefficient(self, speed: Floats) -> Floats:
         """Return the coefficient of friction at pitch-line speeds [m/s], docs/shapes.md (17).
 
-        mu = c2 exp(-c1 sqrt v) + c3 sqrt v, where v is the speed in ft/min.
+        It is c2 exp(-c1 sqrt v) + c3 sqrt v, with v the speed in ft/min and the constants of `buckingham_constants`.
         """
         import numpy as np
 
@@ -277,10 +278,11 @@ _NAME = re.compile(r"[a-z_]+")
 
 
 def law_of_text(raw: object) -> object:
-    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a mapping
-    as in a declaration.
+    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a
+    mapping as in a declaration.
 
-    The values of a table column are separated by colons. Input that does not begin with a name is returned unchanged.
+    The values of a table column are separated by colons. Input that does not begin with the name of a law is
+    returned unchanged.
     """
     parts = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(parts, list) or not parts or not _NAME.fullmatch(str(parts[0]).strip()):

@@ -131,7 +131,8 @@ class SlidingEfficiency(Result):
 
     Examples
     --------
-    A slot that drives its pin locks at a coefficient of friction of sqrt(r^2 - e^2)/e or more.
+    A slot that drives its pin of radius r locks at a coefficient of friction of sqrt(r^2 - e^2)/e or more, with e the
+    distance between the axes.
 
     >>> from geartrain.teeth import SlotToPinTransmission
     >>> efficiency = SlidingEfficiency(SlotToPinTransmission(5, 3, 0.1))

@@ -9,8 +9,8 @@ point. Where the contact speed along the mate's flank is 0, the envelope of the 
 away part of the flank on their way in. `flank_start` returns the first contact of the remaining flank.
 
 The extremal does not reach the pitch point. It has the minimum sliding loss of all paths between two given contacts:
-S dX/dd is a constant D, where X is the arc of contact and S is d, or sin d on the sphere. In the plane it is a circle of
-diameter D centred on the pitch line. Its flanks are regular for pressure angles above 45 degrees only.
+S dX/dd is a constant D, where X is the arc of contact and S is d, or sin d on the sphere. In the plane it is a circle
+of diameter D centred on the pitch line. Its flanks are regular for pressure angles above 45 degrees only.
 """
 
 from __future__ import annotations

@@ -302,7 +302,7 @@ class PairDesign(Result):
     mesh: ConjugateMesh
     """Mesh of the pair with the wheel that drives."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels that were cut."""
+    """Outlines of the requested wheels as cut; empty if none was requested."""
 
     @property
     def path(self) -> PathOfContact:

@@ -6,7 +6,7 @@ arm is R2 cos psi on cylinders and sin R2 cos psi on cones; for an involute it i
 the path the corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from
 the law of cosines.
 
-At a centre distance other than the design distance, the transmission function follows from the contact of both outlines.
+At another centre distance, the transmission function follows from the contact of both outlines.
 These are the flanks of the design, each continued straight beneath its last designed contact.
 """
 

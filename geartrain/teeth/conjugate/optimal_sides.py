@@ -374,7 +374,7 @@ def unreachable_end(end: float) -> RangeError:
     """Return the error for an end of the path of contact that cannot be reached."""
     return RangeError(
         Problem(
-            f"the path of contact does not extend to the distance {end:.6g} (modules; bevel gears: rad) from the pitch point",
+            f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point",
             "its pressure angle would reach 90 deg before that distance",
             "use shorter arcs, more teeth, or a smaller pressure angle",
         )

@@ -12,7 +12,8 @@ pitch-line speed, is, at the distance d from the pitch point and the pressure an
     gear 1: cos psi + s mu (S' sin psi + A S),   gear 2: cos psi + s mu (S' sin psi - B S),
 
 with s = sign d if gear 1 drives and -sign d if gear 2 drives. S is d, or sin d on the sphere, S' its derivative, and A
-and B are the curvatures of the pitch surfaces. The difference is mu (A + B) |S|, friction times sliding. A contact line of a bevel pair has these ratios at every distance from the apex, so they are exact there also.
+and B are the curvatures of the pitch surfaces. The difference is mu (A + B) |S|, friction times sliding. A contact
+line of a bevel pair has these ratios at every distance from the apex, so they are exact there also.
 """
 
 from __future__ import annotations

@@ -286,12 +286,14 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the touches of all segments, exact to rounding error: both ends, and any interior maximum of G."""
+        """Return the touches of all segments, exact to rounding error: at both ends, and at an interior maximum of the
+        required driven angle G.
+        """
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
-            """Return the slope of G times d radius / dv of the driven piece, a factor that is 0 or more."""
+            """Return the slope of the required driven angle G, times d radius / dv of the driven piece (0 or more)."""
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
             # clipped, because rounding may move a radius beyond the ends of the piece

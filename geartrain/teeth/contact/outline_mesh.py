@@ -59,7 +59,7 @@ class OutlineMesh(GearMesh):
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of a single tooth pair of the outlines, and the lag of the driven wheel caused by displaced flanks."""
+        """Contact of a single tooth pair of the outlines, and lag of the driven wheel caused by displaced flanks."""
         from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
         return displaced_outlines(self.transmission.gears, self.transmission.driver)

@@ -21,16 +21,18 @@ _NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle f
 
 
 def depth(z: int, beta: float) -> float:
-    """Return the tooth depth divided by the tip radius, Eq. (1), as a product because the printed difference cancels at
-    large z.
+    """Return the tooth depth divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq. (1).
 
-    For a ring gear of z teeth pass -z and multiply by the negative radius.
+    It is computed as a product, because the printed difference cancels at large z. For a ring gear of z teeth pass
+    -z and multiply by the negative radius.
     """
     return 2 * sin(pi / (2 * z)) * cos(beta + pi / (2 * z)) / sin(beta + pi / z)
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank divided by the tip radius, Eq. (2); `beta` is the half aperture angle [rad]."""
+    """Return the length of a flank divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq.
+    (2).
+    """
     return sin(pi / z) / sin(beta + pi / z)
 
 

@@ -1,14 +1,17 @@
-"""Real path of contact of triangular teeth: the tooth pair that drives at each position, collisions, dwells, clashes.
+"""Real path of contact of triangular teeth: the tooth pair that drives at each position, collisions, dwells,
+clashes.
 
-Every tooth pair k prevents the driven wheel from lagging behind f(t + k p1) - k p2 (`tooth_pair`). The driven wheel
-therefore follows U(t) = min over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t decreases. Without the
-mean motion, U is the minimum of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between the matching position
-and the ends of contact g is convex, or concave and then convex (few teeth). On each such piece only its ends, or the
-two tooth pairs next to its minimum, can drive, so the cost does not grow with the number of tooth pairs within range.
+The tooth pair k is at the driver angle alpha_1 = t + k p1 and permits the driven angle alpha_2 = f(alpha_1) - k
+p2 at most, with driver position t and angular pitches p1, p2. Both angles decrease with time. The driven wheel
+therefore follows U(t), the minimum over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t
+decreases. Without the mean motion, U is the minimum of the lag g(x) = f(x) - (z1/z2) x over the lattice x = t +
+k p1. Between the matching position and the ends of contact g is convex, or concave and then convex (few teeth).
+On each such piece only its ends, or the two tooth pairs next to its minimum, can drive, so the cost does not
+grow with the number of tooth pairs within range.
 
-The envelope of the tooth pairs decreases with time, but it may be discontinuous. It steps up where a pair leaves
-before the next one can drive (the driven wheel dwells until one reaches it), and down where a pair enters tip against
-tip (a clash). A collision is a step of the speed ratio as another tooth pair takes over.
+The envelope of the tooth pairs decreases with time, but it may be discontinuous. It steps up where a pair
+leaves before the next one can drive (the driven wheel dwells until one reaches it), and down where a pair
+enters tip against tip (a clash). A collision is a step of the speed ratio as another tooth pair takes over.
 """
 
 from __future__ import annotations
@@ -183,7 +186,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Drive intervals over one pitch in order of decreasing driver position t, without dwells; there may be gaps."""
+        """Drive intervals over one pitch in order of decreasing driver position t, without dwells; it may have gaps."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:

@@ -185,8 +185,9 @@ class ToothPair:
     def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the sliding velocity divided by the driver's angular speed, docs/shapes.md (14).
 
-        In approach it is R2 |sin y| / cos psi, the distance from C, times 1 + tau; in recess R1 |sin x| (1 + tau) /
-        cos psi2. (1 + tau) over the cosine is D divided by the distance of the driven axis from the normal.
+        It is 1 + tau, with the speed ratio tau, times the distance of the contact from the instant centre. That
+        distance is R2 |sin y| / cos psi in approach and R1 |sin x| / cos psi2 in recess. (1 + tau) over the cosine is D
+        divided by the distance of the driven axis from the normal.
         """
         if phase == APPROACH:
             *_, q, sin_y = self._flank_line(x, m)

@@ -363,7 +363,9 @@ class ContactCourse(Result):
     driven_arm: Floats
     """Moment arm b2 of the force about the driven wheel's axis, in the unit of the sizes; NaN during a dwell."""
     efficiency: Floats
-    """Efficiency tau b2/b1; NaN during a dwell and where friction locks."""
+    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN during a dwell and where friction
+    locks.
+    """
 
 
 def contact_course(

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 _NODES = 16  # Gauss-Legendre nodes of an interval
-_ROUNDING = 1e-14  # of an integral: smaller differences between an interval and its halves are rounding error
+_ROUNDING = 1e-14  # fraction of an integral: smaller differences between an interval and its halves are rounding error
 _DEEPEST, _DEEPEST_SLOW = 40, 2  # maximum number of bisections of an interval
 _END = 1e-9  # of an interval: at its ends the next tooth pair, or the other side of the pitch point, counts too
 _SAMPLES = 1001  # samples of an interval in the search for the minimum efficiency

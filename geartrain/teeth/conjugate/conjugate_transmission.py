@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.admissibility import Halves
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
-_TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding error
+_TOUCH = 1e-12  # fraction of a pitch: smaller gaps between two contacts are rounding error
 
 
 @dataclass(frozen=True, eq=False)

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 _STRAIGHT = 0.5  # modules of root beneath a flank, at most a third of its radius
 _NODES = 257  # of the tables along the path and beyond its ends, with linear interpolation
 _SMALL = 1e-12  # rad: shorter contact beyond an end is neglected
-_END_STEP = 1e-4  # of the arc of contact: step of the difference quotient of the tip's radius
+_END_STEP = 1e-4  # fraction of the arc of contact: step of the difference quotient of the tip's radius
 _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are divided; it is 0 for parallel sides
 
 

@@ -34,20 +34,21 @@ if TYPE_CHECKING:
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
 _NODES = (24, 48, 96, 192)  # doubled until the last coefficients are small
-_FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding error
+_FALLEN = 1e-14  # fraction of the largest coefficient: smaller values are rounding error
 _UNFINISHED = 1e-5  # upper bound of the last coefficients at the maximum number of nodes; exceeded above about 84 deg
 _STEPS = 25  # maximum number of Newton steps
 _ROUGH = 1e-9  # residuals below this are rounding error
 _CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are checked, and tolerance of their rounding
-_NEAR = 0.05  # of a side: closer to the pitch point slopes are taken from the series
+_NEAR = 0.05  # fraction of a side: closer to the pitch point slopes are taken from the series
 # 16 nodes give rounding on usual sides; many more for pressure angles near a right angle
 _GAUSS = np.polynomial.legendre.leggauss(64)
 _TRIES = 60  # maximum number of solved ends
-_GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
+_GIVEN_UP = 1e-4  # fraction of the end: resolution at which an end counts as unreachable
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """Return the side of an involute with the arc X: constant pressure angle `psi` [rad].
+    """Return the side of the path of contact of an involute, with constant pressure angle `psi` [rad] and the
+    arc X along the pitch surfaces.
 
     With the arc 0, the path begins or ends at the pitch point.
     """
@@ -84,10 +85,11 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
 
 def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
-    """Return the piece that ends at the arc X, by Newton's method for its end d.
+    """Return the piece of a path of contact that ends at the arc X, by Newton's method for the distance d of its
+    end.
 
-    `made` returns the piece with a given end. An end that cannot be reached is bisected towards the last end that was
-    reached.
+    `made` returns the piece with a given end. An end that cannot be reached is bisected towards the last end that
+    was reached.
     """
     low, end, last = start, guess, inf
     for _ in range(_TRIES):

@@ -39,8 +39,8 @@ if TYPE_CHECKING:
 _GAUSS = np.polynomial.legendre.leggauss(48)
 _SCAN = 257  # grid points of one piece in the search for a maximum
 _NARROWED, _ACROSS = 5, 33  # number of refinements of its bracket, and grid points of each
-_ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding error
-_NEARLY_0 = 1e-14  # of a pitch: rounding error of an arc
+_ROUNDING = 1e-12  # fraction of a pitch: shorter intervals are rounding error
+_NEARLY_0 = 1e-14  # fraction of a pitch: rounding error of an arc
 
 ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
@@ -190,7 +190,7 @@ Stretch = tuple[float, float, int]
 
 
 def sharing(path: PathOfContact) -> list[Stretch]:
-    """Return the intervals of X in which the number of tooth pairs in contact is constant."""
+    """Return the intervals of the arc X in which the number of tooth pairs in contact is constant."""
     p, (approach, recess) = path.pitch.p, path.arcs
     whole = floor(path.contact_ratio)
     cuts = sorted(
@@ -267,9 +267,10 @@ def maximum(
     low: float = -inf,
     high: float = inf,
 ) -> float:
-    """Return the maximum of `what` over contacts with |X| >= `beyond` and X from `low` to `high`; -inf without contact.
+    """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to
+    `high`; -inf without contact.
 
-    Each piece is scanned on a grid, and the bracket of its maximum is then refined.
+    Each piece of the path is scanned on a grid, and the bracket of its maximum is then refined.
     """
     bounds = ((low, min(high, -beyond)), (max(low, beyond), high)) if beyond else ((low, high),)
     best = -inf

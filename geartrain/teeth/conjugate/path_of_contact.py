@@ -38,15 +38,21 @@ class PathPiece:
     start: float
     end: float
     sin_psi: Curve
-    """Sine of the pressure angle at distances d."""
+    """Function that returns the sine of the pressure angle psi at distances d from the pitch point."""
     slope: Curve
-    """Derivative of sin psi with respect to the distance d, which equals d(psi)/dX for the arc X."""
+    """Function that returns the derivative of sin psi with respect to the distance d; it equals d(psi)/dX, with
+    the arc X along the pitch surfaces.
+    """
     travel: Curve
-    """Arc X from `start` to d: the integral of 1/cos psi, docs/shapes.md (1)."""
+    """Function that returns the arc X along the pitch surfaces from `start` to d: the integral of 1/cos psi,
+    docs/shapes.md (1).
+    """
 
 
 def ray(psi: float, end: float) -> PathPiece:
-    """Return the piece of constant pressure angle `psi` [rad] up to the distance `end`: the path of an involute."""
+    """Return the piece of a path of contact with constant pressure angle `psi` [rad] up to the distance `end`
+    from the pitch point, as for an involute.
+    """
     return PathPiece(
         0.0,
         end,
@@ -57,8 +63,8 @@ def ray(psi: float, end: float) -> PathPiece:
 
 
 def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int = 64) -> PathPiece:
-    """Return the piece with a given sine of the pressure angle; its arc X is an integrated Chebyshev series of 1 / cos
-    psi.
+    """Return the piece of a path of contact with a given sine of the pressure angle psi. Its arc X is an
+    integrated Chebyshev series of 1 / cos psi.
     """
     travel = ChebyshevSeries.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
     return PathPiece(start, end, sin_psi, slope, travel)
@@ -117,15 +123,17 @@ class PathSide:
         return tuple(piece.end for piece in self.pieces)
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle at distances d in [start, end]."""
+        """Return the sine of the pressure angle at distances d from the pitch point, from `start` to `end`."""
         return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin psi with respect to d."""
+        """Return the derivative of the sine of the pressure angle with respect to the distance d from the pitch
+        point.
+        """
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X from `start` to d."""
+        """Return the arc X along the pitch surfaces while the contact moves from `start` to the distance d."""
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 
@@ -135,11 +143,13 @@ class PathSide:
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
-        """Return the index of the piece that contains each distance; a joint belongs to the piece that follows it."""
+        """Return the index of the piece that contains each distance d; a joint belongs to the piece that follows it."""
         return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
-        """Return the distance d at the arc X, by Newton's method with dd/dX = cos psi."""
+        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces, by
+        Newton's method with dd/dX = cos psi.
+        """
         X = np.asarray(X, dtype=float)
         arc = self.arc
         d = self.start + (np.clip(X / arc, 0.0, 1.0) * (self.end - self.start) if arc else np.zeros(X.shape))

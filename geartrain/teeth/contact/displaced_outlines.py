@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _NODES = 1025  # of the tables along the contact, with linear interpolation
 _CORNER_NODES = 257  # of the tables beyond its ends
 _SEARCHED = 2001  # samples in the window of a tooth pair, for the ends of its contact
-_FARTHEST = 0.25  # of a driven pitch: with more lag the neighbouring pairs are in contact instead
+_FARTHEST = 0.25  # fraction of a driven pitch: with more lag the neighbouring pairs are in contact instead
 _NO_CORNER = 1e-9  # rad of the driver: shorter contact of a tip beyond the flanks is neglected
 _AT_PITCH_POINT = 1e-6  # modules: closer to the pitch point the normal is taken from the flank
 _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are divided; it is 0 for parallel sides

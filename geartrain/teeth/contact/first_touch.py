@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.flank_table import FlankTable
 
-_ASIDE = 1e-5  # of a segment: offset at which a slope is evaluated if it is undefined at the end
+_ASIDE = 1e-5  # fraction of a segment: offset at which a slope is evaluated if it is undefined at the end
 _FINE = 1e-14  # of u: at a maximum of G only the speed depends on u to first order
 _WIDE = 2.0  # safety factor of bounds from tangents
 _LEFT = 1e-8  # of u: error of an inversion where a curve is stationary, the square root of rounding

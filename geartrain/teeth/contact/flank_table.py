@@ -19,7 +19,7 @@ _CELLS = 8  # minimum number of search cells of a side
 _CLOSER, _CLOSE = 0.75, 30  # geometric steps towards a stationary end: an extreme may be at any distance from it
 _MOST = 80  # maximum number of steps of an inversion
 _NEAR = 1e-10  # a Newton step of this length ends at the root, as the next would be about its square
-_STALLED = 1e-3  # of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
+_STALLED = 1e-3  # fraction of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
 
 
 @dataclass(frozen=True)

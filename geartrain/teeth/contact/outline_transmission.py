@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.transmission_fit import PiecewiseTransmission
 
-_NEAR_PITCH_POINT = 1e-7  # of the centre distance: uncertainty of roots of differences of squares
+_NEAR_PITCH_POINT = 1e-7  # fraction of the centre distance: uncertainty of roots of differences of squares
 _FLAT = 1e-9  # smaller friction slopes against a contact are rounding error, and do not lock
 _SAMPLES = 256  # angles of a pitch at which backlash is evaluated
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding error
+_JUMP = 1e-6  # fraction of the ratio: smaller steps at a kink are rounding error
 # Chebyshev nodes are interior, so that a stretch is never evaluated beyond its kinks
 _NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)
 # between the nodes, where fits have their largest errors, and inside the ends, beyond which the contact may change
@@ -34,11 +34,11 @@ _ALL = np.sort(np.concatenate([_NODES, _CHECKS]))
 # from values to coefficients; at these nodes it is as well conditioned as a cosine transform
 _SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
 _PARTS = 4  # initial stretches of a pitch
-_OFFSET = 0.1180339887498949  # of a stretch: an irrational offset, so that a kink is unlikely to be at an end
-_THIN = 1e-9  # of a pitch: thinner stretches are not divided; a tip tangent to a side makes the speed infinite
+_OFFSET = 0.1180339887498949  # fraction of a stretch: an irrational offset, so that a kink is unlikely to be at an end
+_THIN = 1e-9  # fraction of a pitch: thinner stretches are not divided; a tip tangent to a side makes the speed infinite
 _CUTS = 17  # subdivisions of a gap with a kink; one call for many angles costs little more than for one
 _SAFETY = 2.0  # reported error divided by the maximum found
-_FLAT = 1e-7  # of the ratio: kinks with a smaller change of speed are not refined
+_FLAT = 1e-7  # fraction of the ratio: kinks with a smaller change of speed are not refined
 _LEAP = 1e-9  # rad: a larger step of the angle is a discontinuity, not a kink
 _MOST = 100_000  # maximum number of stretches per driver pitch
 

@@ -27,10 +27,10 @@ UNDERCUT = radians(6.0)
 """Angle of the leading face of an escape wheel tooth behind the radius through its tip [rad], as for a
 dead-beat anchor.
 """
-_DEPTH = 0.7  # of a pitch: depth of a tooth
-_DEEPEST = 0.5  # of the radius: maximum depth of a tooth
-_BASE = 0.45  # of a pitch: thickness of a tooth at its root
-_LAND = 0.03  # of a pitch: width of a tip
+_DEPTH = 0.7  # fraction of a pitch: depth of a tooth
+_DEEPEST = 0.5  # fraction of the radius: maximum depth of a tooth
+_BASE = 0.45  # fraction of a pitch: thickness of a tooth at its root
+_LAND = 0.03  # fraction of a pitch: width of a tip
 WAVE = "strain wave"
 WAVE_WORDS = "of a strain wave, straight flanks of 30 degrees, 0.7 modules out and 0.9 in"
 FLANK = radians(30.0)

@@ -20,7 +20,7 @@ from geartrain.teeth.triangular.real_path import DWELL, DraggedPath, DriveInterv
 from geartrain.teeth.triangular.tooth_pair import APPROACH
 
 MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "dwell", "apart"]
-_ROUNDING = 1e-11  # of a driven pitch: backlash above minus this counts as 0
+_ROUNDING = 1e-11  # fraction of a driven pitch: backlash above minus this counts as 0
 _NEARLY_0 = 1e-9  # of the maximum excess
 
 

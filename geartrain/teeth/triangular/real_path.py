@@ -28,8 +28,8 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, RETURN, SLIP, ToothPair
 
 DWELL = "dwell"
-_ROUNDING = 1e-11  # of a pitch: shorter intervals are discarded
-_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding error
+_ROUNDING = 1e-11  # fraction of a pitch: shorter intervals are discarded
+_SMALL = 1e-10  # fraction of a pitch: smaller steps and gaps are rounding error
 
 
 @dataclass(frozen=True, slots=True)

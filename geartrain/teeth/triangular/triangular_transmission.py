@@ -158,7 +158,7 @@ class TriangularTransmission(ToothTransmission):
         return self.mapped(S, lambda interval, x: x)
 
     def mapped(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
-        """Return a function of the contact at driver angles S.
+        """Return the values of a function of the contact at driver angles S.
 
         Parameters
         ----------
@@ -245,8 +245,8 @@ class TriangularTransmission(ToothTransmission):
             yield centre
 
     def _line_of_centres(self, phase: str) -> float:
-        """Return the angle alpha_1 of the driver's apex [rad] at which the contact is on the line of centres, where
-        sliding reverses.
+        """Return the angle of the driver's apex from the line of centres [rad] while the contact is on the line of
+        centres, where sliding reverses.
         """
         if phase != APPROACH:
             return 0.0
@@ -282,7 +282,9 @@ class TriangularTransmission(ToothTransmission):
         return mean, sqrt(float(weights @ (error - mean) ** 2))
 
     def _samples(self) -> Iterator[tuple[str, Floats]]:
-        """Yield the phase and 101 angles alpha_1 [rad] of each smooth interval in which a tooth pair drives."""
+        """Yield the phase of contact and 101 angles alpha_1 of the driver's apex [rad] for each smooth interval in
+        which a tooth pair drives.
+        """
         for interval, high, low in self.stretches:
             if interval.held is None:
                 yield interval.phase, np.linspace(high, low, 101)

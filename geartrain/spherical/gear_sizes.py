@@ -335,14 +335,16 @@ class SphereSizing(Result):
 
 
 def impossibility_theorem(configuration: Configuration) -> str:
-    """Return the proof that no tooth numbers give one pitch on these fixed axes; "" if no proof is known."""
+    """Return the proof that no tooth numbers give one pitch on the fixed axes of a set; an empty string if no
+    proof is known.
+    """
     name = _solid_with_proof(configuration)
     return f"{name}: {_THEOREMS[name]}" if name else ""
 
 
 def _solid_with_proof(configuration: Configuration) -> str:
-    """Return the name of the solid on whose faces the gears are, if such a proof is known for it; otherwise an
-    empty string.
+    """Return the name of the solid on whose faces the gears are, if it is proved that no tooth numbers give one
+    pitch on it; otherwise an empty string.
 
     The solid is recognised by its counts and mesh angles.
     """

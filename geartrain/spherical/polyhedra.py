@@ -481,7 +481,7 @@ def _unknown(name: str) -> GearTrainError:
 
 
 def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
-    """Return the images of the point at these distances from the mirrors of the reflection group [p, 3].
+    """Return the images of the point at given distances from the mirrors of the reflection group [p, 3].
 
     For a snub solid (no distances) only rotations are applied.
     """

@@ -370,7 +370,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return the kind with this name, or else all kinds whose names consist of it and additional letters."""
+    """Return the kind with a given name, or else all kinds whose names consist of it and additional letters."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 

@@ -56,7 +56,7 @@ class MeasuredForm(Result):
 
     @property
     def runs(self) -> bool:
-        """True if teeth of this form can run."""
+        """True if teeth of the compared form can run."""
         return self.measures is not None and not self.faults
 
     @property
@@ -72,7 +72,7 @@ class MeasuredForm(Result):
 
 @dataclass(frozen=True)
 class FormComparison(Result):
-    """Tooth forms compared with the 20 degree involute of the same pair and arcs."""
+    """Tooth forms compared with the 20 degree involute of the same wheels and arcs of contact."""
 
     PAGE = "report.conjugate_pair_page:describe_form_comparison"
 
@@ -185,7 +185,9 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair with these arcs of approach and recess [pitch], regardless of its addenda."""
+    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch], regardless of its
+    addenda.
+    """
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 

@@ -148,16 +148,16 @@ class GearMesh(Shown, ABC):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can run."""
+        """Verdict on whether the teeth of the pair can run."""
         return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of these teeth. The messages do not mention the pair or its file."""
+        """Yield all faults of the teeth of the pair. The messages do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
     def friction_faults(self) -> Iterator[Problem]:
-        """Yield the fault that friction locks these teeth, if they are locked."""
+        """Yield a fault if friction locks the teeth of the pair."""
         from geartrain.teeth.pair_results import friction_lock, friction_lock_at_speed
 
         if self.wheels.friction_law is None:
@@ -328,12 +328,12 @@ class GearMesh(Shown, ABC):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """All faults that prevent these teeth from running, each with its fix; empty if they can run."""
+        """All faults that prevent the teeth of the pair from running, each with its fix; empty if they can run."""
         return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
     def fault(self) -> Problem | None:
-        """First fault that prevents these teeth from running; None if they can run."""
+        """First fault that prevents the teeth of the pair from running; None if they can run."""
         return self.faults[0] if self.faults else None
 
     @property

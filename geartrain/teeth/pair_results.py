@@ -274,7 +274,7 @@ class PairVerdict(Result):
 
 
 def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVerdict:
-    """Return the verdict on teeth with these faults and this backlash [rad of the driven wheel]."""
+    """Return the verdict on teeth with the given faults and backlash [rad of the driven wheel]."""
     text = "; ".join(fault.what for fault in faults) or "the teeth run"
     return PairVerdict(faults[0].kind if faults else "runs", text, backlash, faults)
 
@@ -346,13 +346,13 @@ class PairFigures(Result):
     teeth: tuple[int, int]
     """Tooth numbers of the driver and of the driven wheel."""
     verdict: PairVerdict
-    """Verdict on whether these teeth can run."""
+    """Verdict on whether the teeth of the pair can run."""
     speed_ratio: SpeedRatio | None
     """Speed ratio, driven divided by driver; None for teeth that cannot run."""
     transmission_error: TransmissionError | None
     """Transmission error of the driven wheel; None for teeth that cannot run."""
     efficiency: SlidingEfficiency | None
-    """Efficiency of sliding teeth; None for teeth that cannot run."""
+    """Efficiency with sliding friction of the teeth; None for teeth that cannot run."""
 
     @property
     def error_text(self) -> str:
@@ -383,7 +383,7 @@ class PairAccount:
     """Report of one pair with one of its wheels driving: tables as text, and results for JSON."""
 
     words: str
-    """Text that explains the tables of all pairs of this kind."""
+    """Text that explains the tables of all pairs with the same kind of report."""
     tables: tuple[AccountTable, ...]
     """Tables, each with the row of this pair."""
     figures: PairFigures

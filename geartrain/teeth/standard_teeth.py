@@ -64,7 +64,7 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
 
 
 def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
-    """Return the wheels that are connected with the first one, including it."""
+    """Return all wheels that are connected with the first wheel by pairs, including the first wheel."""
     known = [first]
     # the list grows while it is read
     for name in known:

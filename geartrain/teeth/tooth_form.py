@@ -98,7 +98,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def declared(cls, parameters: Mapping[str, object]) -> Self:
-        """Return the form with these parameters.
+        """Return a tooth form with the given declared parameters.
 
         Parameters
         ----------

@@ -270,8 +270,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum angle of the pin at which the contact has zero speed along the mate [rad]; None without such a
-    cusp.
+    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None
+    without such a cusp.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe

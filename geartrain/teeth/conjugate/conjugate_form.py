@@ -342,7 +342,9 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess from pitches to arcs X along the pitch surfaces."""
+    """Convert arcs of approach and recess from pitches to arcs X along the pitch surfaces [module; rad for bevel
+    gears].
+    """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
 
@@ -369,7 +371,7 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
 
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-    """Raise `GearTrainError` if wheels of these kinds cannot have conjugate teeth of this form."""
+    """Raise `GearTrainError` if wheels of the declared kinds cannot have conjugate teeth of the form."""
     why, fix = "", IDEAL
     if "worm" in wheels.kinds:
         why = "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"

@@ -276,7 +276,7 @@ class SharedEfficiency(Result):
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Efficiency with friction of sliding teeth, exact in the friction coefficient."""
+    """Efficiency with sliding friction of the teeth, an exact function of the friction coefficient."""
     assumption: str = SHARED
     """Assumption on how teeth in contact share the load, in words."""
 
@@ -365,7 +365,7 @@ class PairDesign(Result):
 
     @property
     def efficiency(self) -> SharedEfficiency | None:
-        """Efficiency, exact in the friction coefficient; None for teeth that cannot run."""
+        """Efficiency, an exact function of the friction coefficient; None for teeth that cannot run."""
         return SharedEfficiency(self.mesh.efficiency(self.mesh.driver)) if self.runs else None
 
     @property

@@ -147,11 +147,11 @@ class DisplacedWheelSizes:
     half_angle: float
     """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
     modules: float = 1.0
-    """Number of modules in the length unit of these sizes; 1 if lengths are in modules."""
+    """Number of modules in the length unit of the sizes of the wheel; 1 if lengths are in modules."""
 
     @property
     def pitch(self) -> float:
-        """Circular pitch in the unit of these lengths."""
+        """Circular pitch in the length unit of the sizes of the wheel."""
         return pi / self.modules
 
 

@@ -142,7 +142,7 @@ class InvolutePair:
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess that the tip circles give [module].
+        """Arcs X of approach and recess, as limited by the tip circles [module].
 
         One arc is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on
         one side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
@@ -180,7 +180,7 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
                 f"no centre distance lets wheels of {first.z} and {second.z} teeth mesh without backlash",
                 f"with profile shifts x1 = {first.shift:g} and x2 = {second.shift:g} the involute function of the "
                 f"operating pressure angle would be {value:.4g}, but it cannot be negative",
-                f"increase {'x2 - x1' if second.ring else 'x1 + x2'}, or give a centre_distance",
+                "increase the sum of the profile shifts (with a ring, x2 - x1), or give a centre_distance",
             )
         )
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))

@@ -114,7 +114,7 @@ class PathSide:
 
     @cached_property
     def arc(self) -> float:
-        """Arc X of the whole side [module]."""
+        """Arc X along the pitch surfaces over the whole side [module]."""
         return float(self.travel(np.array(self.end)))
 
     @property

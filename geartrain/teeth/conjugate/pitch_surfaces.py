@@ -153,7 +153,9 @@ class PitchSurfaces:
         return 1.0 if self.axle_of(gear) < 0 else -1.0
 
     def _axis_and_up(self, gear: int) -> tuple[Floats, Floats]:
-        """Return two unit vectors of a cone: the gear's axis, and the direction of the pitch point normal to it."""
+        """Return two unit vectors of a pitch cone: the axis of the gear, and the direction normal to the axis
+        towards the pitch point.
+        """
         R, side = self.axle_of(gear), self._side(gear)
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
 

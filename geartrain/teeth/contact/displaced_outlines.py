@@ -186,8 +186,8 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
 
 
 def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
-    """Return the indices of the driver angles at which this tooth pair drives the wheel, rather than the pair one
-    pitch before or behind.
+    """Return the indices of the driver angles at which the examined tooth pair drives the wheel, rather than the
+    pair one pitch before or behind.
     """
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))

@@ -146,8 +146,8 @@ class FlankSegments(NamedTuple):
     u: Floats
     """Parameters of `piece1` at both ends of the segment, shape (2, n)."""
     polar2: Floats
-    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives with respect to u,
-    shape (4, 2, n).
+    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives with respect
+    to the parameter u of `piece1`, shape (4, 2, n).
     """
     v: Floats
     """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
@@ -260,15 +260,15 @@ class FirstTouchSearch:
         return cells._replace(u=u, polar2=polar2)
 
     def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Return radius, azimuth and their derivatives with respect to u of the driver's points about the second axle,
-        shape (4, n).
+        """Return radius and azimuth of the driver's points about the second axle, and their derivatives with respect
+        to the parameter u, shape (4, n).
         """
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """Return the driver's points about the second axle, and the derivatives with respect to u of their radius and
-        azimuth about the first axle.
+        """Return the driver's points about the second axle, and the derivatives of their radius and azimuth about
+        the first axle with respect to the parameter u.
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)

@@ -141,7 +141,9 @@ class OutlinePair:
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return the number of tooth pairs at each position that touch at the driven angle `minimum` or beyond."""
+        """Return the number of tooth pairs at each driver position that touch at the driven angle `minimum` or
+        beyond.
+        """
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
 

@@ -87,7 +87,9 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, backlash and gaps in contact at this distance."""
+        """Verdict on whether the pair can run: faults of its teeth, backlash, and gaps in contact at the centre
+        distance.
+        """
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding error

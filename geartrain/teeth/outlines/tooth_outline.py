@@ -240,8 +240,8 @@ def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
 
 
 def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Return the arc coordinates X at which to sample a flank so that all chords deviate equally from it: ds
-    sqrt(curvature) is constant.
+    """Return the arcs X at which to sample a flank so that all chords deviate equally from it: the length of a
+    chord times the square root of the curvature is constant.
     """
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)

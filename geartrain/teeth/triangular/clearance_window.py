@@ -62,8 +62,8 @@ class TriangularContact:
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals in which a contact limits the driven wheel, including contacts that cannot drive it; there may be
-        gaps.
+        """Intervals in which a contact limits the driven wheel, including contacts that cannot drive it; gaps are
+        possible.
         """
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope

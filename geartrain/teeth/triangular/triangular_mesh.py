@@ -63,7 +63,7 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can run, with the cause from the clearance window."""
+        """Verdict on whether the teeth of the pair can run, with the cause from the clearance window."""
         found = self.transmission.verdict
         return found if found else found.explained(*explain_clearance(self.transmission, self.window))
 
@@ -167,7 +167,7 @@ class TriangularMesh(GearMesh):
         return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all problems of these teeth, each with its fix."""
+        """Yield all faults of the teeth of the pair, each with its fix."""
         yield from (fault.problem for fault in self.verdict.faults)
         if self.verdict:
             yield from self.friction_faults()

@@ -144,8 +144,8 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact X that ends at the tip of an addendum of `height` modules [module; for bevels, rad on
-    the unit sphere].
+    """Return the arc of contact X [module; for bevels, rad on the unit sphere] that ends at the tip of an addendum of
+    `height` modules.
     """
     from math import asin, sin
 

@@ -382,7 +382,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
             why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
             why = "its wheels are helical, and only involute teeth are supported on helical wheels"
-            fix = "give it `tooth_form: involute`"
+            fix = "give the pair `tooth_form: involute`"
     if why:
         raise refused(f"these wheels cannot have {form.words} teeth", why, fix)
 

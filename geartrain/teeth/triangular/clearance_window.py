@@ -180,8 +180,8 @@ class TriangularContact:
             if lean or back is not None:
                 x = interval.start if interval.phase == APPROACH else interval.end
                 return (
-                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), "
-                    "where it cannot drive"
+                    "a flank leans beyond the perpendicular and cannot drive while the apex of the driver is "
+                    f"{degrees(x):.4g} deg from the line of centres ({interval.phase})"
                 )
         return ""
 

@@ -69,7 +69,7 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def window(self) -> ClearanceWindow | None:
-        """Clearance window of the pair; None if such teeth do not exist."""
+        """Clearance window of the pair; None if teeth with its sizes do not exist."""
         from geartrain.teeth.triangular.clearance_window import find_window
 
         sizes = self.transmission.sizes
@@ -189,7 +189,7 @@ class TriangularFigures(PairFigures):
     sizes: TriangularSizes
     """Sizes of the pair; lengths in m, or in the unit of the declared radii."""
     window: ClearanceWindow | None
-    """Clearance window of the pair; None if such teeth do not exist."""
+    """Clearance window of the pair; None if teeth with these sizes do not exist."""
     intervals: tuple[DriveInterval, ...]
     """Real path of contact over one pitch of the driver, in order of time."""
     jumps: tuple[SpeedJump, ...]

@@ -348,7 +348,7 @@ class ContactCourse(Result):
     )
 
     phases: tuple[str, ...]
-    """Phase of contact of each row."""
+    """Phase of contact in each row of the table."""
     alpha1: Floats
     """Angle of the driver's apex from the line of centres [rad]."""
     alpha2: Floats

@@ -5,9 +5,9 @@ The result is a `Configuration` of axes, meshes and kinds. Functions check wheth
 mesh around every loop, compute sizes, search for tooth numbers with nearly one pitch, and convert the set to a gear
 train.
 
-Pitch cones have the half-angles rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i
-(docs/sphere.md, equation 1), and speeds about outward axes satisfy z_i w_i = -z_j w_j. The teeth of a loop mesh if its
-phases close (docs/closure.md).
+Two meshing gears with z_i and z_j teeth, whose axes are at the angle S, have pitch cones with the half-angles rho_i =
+atan2(sin S, cos S + z_j/z_i) and the pitch lambda = sin rho_i / z_i (docs/sphere.md, equation 1). Their speeds w about
+outward axes satisfy z_i w_i = -z_j w_j. The teeth of a loop mesh if its phases close (docs/closure.md).
 
 polyhedra                                    solids from vertices and by name, with their symmetries
 polyhedron_gears                             sets of gears on a solid (axes, kinds, names); a survey of solids

@@ -40,7 +40,7 @@ def spherical_phasing(configuration: Configuration, teeth: Mapping[str, int] | N
     configuration : Configuration
         Set of gears.
     teeth : mapping of str to int, optional
-        Kind -> tooth count, instead of the counts of the configuration.
+        Tooth count of each kind of gear, instead of the counts of the configuration.
 
     Returns
     -------
@@ -152,14 +152,17 @@ def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float],
 
 
 def residue(teeth: Sequence[Any], rule: Sequence[Fraction | float]) -> Floats:
-    """Return the closing error of a loop [pitch]: sum z_k a_k minus the nearest integer."""
+    """Return the closing error of a loop [pitch]: the sum of z_k a_k minus the nearest integer, with tooth numbers
+    z_k and factors a_k of the loop (`loop_rules`).
+    """
     return wrapped(np.asarray(sum(z * float(share) for z, share in zip(teeth, rule, strict=True)), dtype=float))
 
 
 def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[int]:
-    """Return for each kind an integer that divides its tooth number if all exact rules are satisfied.
+    """Return for each kind of gear an integer that divides its tooth number if all exact rules are satisfied.
 
-    If sum z_k a_k is an integer, m a_i z_i is an integer too, where m is the common denominator of the other a_k.
+    The rules are those of `loop_rules`. If sum z_k a_k is an integer, m a_i z_i is an integer too, where m is the
+    common denominator of the other a_k.
     """
     found = [1] * kinds
     for rule in rules:
@@ -172,10 +175,11 @@ def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[in
 
 
 def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ...], ...]:
-    """Return the assembly conditions as factors a_k of the kinds' tooth numbers, each distinct condition once.
+    """Return the assembly conditions: for each distinct condition, a factor a_k for the tooth number z_k of each
+    kind of gear.
 
-    For every loop of a basis, sum z_k a_k must be an integer. The factors are Fractions if the contacts of every gear
-    in the loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
+    For every loop of a basis, sum z_k a_k must be an integer. The factors are Fractions if the contacts of every
+    gear in the loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
     """
     phasing = _closure(configuration, [1] * len(configuration.names))
     parts = phasing.problem.parts
@@ -201,7 +205,9 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
 
 
 def _canonical(shares: Sequence[Fraction | float]) -> tuple[Fraction | float, ...]:
-    """Return factors modulo integers, in a form that is equal for a loop traversed in either direction."""
+    """Return the factors of an assembly condition modulo integers, in a form that is equal for both senses of
+    traversing a loop.
+    """
     if all(isinstance(share, Fraction) for share in shares):
         return min(tuple(share % 1 for share in shares), tuple(-share % 1 for share in shares))
     # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule

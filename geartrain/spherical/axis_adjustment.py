@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Meshes = Sequence[tuple[int, int]]
 _MOST_STEPS = 80  # maximum number of steps of either method
 _EXACT = 1e-11
-"""Maximum difference of the logarithms of pitches below which they are equal; rounding causes about 1e-15."""
+"""Maximum difference of the logarithms of two pitches that are considered equal; rounding causes about 1e-15."""
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)
 """Standard deviations [rad] of the random displacements that break the symmetry of a set."""
 _MOST_RETRIED = 600  # meshes; five fits of larger sets take more than a few seconds
@@ -33,10 +33,11 @@ _LONGEST = 0.1
 
 
 def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats, csr_array]:
-    """Return the sum of (-1)^k z_k alpha_k / 2 pi over every loop [pitch], and its derivative with respect to
-    displacements of the axes.
+    """Return the sum of (-1)^k z_k alpha_k / 2 pi over the gears k of every loop [pitch], and its derivative with
+    respect to displacements of the axes.
 
-    The angle alpha_k, 0 to 2 pi, at gear k is measured counterclockwise from its next to its previous contact.
+    z_k is the tooth number. The angle alpha_k, 0 to 2 pi, at gear k is measured counterclockwise from its next to
+    its previous contact.
     """
     from scipy.sparse import coo_array
 
@@ -50,11 +51,11 @@ def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats
 
 
 def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr_array]:
-    """Return the logarithm of the operating pitch of every mesh, and its derivative with respect to displacements of
-    the axes.
+    """Return the logarithm of the operating pitch of every mesh, and its derivative with respect to displacements
+    of the axes.
 
-    The derivative with respect to the axis angle is d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 + z_j^2 + 2 z_i
-    z_j cos S).
+    The pitch lambda depends on the angle S between the axes: d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 +
+    z_j^2 + 2 z_i z_j cos S), with the tooth numbers z_i and z_j.
     """
     from scipy.sparse import diags_array
 

@@ -37,10 +37,11 @@ def angle_excess(u: Floats, i: Ints, j: Ints, target: Floats) -> Floats:
 
 
 def circle_vector(centre: complex, radius: float) -> Floats:
-    """Return a circle of the plane as the vector (n, cos rho) / sin rho of its stereographic projection to the sphere.
+    """Return the vector (n, cos rho) / sin rho of the circle on the sphere to which a circle of the plane is
+    projected stereographically; n is its axis and rho its half-angle.
 
-    It is a vector of Minkowski space: <w, w> = 1, <w_i, w_j> = -1 for tangent circles, 0 for orthogonal circles. For
-    centre c, radius r and k = |c|^2 - r^2 it is (c, (k - 1)/2, (k + 1)/2) / r.
+    It is a vector of Minkowski space: <w, w> = 1, <w_i, w_j> = -1 for tangent circles, 0 for orthogonal circles.
+    For a plane circle with centre c and radius r, and with k = |c|^2 - r^2, it is (c, (k - 1)/2, (k + 1)/2) / r.
     """
     k = abs(centre) ** 2 - radius**2
     return np.array([centre.real, centre.imag, (k - 1) / 2, (k + 1) / 2]) / radius
@@ -267,9 +268,10 @@ def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
 
 
 def _descent_fraction(points: Floats, v: Floats) -> float:
-    """Return a fraction of the step v at which the convex function sum log(-<x, (p, 1)>) decreases, by halving.
+    """Return a fraction of the step v at which the convex function sum log(-<x, (p, 1)>) of the frame decreases, by
+    halving.
 
-    The minimum of this function corresponds to the centred frame.
+    The points p are the pitch points, and the minimum of this function over x corresponds to the centred frame.
     """
     share = 1.0
     # backtracking: the function is convex, so a short step always descends
@@ -307,7 +309,8 @@ def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tange
     """Return the maximum error of the angles between circles [rad], and the minimum-norm correction of axes and
     half-angles.
 
-    The first `tangent` pairs are tangent, S = rho_i + rho_j. The others are orthogonal, cos S = cos rho_i cos rho_j.
+    The first `tangent` pairs of circles i, j are tangent: the angle S between their axes is the sum rho_i + rho_j
+    of their half-angles. The others are orthogonal: cos S = cos rho_i cos rho_j.
     """
     from scipy.sparse import coo_array, eye_array, hstack
     from scipy.sparse.linalg import splu

@@ -242,8 +242,8 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
 
 
 def _direction(axis: list[float]) -> list[str]:
-    """Return floats with all digits, or as fractions if these are short, because a decimal is taken as accurate only to
-    its last digit.
+    """Return the coordinates of an axis as text: floats with all digits, or fractions if these are short. A
+    decimal would be taken as accurate only to its last digit.
     """
     exact = [Fraction(part) for part in axis]
     return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]

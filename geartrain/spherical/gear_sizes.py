@@ -55,16 +55,16 @@ _THEOREMS = {
     ),
 }
 TIP_ROOM = 2.0
-"""Required distance between the pitch circles of gears that do not mesh [modules]: an addendum of one module for each
-gear.
+"""Required distance between the pitch circles of gears that do not mesh [modules]: twice an addendum of one
+module.
 """
 _SAME = 1e-11
 """Relative difference below which pitches are equal: the rounding of axes in floats."""
 
 
 def one_pitch(configuration: Configuration) -> float:
-    """Return lambda, half the module that all meshes have in common, for the chosen tooth numbers; equation (1) of
-    docs/sphere.md.
+    """Return half the module, lambda, that all meshes have in common for the chosen tooth numbers, by equation (1)
+    of docs/sphere.md.
 
     Parameters
     ----------
@@ -335,14 +335,18 @@ class SphereSizing(Result):
 
 
 def impossibility_theorem(configuration: Configuration) -> str:
-    """Return the proof that no tooth numbers give one pitch on these fixed axes; "" if no proof is known."""
+    """Return the proof that no tooth numbers give one pitch on the fixed axes of a set; an empty string if no
+    proof is known.
+    """
     name = _solid_with_proof(configuration)
     return f"{name}: {_THEOREMS[name]}" if name else ""
 
 
 def _solid_with_proof(configuration: Configuration) -> str:
-    """Return the name of the solid with such a proof on whose faces the gears are, recognised by counts and mesh
-    angles; else "".
+    """Return the name of the solid on whose faces the gears are, if it is proved that no tooth numbers give one
+    pitch on it; otherwise an empty string.
+
+    The solid is recognised by its counts and mesh angles.
     """
     counts = len(configuration.axes), len(configuration.meshes)
     phi = (1 + sqrt(5)) / 2

@@ -44,7 +44,7 @@ Edges = Iterable[tuple[Hashable, Hashable]]
 def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
     """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected.
 
-    Two regions of a 3-connected map have in common: no gear, one gear, or the two gears of one mesh.
+    Two regions of a 3-connected map share no gear, one gear, or the two gears of one mesh.
     """
     sides: dict[frozenset[int], list[int]] = {}
     beside: dict[int, list[int]] = {}
@@ -209,11 +209,11 @@ _MOST_CHOICES = 24
 
 
 def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[Ints]:
-    """Return integer tooth numbers nearly proportional to sin rho (`cones` [rad]), sorted by rising variance of the
-    pitch.
+    """Return sets of integer tooth numbers nearly proportional to the sines of the half-angles `cones` [rad],
+    sorted by rising variance of the pitch.
 
-    The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`). The
-    variance refers to ln(z / sin rho).
+    The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`).
+    The variance is that of ln(z / sin rho), with tooth number z and half-angle rho.
     """
     sine = np.sin(cones)
     last = minimum if upto is None else max(upto, minimum)

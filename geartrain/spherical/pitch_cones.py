@@ -24,37 +24,42 @@ MEAN_PRESSURE = radians(20)
 
 
 def pitch_cone(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
-    """Return the half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md (1).
+    """Return the half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md
+    (1).
 
-    S is the angle between outward axes [rad], 0 < S < pi, and z are the tooth numbers. The formula follows from w_i sin
-    rho_i = -w_j sin rho_j, w_i/w_j = -z_j/z_i and rho_i + rho_j = S (Willis, with the frame as carrier). A half-angle
-    of pi/2 is a crown gear, and a larger one an internal gear.
+    S is the angle between the outward axes of the meshing gears i and j [rad], 0 < S < pi, and z are the tooth
+    numbers. With the speeds w, the formula follows from w_i sin rho_i = -w_j sin rho_j, w_i/w_j = -z_j/z_i and
+    rho_i + rho_j = S (Willis, with the frame as carrier). A half-angle of pi/2 is a crown gear, and a larger one an
+    internal gear.
     """
     return np.asarray(np.arctan2(np.sin(S), np.cos(S) + np.divide(z_j, z_i)), dtype=float)
 
 
 def operating_pitch(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
-    """Return the operating pitch lambda = sin rho_i / z_i = sin rho_j / z_j [radii of the sphere], docs/sphere.md (1).
+    """Return the operating pitch lambda = sin rho_i / z_i of two meshing gears [radii of the sphere],
+    docs/sphere.md (1).
 
-    The formula is lambda = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S). The module is 2 lambda, and the circular
-    pitch 2 pi lambda. Parameters are the same as for `pitch_cone`.
+    It is equal for both gears: lambda = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S), with tooth numbers z,
+    half-angles rho of the pitch cones and angle S between the axes. The module is 2 lambda, and the circular pitch
+    2 pi lambda. Parameters are the same as for `pitch_cone`.
     """
     z_i, z_j = np.asarray(z_i, dtype=float), np.asarray(z_j, dtype=float)
     return np.asarray(np.sin(S) / np.sqrt(z_i**2 + z_j**2 + 2 * z_i * z_j * np.cos(S)), dtype=float)
 
 
 def base_pitch(pitches: ArrayLike, mean: float = MEAN_PRESSURE) -> float:
-    """Return the common base pitch c of all gears (sin g_i = c z_i): cos(mean) times the mean pitch, docs/sphere.md
-    (3).
+    """Return the common base pitch c of all gears: cos(mean) times the geometric mean of the pitches,
+    docs/sphere.md (3).
 
-    The mean is geometric: for two pitches, cos(mean) is the geometric mean of the cosines of their pressure angles.
+    A gear with z teeth has a base cone of half-angle g with sin g = c z. `mean` is the mean pressure angle [rad]:
+    for two pitches, cos(mean) is the geometric mean of the cosines of their pressure angles.
     """
     return cos(mean) * float(np.exp(np.mean(np.log(pitches))))
 
 
 def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
-    """Return the operating pressure angle of spherical involutes [rad]: cos alpha_ij = c / lambda_ij, docs/sphere.md
-    (3).
+    """Return the operating pressure angle of spherical involutes [rad], the arc cosine of the base pitch divided by
+    the operating pitch, docs/sphere.md (3).
 
     The result is nan if the operating pitch is less than the base pitch: the base cones then overlap, and involutes
     cannot mesh.
@@ -65,10 +70,9 @@ def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
 
 
 def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
-    """Return the virtual tooth number of the spur gear on the back cone (Tredgold), z / cos rho, which determines
-    undercut.
+    """Return the virtual tooth number of the spur gear on the back cone (Tredgold), which determines undercut.
 
-    The result is inf for crown and internal gears.
+    It is z / cos rho for z teeth and the half-angle rho of the pitch cone, and inf for crown and internal gears.
     """
     share = np.cos(rho)
     # the cosine of pi/2 in floats is 6e-17
@@ -77,15 +81,19 @@ def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
 
 
 def undercut_limit(pressure: float = MEAN_PRESSURE) -> float:
-    """Return the minimum tooth number that a rack with an addendum of one module does not undercut, 2 / sin^2 alpha."""
+    """Return the minimum tooth number that a rack with an addendum of one module does not undercut: 2 / sin^2 of
+    the pressure angle.
+    """
     return 2 / sin(pressure) ** 2
 
 
 def overlap_limit(S: float, between: float) -> float:
-    """Return the minimum ratio z_other/z_own at which equal neighbours of a gear do not overlap, docs/sphere.md (4).
+    """Return the minimum ratio z_other/z_own of tooth numbers at which two equal gears next to each other, which
+    mesh with the same gear, do not overlap, docs/sphere.md (4).
 
-    The ratio is sin S cot(between/2) - cos S, from rho_own = between/2 in `pitch_cone`; `between` is the angle between
-    the axes of the neighbours [rad]. The result is 0 if neighbours do not overlap at any ratio.
+    The ratio is sin S cot(between/2) - cos S, from rho_own = between/2 in `pitch_cone`, with S the angle between
+    the axes of a mesh and `between` the angle between the axes of the equal gears [rad]. The result is 0 if they do
+    not overlap at any ratio.
     """
     limit = sin(S) / tan(between / 2) - cos(S)
     # axes that touch only with a crown gear have the bound 0, and rounding must not make it 1e-16
@@ -140,11 +148,11 @@ def moved(axes: Floats, steps: Floats) -> Floats:
 
 
 def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, csr_array]:
-    """Return the angle S between the axes of each pair [rad], and its derivative with respect to the displacements of
-    `moved`.
+    """Return the angle S between the axes of each pair [rad], and its derivative with respect to the displacements
+    of `moved`.
 
-    The derivative is dS = -tau_ij . dn_i - tau_ji . dn_j, with tau_ij the unit tangent at i towards j. Columns 2 i and
-    2 i + 1 belong to axis i.
+    The derivative is dS = -tau_ij . dn_i - tau_ji . dn_j, with dn_i the displacement of axis i and tau_ij the unit
+    tangent at i towards j. Columns 2 i and 2 i + 1 belong to axis i.
     """
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     a, b = axes[i], axes[j]
@@ -157,7 +165,8 @@ def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
     """Return the derivative of the azimuth psi of axis `to` about axis `at` with respect to the displacements of
     `moved`.
 
-    The derivative is d psi = (dn_j / sin S - dn_i cot S) . t, t = n_i x n_j / sin S. The frame at i is transported in
+    The derivative is d psi = (dn_j / sin S - dn_i cot S) . t with t = n_i x n_j / sin S. Here n_i and n_j are the
+    axes `at` and `to`, dn their displacements, and S is the angle between them. The frame at i is transported in
     parallel, so only differences of azimuths about one axis have a meaning.
     """
     a, b = axes[at], axes[to]
@@ -169,7 +178,9 @@ def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
 
 
 def vector_rows(axes: Floats, gears: tuple[Ints, Ints], vectors: tuple[Floats, Floats]) -> csr_array:
-    """Return rows of a sparse Jacobian: the sum over two gears of vector . dn, by the displacements of `moved`."""
+    """Return rows of a sparse Jacobian with respect to the displacements of `moved`: the sum over two gears of
+    vector . dn, with dn the displacement of the axis of a gear.
+    """
     from scipy.sparse import coo_array
 
     across = frames(axes)

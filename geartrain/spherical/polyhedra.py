@@ -124,7 +124,7 @@ class Polyhedron(Shown):
 
     @cached_property
     def _left(self) -> dict[tuple[int, int], int]:
-        """Directed edge -> face to its left."""
+        """Mapping from each directed edge (pair of vertices) to the face on its left."""
         return {side: at for at, face in enumerate(self.faces) for side in _sides(face)}
 
     @cached_property
@@ -275,7 +275,7 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
 
 
 def from_the_top(points: Floats) -> Ints:
-    """Return the order of points by falling height (z), and at equal heights counterclockwise from x."""
+    """Return the order of points by descending height (z), and at equal heights counterclockwise from x."""
     size = np.linalg.norm(points, axis=1).max()
     turn = np.arctan2(points[:, 1], points[:, 0]) / (2 * np.pi) % 1
     # rounding to millionths: noise neither separates equal points nor puts the one at x last
@@ -481,7 +481,7 @@ def _unknown(name: str) -> GearTrainError:
 
 
 def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
-    """Return the images of the point at these distances from the mirrors of the reflection group [p, 3].
+    """Return the images of the point at given distances from the mirrors of the reflection group [p, 3].
 
     For a snub solid (no distances) only rotations are applied.
     """
@@ -501,8 +501,8 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
 
 @cache
 def _group(p: int) -> Floats:
-    """Return all products of the mirrors of [p, 3], shape (24, 48 or 120, 3, 3); entries are rounded to exact
-    values.
+    """Return all products of the mirrors of the reflection group [p, 3], shape (24, 48 or 120, 3, 3); entries are
+    rounded to exact values.
     """
     entries = np.array([sign * x for x in (0, 0.5, 1, PHI / 2, (PHI - 1) / 2) for sign in (1, -1)])
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
@@ -519,10 +519,12 @@ def _group(p: int) -> Floats:
 
 
 def _snub(p: int) -> Floats:
-    """Return the distances (a, b, c) of a snub's point from the mirrors of [p, 3], for edges of length 2.
+    """Return the distances (a, b, c) of the generating point of a snub solid from the mirrors of [p, 3], for edges
+    of length 2.
 
-    The rotation by two mirrors at an angle g moves a point at distances a and b by 2 sqrt(a^2 + b^2 + 2 a b cos g). All
-    three rotations move it by the same distance. Newton's method solves the two equations together with a^2 + c^2 = 1.
+    The rotation by two mirrors at an angle g moves a point at distances a and b by 2 sqrt(a^2 + b^2 + 2 a b cos g).
+    All three rotations move it by the same distance. Newton's method solves the two equations together with a^2 +
+    c^2 = 1.
     """
     s, t = np.cos(np.pi / p), 0.5
     a, b, c = 0.6, 0.5, 0.8

@@ -138,8 +138,8 @@ def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configurat
 
 
 def _parts(azimuths: Floats, most: int) -> int:
-    """Return the minimum p for which all differences of these azimuths are multiples of 1/p of a revolution; 0 if
-    there is none.
+    """Return the minimum p for which all differences of the given azimuths are multiples of 1/p of a revolution; 0
+    if such a p does not exist.
     """
     turns = (azimuths - azimuths[0]) / (2 * np.pi) if len(azimuths) else azimuths
     for p in range(1, most + 1):
@@ -310,7 +310,9 @@ def _letters(at: int) -> str:
 
 
 def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
-    """Return the minimum number of meshes from the gears of `start` to each gear, by breadth-first search."""
+    """Return for each gear the minimum number of meshes that connect it to a gear of `start`, by breadth-first
+    search.
+    """
     mates = defaultdict(list)
     for i, j in layout.meshes:
         mates[i].append(j)
@@ -325,7 +327,7 @@ def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
 
 
 def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
-    """Return the gears in the order of the configuration: larger faces first, then vertices, then edges."""
+    """Return the gears in the order of a configuration: on larger faces first, then on vertices, then on edges."""
     rank = np.argsort(from_the_top(layout.axes))
 
     def key(at: int) -> tuple[int, int, int, str, int]:
@@ -368,7 +370,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return the kind with this name, or else all kinds whose names consist of it and additional letters."""
+    """Return the kind with a given name, or else all kinds whose names consist of it and additional letters."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 
@@ -381,7 +383,7 @@ def letter_of(kind: str) -> str:
 def without_gears(
     names: Sequence[str], kinds: Sequence[str], meshes: Iterable[tuple[int, int]], drop: Iterable[str]
 ) -> tuple[set[int], list[tuple[int, int]]]:
-    """Return the gears and meshes that remain after `drop`."""
+    """Return the gears and meshes that remain after the gears, kinds and meshes in `drop` are removed."""
     gone: set[int] = set()
     left = list(meshes)
     for word in map(str, drop):
@@ -414,7 +416,9 @@ def _matching_gears(word: str, names: Sequence[str], kinds: Sequence[str]) -> se
 
 
 def _unknown(what: str, word: str, known: Iterable[str]) -> GearTrainError:
-    return QuestionError(Problem(f"unknown {what} '{word}'", "a name must belong to this set", suggest(word, known)))
+    return QuestionError(
+        Problem(f"unknown {what} '{word}'", "only names of this set of gears can be given", suggest(word, known))
+    )
 
 
 # ---------------------------------------------------------------------------------------------------- polyhedron survey

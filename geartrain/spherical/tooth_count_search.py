@@ -69,7 +69,7 @@ def suggest_tooth_counts(
     tolerance : float
         Tolerance of the closing error of loops whose angles are known only as floats [pitch].
     fixed : mapping of str to int, optional
-        Kind -> tooth number, for kinds whose tooth number is given.
+        Tooth number of each kind of gear whose tooth number is given.
 
     Returns
     -------
@@ -137,7 +137,9 @@ def _ranges(
 
 
 def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int64]]]:
-    """Yield all combinations as flat columns, one block for each combination of all kinds except the last two."""
+    """Yield all combinations of tooth numbers as flat columns, one block for each combination of all kinds except
+    the last two.
+    """
     # blocks of two kinds bound the memory: all sets at once may be 2e8
     tail = [column.ravel() for column in np.meshgrid(*ranges[-2:], indexing="ij")]
     if not tail[0].size:
@@ -147,7 +149,9 @@ def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int
 
 
 def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArray[np.int64]:
-    """Return the rows in the requested order; ties are broken by the other quantity."""
+    """Return the sets of tooth numbers (rows) in the requested order, mismatch or total; ties are broken by the
+    other quantity.
+    """
     totals = rows.sum(axis=1)
     # rounding must not decide the order of sets that share one pitch exactly
     rounded = np.where(mismatches < 1e-13, 0.0, mismatches)

@@ -7,18 +7,18 @@ train.
 
 tooth_form, any_tooth_form    base class of all forms; the forms by name
 ideal                         the ratio of tooth counts at every instant
-involute, cycloidal, lantern  conjugate forms of practice
+involute, cycloidal, lantern  conjugate forms in practical use
 uniform_stress, uniform_temperature, least_friction
                               conjugate forms that are optimal (calculus of variations)
 circular_arc, pin_ring        clock teeth of BS 978; cycloidal reducers
 triangular                    triangular teeth of antiquity
 standard_teeth                involutes for pairs that declare no form
 
-meshing_wheels, gear_mesh     two wheels as declared; a pair with real teeth, as a train uses it
-transmission                  transmission function: driven angle, speed ratio and efficiency by the driver's angle
-tooth_transmission            the same for toothed wheels, with their verdict, either driver and both directions
+meshing_wheels, gear_mesh     two wheels as declared; a pair of a train with its tooth geometry
+transmission                  transmission function: driven angle, speed ratio and efficiency against the driver's angle
+tooth_transmission            transmission function of toothed wheels: verdict, either driver, both directions
 transmission_table            transmission functions as tables of polynomials; the compiled kernel that reads them
-pair_results                  figures, verdict and rows of tables of one pair
+pair_results                  results, verdict and table rows of one pair
 form_comparison               conjugate forms compared with the 20 degree involute
 contact_coefficients          declared coefficients of Coulomb friction and restitution
 friction_law                  friction that depends on speed (Stribeck, Buckingham, Dokos, a table)

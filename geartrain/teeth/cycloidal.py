@@ -144,8 +144,8 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact X that ends at the tip of an addendum of `height` modules [module; for bevels, rad on
-    the unit sphere].
+    """Return the arc of contact X [module; for bevels, rad on the unit sphere] that ends at the tip of an addendum of
+    `height` modules.
     """
     from math import asin, sin
 
@@ -162,7 +162,7 @@ def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, heigh
         chord = circle_reach(R, rho, abs(R) + (float(height) if R > 0 else -float(height))) / 2
     if chord >= size:
         raise refused(
-            f"an addendum of {float(height):g} modules is higher than these cycloids",
+            f"an addendum of {float(height):g} modules exceeds the height of these cycloids",
             "a cycloid reaches its maximum height after half a turn of the rolling circle",
             "give a lower addendum or a larger rolling circle",
         )

@@ -350,8 +350,8 @@ class DiscMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a lobe at angle 0, past the line of centres [pitch]: midway between two pins minus half the
-        backlash.
+        """Distance of a lobe past the line of centres while its angle is 0 [pitch]: midway between two pins minus half
+        the backlash.
         """
         return (1 - self.backlash) / 2
 

@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Names of the forms that are compared by default; forms with several readings have one of them here."""
+"""Names of the forms that are compared by default; a form with several variants (readings) is represented by
+one of them.
+"""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
@@ -54,7 +56,7 @@ class MeasuredForm(Result):
 
     @property
     def runs(self) -> bool:
-        """True if teeth of this form can run."""
+        """True if teeth of the compared form can run."""
         return self.measures is not None and not self.faults
 
     @property
@@ -70,7 +72,7 @@ class MeasuredForm(Result):
 
 @dataclass(frozen=True)
 class FormComparison(Result):
-    """Tooth forms compared with the 20 degree involute of the same pair and arcs."""
+    """Tooth forms compared with the 20 degree involute of the same wheels and arcs of contact."""
 
     PAGE = "report.conjugate_pair_page:describe_form_comparison"
 
@@ -183,7 +185,9 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair with these arcs of approach and recess [pitch], regardless of its addenda."""
+    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch], regardless of its
+    addenda.
+    """
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 

@@ -1,4 +1,5 @@
-"""Friction that depends on speed: friction laws that can replace a coefficient, and a pair under such a law.
+"""Friction that depends on speed: friction laws that can replace a coefficient, and the friction of a pair
+under such a law.
 
 The measured values are from W. D. Smith, "Optimal shapes for gears" (1993): Buckingham's for lubricated cast iron, and
 Dokos's for dry steel. Smith prints their end values but not their tables. The docstring of each law describes the
@@ -29,7 +30,9 @@ if TYPE_CHECKING:
 FOOT_A_MINUTE = 0.3048 / 60
 """One foot per minute [m/s]."""
 BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
-"""Pitch-line speed [ft/min] and coefficient of lubricated cast-iron spur gears: Buckingham, p. 404, cited by Smith."""
+"""Pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears: Buckingham, p. 404, cited by
+Smith.
+"""
 DOKOS = (0.53, 0.18, 1e7)
 """Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds: Dokos, cited by Smith."""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
@@ -37,10 +40,11 @@ SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 @cache
 def buckingham_constants() -> tuple[float, float, float]:
-    """Return the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
+    """Return the constants c1, c2, c3 of `BuckinghamFriction` (speeds in ft/min) that reproduce the three printed
+    coefficients.
 
-    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) and q = sqrt(V2/V1), the coefficients mu1 and mu2 at the
-    speeds V1 < V2 give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
+    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) and q = sqrt(V2/V1), the coefficients mu1 and mu2 at
+    the speeds V1 < V2 give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
     """
     (_, rest), (slow, low), (fast, high) = BUCKINGHAM
     q = sqrt(fast / slow)
@@ -166,7 +170,7 @@ class BuckinghamFriction(FrictionLaw):
     def coefficient(self, speed: Floats) -> Floats:
         """Return the coefficient of friction at pitch-line speeds [m/s], docs/shapes.md (17).
 
-        mu = c2 exp(-c1 sqrt v) + c3 sqrt v, where v is the speed in ft/min.
+        It is c2 exp(-c1 sqrt v) + c3 sqrt v, with v the speed in ft/min and the constants of `buckingham_constants`.
         """
         import numpy as np
 
@@ -276,10 +280,11 @@ _NAME = re.compile(r"[a-z_]+")
 
 
 def law_of_text(raw: object) -> object:
-    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a mapping
-    as in a declaration.
+    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a
+    mapping as in a declaration.
 
-    The values of a table column are separated by colons. Input that does not begin with a name is returned unchanged.
+    The values of a table column are separated by colons. Input that does not begin with the name of a law is
+    returned unchanged.
     """
     parts = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(parts, list) or not parts or not _NAME.fullmatch(str(parts[0]).strip()):

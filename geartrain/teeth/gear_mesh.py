@@ -1,4 +1,4 @@
-"""Gear pair with real teeth of any tooth form, as a train uses it."""
+"""Gear pair of a train with the tooth geometry of any tooth form."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GearMesh(Shown, ABC):
-    """Gear pair with teeth of any real form. Trains, reports and exports access the teeth through this interface.
+    """Gear pair of a train with its tooth geometry, for any tooth form except ideal teeth. Trains, reports and
+    exports access the teeth through this interface.
 
     See Also
     --------
@@ -147,16 +148,16 @@ class GearMesh(Shown, ABC):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can run."""
+        """Verdict on whether the teeth of the pair can run."""
         return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of these teeth. The messages do not mention the pair or its file."""
+        """Yield all faults of the teeth of the pair. The messages do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
     def friction_faults(self) -> Iterator[Problem]:
-        """Yield the fault that friction locks these teeth, if they are locked."""
+        """Yield a fault if friction locks the teeth of the pair."""
         from geartrain.teeth.pair_results import friction_lock, friction_lock_at_speed
 
         if self.wheels.friction_law is None:
@@ -293,12 +294,14 @@ class GearMesh(Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact with displaced flanks and the present driver; None for tooth forms without one."""
+        """Model of the contact of displaced flanks with the actual driver; None for tooth forms that have no such
+        model.
+        """
         return None
 
     @abstractmethod
     def account(self) -> PairAccount:
-        """Return the report of the pair with its present driver: table rows and results."""
+        """Return the report of the pair with its actual driver: table rows and results."""
 
     def backlash_apart(self, gap: float) -> float | None:
         """Return the backlash at a centre distance other than the declared one.
@@ -325,12 +328,12 @@ class GearMesh(Shown, ABC):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """All faults that prevent these teeth from running, each with its fix; empty if they can run."""
+        """All faults that prevent the teeth of the pair from running, each with its fix; empty if they can run."""
         return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
     def fault(self) -> Problem | None:
-        """First fault that prevents these teeth from running; None if they can run."""
+        """First fault that prevents the teeth of the pair from running; None if they can run."""
         return self.faults[0] if self.faults else None
 
     @property
@@ -341,7 +344,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a tooth of the driven wheel at angle 0, relative to the line of centres [pitch]."""
+        """Distance of a tooth of the driven wheel past the line of centres while the driven angle is 0 [pitch]."""
         return 0.0
 
     @property
@@ -422,7 +425,9 @@ class GearMesh(Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """This mesh as a tuple; if the driver is not determined, the mesh with each of the two wheels driving."""
+        """Meshes to examine, as a tuple: this mesh; if the driver is not determined, the mesh with each of the two
+        wheels driving.
+        """
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 

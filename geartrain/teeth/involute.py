@@ -260,7 +260,9 @@ class Involute(ConjugateToothForm):
 
 
 def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:
-    """Return the path of constant pressure angle `psi` [rad] with these arcs X of approach and recess."""
+    """Return the path of contact with constant pressure angle `psi` [rad] and the given arcs X of approach and
+    recess.
+    """
     from geartrain.teeth.conjugate.optimal_sides import involute
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

@@ -129,8 +129,8 @@ class Lantern(ConjugateToothForm):
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """Return an undercut fault if the approaching pins remove part of the flank that the arcs need, else an empty
-        tuple.
+        """Return an undercut fault if the approaching pins remove part of the mate's flank that the arcs of contact
+        require; otherwise an empty tuple.
         """
         from geartrain.teeth.pair_results import ToothFault
 
@@ -170,7 +170,8 @@ class Lantern(ConjugateToothForm):
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
                 f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact occurs at the "
                 "pitch point",
-                f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
+                f"give a pin_radius (distance of the pin centres from the axis) between {R - B:.6g} and {R + B:.6g} "
+                "modules",
             )
         # chord between the centres of two adjacent pins
         most = 2 * A * sin(pi / z)
@@ -203,5 +204,5 @@ class Lantern(ConjugateToothForm):
 
 def _not_covered(what: str, why: str) -> RangeError:
     return RangeError(
-        Problem(f"{what} is not modelled", why, "let a spur wheel carry the pins, or give another tooth_form")
+        Problem(f"{what} is not modelled", why, "put the pins on an external spur wheel, or give another tooth_form")
     )

@@ -90,7 +90,11 @@ class LeastFriction(ConjugateToothForm):
         if self.pressure_angle is not None:
             check_angle("pressure_angle", self.pressure_angle, 0.125)
         if self.margin is not None and self.margin.value <= 0:
-            raise bad("margin", f"with a margin of {self.margin.text} the contact would stop", "give a margin above 0")
+            raise bad(
+                "margin",
+                f"with a margin of {self.margin.text} the contact would come to rest on the dedendum",
+                "give a margin above 0",
+            )
         fastest = sin((self.pressure_angle or _MAXIMUM_ANGLE).si)
         # at the pitch point the contact moves with the sine of the pressure angle times the pitch-line speed
         if (self.margin or _MARGIN).value >= fastest:
@@ -137,7 +141,8 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the function of the distance d from the pitch point that gives the loss density mu S, up to a factor.
+        """Return the function that gives the friction loss density at distance d from the pitch point, up to a factor:
+        mu S, with coefficient of friction mu, and S = d, or sin d for bevel gears.
 
         Return None if friction is the same at every contact.
         """

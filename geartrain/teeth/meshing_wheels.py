@@ -77,7 +77,9 @@ class MeshingWheels:
     friction: float | None = None
     """Coefficient of friction; None if no friction or a friction law is declared."""
     distance: float | None = None
-    """Half the sum of transverse module times tooth number of both wheels [m]; None unless both modules have a unit."""
+    """Half the sum, over both wheels, of transverse module times tooth number [m]; None unless both modules have a
+    unit.
+    """
     friction_law: FrictionLaw | None = None
     """Friction law declared instead of a coefficient; `friction` is then None."""
     pitch_line: float | None = None

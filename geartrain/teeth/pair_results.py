@@ -131,7 +131,8 @@ class SlidingEfficiency(Result):
 
     Examples
     --------
-    A slot that drives its pin locks at a coefficient of friction of sqrt(r^2 - e^2)/e or more.
+    A slot that drives its pin of radius r locks at a coefficient of friction of sqrt(r^2 - e^2)/e or more, with e the
+    distance between the axes.
 
     >>> from geartrain.teeth import SlotToPinTransmission
     >>> efficiency = SlidingEfficiency(SlotToPinTransmission(5, 3, 0.1))
@@ -183,7 +184,7 @@ class SlidingEfficiency(Result):
 
 
 def _gear_or_none(gear: int) -> int | None:
-    """Return None for 0, which denotes the pair as a whole."""
+    """Return the number of the faulty gear; None for 0, which denotes the pair as a whole."""
     return gear or None
 
 
@@ -212,7 +213,7 @@ class ToothFault(Result):
 
     @property
     def problem(self) -> Problem:
-        """Fault as a problem that names no place in a file."""
+        """Fault as a `Problem` without a location in a file."""
         return Problem(self.what, self.why, self.fix)
 
 
@@ -257,7 +258,7 @@ class PairVerdict(Result):
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """Return a verdict with one fault, to which the given cause and remedy belong.
+        """Return a copy of the verdict with a single fault, which has the given cause and remedy.
 
         Parameters
         ----------
@@ -273,7 +274,7 @@ class PairVerdict(Result):
 
 
 def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVerdict:
-    """Return the verdict on teeth with these faults and this backlash [rad of the driven wheel]."""
+    """Return the verdict on teeth with the given faults and backlash [rad of the driven wheel]."""
     text = "; ".join(fault.what for fault in faults) or "the teeth run"
     return PairVerdict(faults[0].kind if faults else "runs", text, backlash, faults)
 
@@ -345,13 +346,13 @@ class PairFigures(Result):
     teeth: tuple[int, int]
     """Tooth numbers of the driver and of the driven wheel."""
     verdict: PairVerdict
-    """Verdict on whether these teeth can run."""
+    """Verdict on whether the teeth of the pair can run."""
     speed_ratio: SpeedRatio | None
     """Speed ratio, driven divided by driver; None for teeth that cannot run."""
     transmission_error: TransmissionError | None
     """Transmission error of the driven wheel; None for teeth that cannot run."""
     efficiency: SlidingEfficiency | None
-    """Efficiency of sliding teeth; None for teeth that cannot run."""
+    """Efficiency with sliding friction of the teeth; None for teeth that cannot run."""
 
     @property
     def error_text(self) -> str:
@@ -368,8 +369,8 @@ def motion_figures(
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table in the report of pairs, and the row of one pair. `wide` is True for a table as wide as the
-    page.
+    """Header of a table in the report of pairs, and the row of one pair. `wide` is True for a table that is as wide
+    as the page.
     """
 
     header: tuple[str, ...]
@@ -382,7 +383,7 @@ class PairAccount:
     """Report of one pair with one of its wheels driving: tables as text, and results for JSON."""
 
     words: str
-    """Text that explains the tables of all pairs of this kind."""
+    """Text that explains the tables of all pairs with the same kind of report."""
     tables: tuple[AccountTable, ...]
     """Tables, each with the row of this pair."""
     figures: PairFigures

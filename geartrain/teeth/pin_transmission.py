@@ -1,4 +1,5 @@
-"""Transmission functions of a pin in a slot, with the pin at radius r and the two axes at the distance e.
+"""Transmission functions of a pin in a slot, with pin radius r (distance of the pin from its axis) and distance
+e between the axes of pin and slot.
 
 The driver's angle S is measured from the direction that points from the pin's axis to the slot's axis.
 """
@@ -43,14 +44,18 @@ class PinTransmission(TransmissionFunction):
 
     @property
     def amplitude(self) -> float:
-        """Maximum transmission error [rad], equal for both driving sides: arcsin(min(r, e) / max(r, e))."""
+        """Maximum transmission error [rad], equal for both driving sides: arcsin(min(r, e) / max(r, e)), with pin
+        radius r and axis offset e.
+        """
         less, more = min(self.r, self.e), max(self.r, self.e)
         # asin would lose half its digits near r = e
         return atan2(less, sqrt((more - less) * (more + less)))
 
     @property
     def _maximum_tangent(self) -> float:
-        """Maximum of tan d for a pin whose circle encloses the slot's axis: e/sqrt(r^2 - e^2)."""
+        """Maximum of tan d over a turn, e/sqrt(r^2 - e^2), for a pin whose circle encloses the slot's axis: d is the
+        angle between pin radius and slot, r the pin radius and e the axis offset.
+        """
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
 
     def error_range(self) -> tuple[float, float]:
@@ -74,7 +79,7 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
             Problem(
                 f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range",
                 f"both must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, except that the offset may be 0",
-                "give a pin radius above 0 and an offset of 0 or more",
+                "give an offset of 0 or more and a pin radius above 0, both within these limits",
             )
         )
     # with equal lengths the pin meets the axis of the slot
@@ -144,13 +149,17 @@ class PinToSlotTransmission(PinTransmission):
         return error if self.r > self.e else -error
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio r (r - e cos S)/(r^2 + e^2 - 2 r e cos S) at driver angles S [rad]."""
+        """Return the speed ratio at driver angles S [rad]: r (r - e cos S)/(r^2 + e^2 - 2 r e cos S), with pin radius r
+        and axis offset e.
+        """
         along, square = self._reach(S)
         return np.asarray(self.r * along / square)
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return r - e cos S and the squared distance of the pin from the slot's axis, both as sums without
-        cancellation.
+        """Return two distances at driver angles S: r - e cos S, and the square of the distance of the pin from the
+        slot's axis.
+
+        Both are computed as sums without cancellation; r is the pin radius and e the axis offset.
         """
         # half angles avoid the cancellation of both differences near r = e and S = 0
         half = np.sin(np.asarray(S, dtype=float) / 2)
@@ -160,15 +169,16 @@ class PinToSlotTransmission(PinTransmission):
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and maximum speed ratio.
 
-        The ratios are 1/(1 + e/r), where the pin is farthest from the slot's axis, and 1/(1 - e/r), where it is
-        nearest.
+        With pin radius r and axis offset e, the ratio is 1/(1 + e/r) where the pin is farthest from the slot's axis,
+        and 1/(1 - e/r) where it is nearest.
         """
         far, near = self.r / (self.r + self.e), self.r / (self.r - self.e)
         return min(far, near), max(far, near)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency |cos d|/(|cos d| + f |sin d|) at driver angles S [rad]; 0 at the dead points of a
-        follower with friction.
+        """Return the efficiency at driver angles S [rad]; 0 at the dead points of a follower with friction.
+
+        It is |cos d|/(|cos d| + f |sin d|), with friction coefficient f and the angle d between pin radius and slot.
         """
         along, _ = self._reach(S)
         across = self.friction * np.abs(self.e * np.sin(np.asarray(S, dtype=float)))
@@ -177,9 +187,10 @@ class PinToSlotTransmission(PinTransmission):
         return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r.
+        """Return the minimum efficiency over a turn.
 
-        For a follower, the minimum is 0 with friction, because of the dead points, and 1 without friction.
+        It occurs at the maximum of the angle d between pin radius and slot, sin d = e/r, with axis offset e and pin
+        radius r. For a follower, the minimum is 0 with friction, because of the dead points, and 1 without friction.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -187,7 +198,8 @@ class PinToSlotTransmission(PinTransmission):
 
 
 class SlotToPinTransmission(PinTransmission):
-    """Transmission function of a slot that drives its pin: pin angle = S - asin((e/r) sin S).
+    """Transmission function of a slot that drives its pin: pin angle = S - asin((e/r) sin S), with slot angle S,
+    axis offset e and pin radius r.
 
     The pin's circle must enclose the slot's axis.
 
@@ -237,36 +249,46 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(-np.arctan2(across, along))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S) at driver angles S [rad]."""
+        """Return the speed ratio at driver angles S [rad]: 1 - e cos S/sqrt(r^2 - e^2 sin^2 S), with axis offset e and
+        pin radius r.
+        """
         _, along = self._sides(S)
         return np.asarray(1 - self.e * np.cos(np.asarray(S, dtype=float)) / along)
 
     def _sides(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return r sin d and r cos d; d is the angle between pin radius and slot, sin d = (e/r) sin S."""
+        """Return r sin d and r cos d at driver angles S [rad], with the pin radius r and the angle d between pin radius
+        and slot.
+
+        The angle follows from sin d = (e/r) sin S, with the axis offset e.
+        """
         S = np.asarray(S, dtype=float)
         # sqrt(r^2 - e^2 sin^2 S) as a sum, which does not cancel near r = e
         along = np.sqrt((self.r - self.e) * (self.r + self.e) + (self.e * np.cos(S)) ** 2)
         return self.e * np.sin(S), along
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio, 1 - e/r and 1 + e/r."""
+        """Return the minimum and maximum speed ratio, 1 - e/r and 1 + e/r, with axis offset e and pin radius r."""
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency 1 - f |tan d| at driver angles S [rad]; 0 where friction locks the pin.
+        """Return the efficiency at driver angles S [rad]; 0 where friction locks the pin.
 
-        The angle between pin radius and slot is d.
+        It is 1 - f |tan d|, with friction coefficient f and the angle d between pin radius and slot.
         """
         across, along = self._sides(S)
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r; NaN if friction locks the
-        pin.
+        """Return the minimum efficiency over a turn; NaN if friction locks the pin.
+
+        It occurs at the maximum of the angle d between pin radius and slot, sin d = e/r, with axis offset e and pin
+        radius r.
         """
         return nan if self.locks else 1 - self.friction * self._maximum_tangent
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction at which the pin locks at some angle: sqrt(r^2 - e^2)/e."""
+        """Minimum coefficient of friction at which the pin locks at some angle: sqrt(r^2 - e^2)/e, with pin radius r
+        and axis offset e.
+        """
         return 1 / self._maximum_tangent if self.e else inf

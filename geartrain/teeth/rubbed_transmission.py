@@ -23,7 +23,8 @@ class RubbedTransmission(DerivedTransmission):
 
     The angles and the speed ratio are the same as in the given transmission function. Losses are computed at each
     contact: for the sliding speed v, the coefficient is mu(v), and the contact transmits the fraction (1 + mu out) / (1
-    + mu into) of its power (docs/shapes.md, section 15). Simultaneous contacts share the driver's torque equally.
+    + mu into) of its power, with the friction terms of `ContactRubbing` (docs/shapes.md, section 15). Simultaneous
+    contacts share the driver's torque equally.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
 
 
 def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
-    """Return the wheels that are connected with the first one, including it."""
+    """Return all wheels that are connected with the first wheel by pairs, including the first wheel."""
     known = [first]
     # the list grows while it is read
     for name in known:
@@ -76,7 +76,9 @@ def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
 def _design(
     group: Iterable[str], edges: Iterable[tuple[str, str]], gears: Mapping[str, UndeclaredWheel], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """Return the teeth of connected wheels by name; None if some pair cannot run at this pressure angle [deg]."""
+    """Return the standard teeth of connected wheels by name; None if some pair cannot run at this pressure angle
+    [deg].
+    """
     addenda = dict.fromkeys(group, ADDENDUM)
     for first, second in edges:
         heights = (height for height in _ADDENDA if _runs(gears[first], gears[second], angle, height, height))

@@ -71,10 +71,12 @@ class ToothForm(BaseModel, ABC):
     """True for teeth whose second wheel is a ring gear."""
 
     own_play: ClassVar[tuple[str, ...]] = ()
-    """Fields that determine the backlash if they are declared."""
+    """Names of the fields that determine the backlash if they are declared."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
-    """Fields that do not affect the shape: stiffness and damping of the teeth in dynamic simulations."""
+    """Names of the fields that do not affect the tooth shape: stiffness and damping of the teeth in dynamic
+    simulations.
+    """
 
     if TYPE_CHECKING:
         form: str
@@ -96,7 +98,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def declared(cls, parameters: Mapping[str, object]) -> Self:
-        """Return the form with these parameters.
+        """Return a tooth form with the given declared parameters.
 
         Parameters
         ----------
@@ -203,7 +205,7 @@ class ToothForm(BaseModel, ABC):
         return None
 
     def thinned(self, backlash: Quantity) -> Self:
-        """Return the form with this backlash, or the form itself if it has no parameter for backlash.
+        """Return a copy of the form with the given backlash, or the form itself if it has no parameter for backlash.
 
         Parameters
         ----------
@@ -219,7 +221,9 @@ class ToothForm(BaseModel, ABC):
 
 
 def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
-    """Raise a validation error of this kind if a value of these fields is given and is not greater than 0."""
+    """Raise a validation error of the kind `kind` if a value of the named fields is given and is not greater than
+    0.
+    """
     for name in names:
         given = getattr(form, name)
         for value in given if isinstance(given, tuple) else (given,):
@@ -228,7 +232,7 @@ def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
 
 
 def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
-    """Raise a validation error of this kind if both fields are given."""
+    """Raise a validation error of the kind `kind` if both named fields are given."""
     if all(name in form.model_fields_set and getattr(form, name) is not None for name in (first, second)):
         raise bad(
             kind, f"{first} and {second} are both given", f"remove `{first}` or `{second}`: each determines the other"

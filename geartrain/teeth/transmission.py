@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 _NODES = 16  # Gauss-Legendre nodes of an interval
-_ROUNDING = 1e-14  # of an integral: smaller differences between an interval and its halves are rounding error
+_ROUNDING = 1e-14  # fraction of an integral: smaller differences between an interval and its halves are rounding error
 _DEEPEST, _DEEPEST_SLOW = 40, 2  # maximum number of bisections of an interval
 _END = 1e-9  # of an interval: at its ends the next tooth pair, or the other side of the pitch point, counts too
 _SAMPLES = 1001  # samples of an interval in the search for the minimum efficiency
@@ -370,7 +370,9 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function while the driver turns backwards; by default this function itself."""
+        """Return the transmission function that applies while the driver turns backwards; by default this function
+        itself.
+        """
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
@@ -412,7 +414,7 @@ class TransmissionFunction(Shown, ABC):
 
 
 def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """Write S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
+    """Write driver angles S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
 
     The period is split into two parts, so that the first product is exact up to about 10^8 periods.
     """
@@ -446,7 +448,7 @@ class ExactRatio(TransmissionFunction):
         return self._constant(S, float(self.ratio))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return one contact without sliding."""
+        """Return the friction terms of a single contact without sliding."""
         return ContactRubbing(*(self._constant(S, 0.0)[None] for _ in range(3)))
 
     def speed_range(self) -> tuple[float, float]:

@@ -95,12 +95,14 @@ class CellTable:
 
     @property
     def breaks(self) -> Floats:
-        """Boundaries of the cells in ascending order [rad]: the uniform steps and the kinks."""
+        """Boundaries of the cells in ascending order [rad]: multiples of the uniform cell width, and the kinks of the
+        function.
+        """
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
         return np.sort(np.concatenate((uniform, self.kinks)))
 
     def derivative(self) -> CellTable:
-        """Return the table of the derivative with respect to the driver angle on the same cells.
+        """Return the table of the derivative of the function with respect to the driver angle on the same cells.
 
         Its `uncertainty` is not updated and remains the uncertainty of the function.
         """
@@ -238,14 +240,15 @@ class TransmissionTables(NamedTuple):
     kinks: Floats
     """Kinks of all functions, one function after another [rad]."""
     cells: Floats
-    """Cells of all functions, `CELL` numbers each: middle [rad] and coefficients from the highest power.
+    """Cells of all functions, `CELL` numbers each: midpoint [rad], and polynomial coefficients from the highest
+    power.
 
     The numbers of the transmission error and of the speed ratio alternate.
     """
 
 
 class TransmissionTable(NamedTuple):
-    """Tables of error and speed of one transmission function over its period [rad]."""
+    """Tables of the transmission error and the speed ratio of one transmission function over its period [rad]."""
 
     period: float
     error: CellTable
@@ -253,7 +256,8 @@ class TransmissionTable(NamedTuple):
 
 
 def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionTable | None:
-    """Return tables of error and speed of a transmission function that agree with it to rounding error.
+    """Return tables of the transmission error and the speed ratio of a transmission function that agree with it
+    to rounding error.
 
     The tables of a `TabulatedTransmission` are used as they are. Return None if no table follows the function: if it
     has gaps, or if each column of angles has a transmission function of its own.

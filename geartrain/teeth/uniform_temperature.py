@@ -93,7 +93,9 @@ class UniformTemperature(ConjugateToothForm):
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
-        """Return approach and recess side with gamma = (A + B) / heat."""
+        """Return approach and recess side for a given gamma, the sum A + B of the pitch-surface curvatures divided by
+        the heat.
+        """
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, involute, uniform_heat
 
         psi = (self.minimum_angle or _USUAL).si
@@ -108,7 +110,7 @@ class UniformTemperature(ConjugateToothForm):
             elif b + gamma <= 0:
                 raise refused(
                     f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
-                    "the contact would stop near the pitch point",
+                    "near the pitch point, the contact would come to rest on the profile",
                     "give a smaller heat or a larger depth",
                 )
             else:
@@ -116,7 +118,7 @@ class UniformTemperature(ConjugateToothForm):
         return found[0], found[1]
 
     def _sides_of_depth(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
-        """Return approach and recess side with the requested working depth, which increases with gamma."""
+        """Return approach and recess side with the requested working depth, which determines the heat."""
         from geartrain.teeth.conjugate.optimal_sides import involute
         from geartrain.teeth.conjugate.path_losses import depth, to_depth
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact

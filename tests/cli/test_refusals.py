@@ -183,7 +183,7 @@ mesh --compare 24 36 -p pressure_angle=50deg | -p pressure_angle | between 0 and
 mesh --compare 24 36 -p pressure_angle=20 | -p pressure_angle | has no unit
 mesh --compare 24 36 -p arcs=0.5,x | -p arcs | in pitches
 mesh --compare 24 36 -p arcs=-1,2 | -p arcs | in pitches
-mesh --compare 24 36 -p arcs=0.2,0.2 | -p arcs | the contact ratio is 0.4
+mesh --compare 24 36 -p arcs=0.2,0.2 | -p arcs | the contact ratio 0.4 is below 1
 mesh --compare 8 9 | -p arcs | end the approach before 0.463
 mesh --compare 2 36 | Z1 Z2 | at least 3 teeth
 mesh --compare 36 24 --internal | Z1 Z2 | cannot contain

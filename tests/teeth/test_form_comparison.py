@@ -117,7 +117,7 @@ REFUSED = [
     ({"names": []}, "no tooth form is given", ""),
     ({"arcs": (-1.0, 2.0)}, "arcs of -1,2 are not valid", "arcs"),
     ({"arcs": (float("nan"), 1.0)}, "arcs of nan,1 are not valid", "arcs"),
-    ({"arcs": (0.2, 0.2)}, "the contact ratio is 0.4", "arcs"),
+    ({"arcs": (0.2, 0.2)}, "the contact ratio 0.4 is below 1", "arcs"),
     ({"pressure_angle": Quantity.parse("50 deg", "angle", False)}, "50 deg is out of range", "pressure_angle"),
 ]
 

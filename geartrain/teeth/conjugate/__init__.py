@@ -4,10 +4,10 @@ The path of contact is the locus of contact in the fixed frame. A contact is at 
 point along a normal that makes the pressure angle psi with the pitch line. The function psi(d) determines both
 profiles and every result. Each tooth form is a choice of psi(d).
 
-wheel_pair                tooth counts of a pair, position of its axes, and checks of its existence
+wheel_pair                tooth counts of a pair, position of its axes, and checks that it can exist
 pitch_surfaces            cylinders, cones and rings that roll on each other
 path_of_contact           pieces psi(d), sides made of pieces, and contact at every instant (velocities, curvatures)
-closed_form_sides         cycloids, round pins, the source's extremal
+closed_form_sides         cycloids, round pins, W. D. Smith's extremal of minimum friction
 optimal_sides             uniform stress, uniform temperature, minimum friction (Chebyshev collocation, Newton's method)
 involute_geometry         involute wheels cut by a rack: thickness, working pressure angle, arcs
 admissibility             undercut, pointed tips, contact ratio, interference

@@ -37,7 +37,9 @@ def faults(path: PathOfContact, halves: Halves) -> tuple[ToothFault, ...]:
 
 
 def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the contact speed U along a profile reaches 0: a cusp, with undercut beyond it."""
+    """Yield a fault where the speed of the contact along a profile reaches 0: a cusp of the profile, with
+    undercut beyond it.
+    """
     for recess in (False, True):
         if not (span := path.span(recess)):
             continue
@@ -61,8 +63,8 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X of the first sampled contact whose speed U along the profile of `gear` is 0, refined by root
-    finding.
+    """Return the arc X along the pitch surfaces of the first sampled contact whose speed along the profile of
+    `gear` is 0, refined by root finding.
     """
     at = int(np.argmax(U <= 0))
     if at == 0:
@@ -116,7 +118,9 @@ def tip_thickness(path: PathOfContact, gear: int, halves: Halves) -> float:
 
 
 def _thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
-    """Return the angular thickness of a tooth of `gear` [rad] at the contact with arc X."""
+    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at the arc
+    X along the pitch surfaces.
+    """
     _, forwards = path.pitch.polar(gear, path.flank(gear, X))
     # a driver's tooth is behind its flank, a driven tooth ahead of it
     towards_middle = -float(forwards) if gear == 1 else float(forwards)
@@ -131,7 +135,7 @@ def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
             "contact ratio",
             0,
             float("nan"),
-            f"the contact ratio is {ratio:.6g}",
+            f"the contact ratio {ratio:.6g} is below 1",
             "one tooth pair leaves contact before the next one enters it",
             "lengthen approach or recess until their sum is at least one pitch",
         )

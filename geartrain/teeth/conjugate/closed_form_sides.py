@@ -1,4 +1,4 @@
-"""Sides of a path of contact in closed form: cycloids, round pins, and the source's extremal of minimum friction.
+"""Sides of a path of contact in closed form: cycloids, round pins, and W. D. Smith's extremal of minimum friction.
 
 Cycloids: the path of contact is the rolling circle itself, in the plane and on the sphere.
 
@@ -9,8 +9,8 @@ point. Where the contact speed along the mate's flank is 0, the envelope of the 
 away part of the flank on their way in. `flank_start` returns the first contact of the remaining flank.
 
 The extremal does not reach the pitch point. It has the minimum sliding loss of all paths between two given contacts:
-S dX/dd = D. In the plane it is a circle of diameter D centred on the pitch line. Its flanks are regular for pressure
-angles above 45 degrees only.
+S dX/dd is a constant D, where X is the arc of contact and S is d, or sin d on the sphere. In the plane it is a circle
+of diameter D centred on the pitch line. Its flanks are regular for pressure angles above 45 degrees only.
 """
 
 from __future__ import annotations
@@ -75,19 +75,20 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
 
 
 def circle_reach(R: float, rho: float, tip: float) -> float:
-    """Return the distance d [module] from the pitch point at which the addendum of a gear ends.
+    """Return the distance d [module] from the pitch point at which the addendum of a cycloidal gear ends.
 
-    `R` is its pitch radius, negative for a ring gear, and `tip` its tip radius [module]. On the circle
-    |P - O|^2 = R^2 + d^2 (1 + R / rho).
+    `R` is its pitch radius, negative for a ring gear, `rho` the radius of the rolling circle and `tip` the tip
+    radius [module]. A contact on the rolling circle is at the distance sqrt(R^2 + d^2 (1 + R / rho)) from the axle.
     """
     return sqrt((tip * tip - R * R) / (1 + R / rho))
 
 
 def cone_reach(R: float, rho: float, tip: float) -> float:
-    """Return the distance d [rad] from the pitch point at which the addendum of a bevel gear ends.
+    """Return the distance d [rad] from the pitch point at which the addendum of a cycloidal bevel gear ends.
 
-    `R` is its pitch cone angle and `tip` its tip cone angle [rad]. cos tip = cos d cos R - sin d sin psi sin R with
-    sin psi = tan(d/2)/tan rho. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
+    `R` is the half-angle of its pitch cone, `rho` that of the rolling cone and `tip` that of the tip cone [rad].
+    The pressure angle psi at the distance d follows from sin psi = tan(d/2)/tan rho, and cos tip = cos d cos R -
+    sin d sin psi sin R. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
     """
     # d from v by an arc tangent, since an arc cosine of 1 - v would lose half the digits near the pitch point
     v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
@@ -98,11 +99,12 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
 
 
 def pin_piece(R: float, A: float, B: float, end: float, inside: bool = False) -> PathPiece:
-    """Return the path of contact of a round pin: sin psi = (L^2 + R^2 - A^2) / (2 R L).
+    """Return the path of contact of a round pin, with the pressure angle sin psi = (L^2 + R^2 - A^2) / (2 R L).
 
-    L = B + d outside and B - d `inside`. Outside, beyond the pitch point, the mate's addendum works; inside, its
-    dedendum works as far as its undercut. The arc X is R times the angle of the pin's centre from the line of centres,
-    less that angle at the pitch point.
+    R is the pitch radius of the lantern, A the distance of its pins from the axle, B the radius of a pin, and L the
+    distance of the pin's centre from the pitch point: L = B + d, or B - d if `inside`. Outside, beyond the pitch
+    point, the mate's addendum works; inside, its dedendum works as far as its undercut. The arc X is R times the
+    angle of the pin's centre from the line of centres, less that angle at the pitch point.
     """
     sign = -1.0 if inside else 1.0
 
@@ -156,8 +158,9 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
 def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     """Return the distance d from the pitch point [module] at which the mate's addendum ends.
 
-    `tip` is the mate's tip radius and `mate` its pitch radius, negative for a ring gear. |P - O|^2 = mate^2 + d^2 +
-    2 mate d sin psi, where d sin psi = d (L^2 + R^2 - A^2) / (2 R L) is monotonic in d.
+    `tip` is the mate's tip radius and `mate` its pitch radius, negative for a ring gear; R, A and B are as in
+    `lantern`. The squared distance of the contact from the mate's axle is mate^2 + d^2 + 2 mate d sin psi. Here d
+    sin psi = d (L^2 + R^2 - A^2) / (2 R L), with L = B + d, is monotonic in d.
     """
 
     def off(d: float) -> float:
@@ -170,7 +173,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     if (at_pitch > 0) == (at_most > 0):
         raise RangeError(
             Problem(
-                f"the contact of these pins does not reach the tip radius {tip:.6g}",
+                f"the contact of these pins does not reach the tip radius {tip:.6g} modules of the mate",
                 "the pins pass the far side of the lantern first",
                 "give the mate a shorter addendum",
             )
@@ -187,8 +190,11 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the path of contact with minimum friction loss, docs/shapes.md (10): S = D cos psi, an extremal of the
-    loss. Its arc is X = D ln d, or D ln tan(d/2) on cones, counted from the first contact.
+    """Return the path of contact with minimum friction loss, an extremal of the loss: S = D cos psi, docs/shapes.md
+    (10).
+
+    S is d on cylinders and sin d on cones, psi the pressure angle, and D a constant. The arc X is D ln d, or D ln
+    tan(d/2) on cones, counted from the first contact.
     """
 
     def sine(d: Floats) -> Floats:
@@ -264,8 +270,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum angle of the pin at which the contact has zero speed along the mate [rad]; None without such a
-    cusp.
+    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None
+    without such a cusp.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe
@@ -301,6 +307,8 @@ def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: 
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:
-    """Return the centre of the pin relative to the pitch point, as x + iy [module]."""
+    """Return the centre of the pin at the angle `beta` from the line of centres, relative to the pitch point, as x
+    + iy [module].
+    """
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
     return found

@@ -70,7 +70,9 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair with its first wheel driving. A ring gear is gear 2 of the form in either order."""
+        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the form, even if the
+        pair names it first.
+        """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         check_wheels(self, wheels, shaft_angle)
@@ -323,9 +325,9 @@ class ConjugateToothForm(ToothForm):
         return ConjugatePair(path, (half, half))
 
     def _backlash(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
-        """Return the declared backlash as an arc X on the pitch surfaces.
+        """Return the declared backlash as an arc X on the pitch surfaces [module; rad for bevel gears].
 
-        For a bevel pair one module is p / pi on the unit sphere.
+        For a bevel pair, one module is 1 / pi of the circular pitch on the unit sphere.
         """
         return wheels.modules(self.backlash, "backlash") * pitch.p / pi
 
@@ -340,7 +342,9 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess from pitches to arcs X [module]."""
+    """Convert arcs of approach and recess from pitches to arcs X along the pitch surfaces [module; rad for bevel
+    gears].
+    """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
 
@@ -367,7 +371,7 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
 
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-    """Raise `GearTrainError` if wheels of these kinds cannot have conjugate teeth of this form."""
+    """Raise `GearTrainError` if wheels of the declared kinds cannot have conjugate teeth of the form."""
     why, fix = "", IDEAL
     if "worm" in wheels.kinds:
         why = "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"
@@ -378,7 +382,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
             why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
             why = "its wheels are helical, and only involute teeth are supported on helical wheels"
-            fix = "give it `tooth_form: involute`"
+            fix = "give the pair `tooth_form: involute`"
     if why:
         raise refused(f"these wheels cannot have {form.words} teeth", why, fix)
 
@@ -393,7 +397,7 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
         ring, pinion = pair
         raise refused(
             f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",
-            f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
+            f"the pair names its ring '{ring}' first, but this tooth form numbers the ring as its second wheel",
             f"name the pinion first: `pair: [{pinion}, {ring}]`",
         )
 

@@ -65,9 +65,10 @@ class ConjugateDetails(NamedForm, Protocol):
 
 @dataclass(frozen=True)
 class ConjugateMesh(GearMesh):
-    """Gear pair with conjugate teeth; a ring gear is gear 2 of its transmission function in either order of the pair.
+    """Gear pair with conjugate teeth. A ring gear is always gear 2 of the transmission function, even if the pair
+    names it first.
 
-    At a centre distance other than the design's, the speed ratio varies for all forms except involutes.
+    At a centre distance other than the design distance, the speed ratio varies for all forms except involutes.
     """
 
     tooth_form: ConjugateDetails
@@ -75,9 +76,10 @@ class ConjugateMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a driven tooth past the line of centres at angle 0, where flanks touch [pitch].
+        """Distance of a tooth of the driven wheel past the line of centres while the driven angle is 0 [pitch].
 
-        It is the sum of half the tooth thicknesses of both wheels.
+        A tooth of the driver is then on the line of centres, and flanks touch. The distance is the sum of half the
+        tooth thicknesses of both wheels.
         """
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
@@ -159,8 +161,8 @@ class ConjugateMesh(GearMesh):
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of the designed flanks with small displacements; a changed centre distance displaces all flanks
-        equally.
+        """Contact of flanks that are slightly displaced from their designed positions; a changed centre distance
+        displaces all flanks equally.
         """
         from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 
@@ -169,7 +171,9 @@ class ConjugateMesh(GearMesh):
         return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
-        """Return a report of arcs, contact ratio, transmission error, backlash and efficiency."""
+        """Return the report of the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
+        efficiency.
+        """
         figures = _figures(self)
         return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
 
@@ -206,8 +210,8 @@ class ConjugateFigures(PairFigures):
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Return the results of a pair with the present driver; the kinematic results of involutes are computed even if the
-    pair cannot run.
+    """Return the results of a pair with its actual driver. The kinematic results of involutes are computed even if
+    the pair cannot run.
     """
     transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)
@@ -226,7 +230,7 @@ def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
 
 
 def _overlap_ratio(wheels: MeshingWheels) -> float | None:
-    """Return the overlap ratio b tan(helix) / p: b is the face width, p the transverse pitch."""
+    """Return the overlap ratio b tan(helix angle) / p, with b the face width and p the transverse pitch."""
     if not wheels.helix[0] or wheels.width is None or wheels.module is None:
         return None
     return wheels.width * tan(abs(wheels.helix[0])) / (pi * wheels.module)
@@ -272,7 +276,7 @@ class SharedEfficiency(Result):
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Efficiency with friction of sliding teeth, exact in the friction coefficient."""
+    """Efficiency with sliding friction of the teeth, an exact function of the friction coefficient."""
     assumption: str = SHARED
     """Assumption on how teeth in contact share the load, in words."""
 
@@ -298,7 +302,7 @@ class PairDesign(Result):
     mesh: ConjugateMesh
     """Mesh of the pair with the wheel that drives."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels that were cut."""
+    """Outlines of the requested wheels as cut; empty if none was requested."""
 
     @property
     def path(self) -> PathOfContact:
@@ -361,7 +365,7 @@ class PairDesign(Result):
 
     @property
     def efficiency(self) -> SharedEfficiency | None:
-        """Efficiency, exact in the friction coefficient; None for teeth that cannot run."""
+        """Efficiency, an exact function of the friction coefficient; None for teeth that cannot run."""
         return SharedEfficiency(self.mesh.efficiency(self.mesh.driver)) if self.runs else None
 
     @property

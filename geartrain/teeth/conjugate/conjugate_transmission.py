@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.admissibility import Halves
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
-_TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding error
+_TOUCH = 1e-12  # fraction of a pitch: smaller gaps between two contacts are rounding error
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +170,8 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds and the friction terms of all tooth pairs in contact, at driver angles S [rad].
+        """Return the sliding speeds, and the friction terms of input and output power, of all tooth pairs in contact at
+        driver angles S [rad].
 
         The tooth pairs share the driver's torque equally.
         """

@@ -1,4 +1,4 @@
-"""Conjugate teeth away from their design: displaced flanks, and axles at another centre distance.
+"""Contact of conjugate teeth that deviate from their design: displaced flanks, and another centre distance.
 
 A flank that protrudes by n along its normal at the contact turns the driven wheel ahead by n divided by the moment arm
 of the normal, docs/cut-by-hand.md (1). The normal passes through the pitch point under the pressure angle psi, so the
@@ -6,7 +6,7 @@ arm is R2 cos psi on cylinders and sin R2 cos psi on cones; for an involute it i
 the path the corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from
 the law of cosines.
 
-At a centre distance other than the design's, the transmission function follows from the contact of both outlines.
+At another centre distance, the transmission function follows from the contact of both outlines.
 These are the flanks of the design, each continued straight beneath its last designed contact.
 """
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 _STRAIGHT = 0.5  # modules of root beneath a flank, at most a third of its radius
 _NODES = 257  # of the tables along the path and beyond its ends, with linear interpolation
 _SMALL = 1e-12  # rad: shorter contact beyond an end is neglected
-_END_STEP = 1e-4  # of the arc of contact: step of the difference quotient of the tip's radius
+_END_STEP = 1e-4  # fraction of the arc of contact: step of the difference quotient of the tip's radius
 _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are divided; it is 0 for parallel sides
 
 
@@ -100,7 +100,9 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
     """Return the displacement of a flank along its normal at the contacts X, per 1 rad of rotation about its pitch
     point.
 
-    The rotation is anticlockwise with X to the right and gear 2 above: z . ((P - P0) x n), on the sphere P0 . (P x n).
+    The rotation is anticlockwise in a view with X to the right and gear 2 above. With contact P, pitch point P0 of
+    the flank, unit normal n and unit vector z out of the plane, the displacement is z . ((P - P0) x n), on the
+    sphere P0 . (P x n).
     """
     pitch, at = path.pitch, path.at(X)
     middle = np.zeros((len(X), 3 if pitch.bevel else 2))
@@ -113,22 +115,24 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class CornerLag:
-    """Table of the driven wheel's lag [rad] while a tip corner touches beyond an end of the path, at equal steps."""
+    """Lag of the driven wheel [rad] while a tip corner touches beyond an end of the path of contact, tabulated at
+    equal steps.
+    """
 
     step: float
     """Step of the driver's angle beyond the end of the path [rad]."""
     lags: Floats
-    """Lag of the driven wheel at these steps [rad], from 0 at the end of the path."""
+    """Lag of the driven wheel at each step [rad], starting with 0 at the end of the path."""
 
     def __call__(self, beyond: Floats) -> Floats:
-        """Return the lag [rad] at driver angles beyond the end [rad]; 0 before it, infinite where the corner no longer
-        touches.
+        """Return the lag [rad] at driver angles measured from the end of the path [rad]; 0 for negative angles,
+        infinite where the corner no longer touches.
         """
         return np.interp(beyond, self.step * np.arange(len(self.lags)), self.lags, left=0.0, right=inf)
 
     @property
     def most(self) -> float:
-        """Driver angle over which the corner touches [rad]."""
+        """Driver angle from the end of the path to the last contact of the corner [rad]."""
         return self.step * (len(self.lags) - 1)
 
 
@@ -143,17 +147,18 @@ class DisplacedWheelSizes:
     half_angle: float
     """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
     modules: float = 1.0
-    """Number of modules in the length unit of these sizes; 1 if lengths are in modules."""
+    """Number of modules in the length unit of the sizes of the wheel; 1 if lengths are in modules."""
 
     @property
     def pitch(self) -> float:
-        """Circular pitch in the unit of these lengths."""
+        """Circular pitch in the length unit of the sizes of the wheel."""
         return pi / self.modules
 
 
 @dataclass(frozen=True, eq=False)
 class DisplacedContact:
-    """Contact of one tooth pair throughout its engagement, and the effects of displaced flanks.
+    """Contact of one tooth pair throughout its engagement, and the lag of the driven wheel caused by displaced
+    flanks.
 
     Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel
     (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). In pairs
@@ -165,7 +170,7 @@ class DisplacedContact:
     start: float
     """Driver angle at which a tooth pair comes into contact [rad]."""
     end: float
-    """Driver angle at which it leaves contact [rad]."""
+    """Driver angle at which a tooth pair leaves contact [rad]."""
     across: tuple[Floats, Floats]
     """Lag [rad] per unit displacement of the teeth across the line of centres, in the direction of motion."""
     along: tuple[Floats, Floats]
@@ -187,10 +192,10 @@ class DisplacedContact:
     backlash: float
     """Backlash [rad of the driven wheel]."""
     tooth_phase: float
-    """Angle of a driven tooth past the line of centres at driven angle 0 [rad]."""
+    """Angle of a tooth of the driven wheel past the line of centres while the driven angle is 0 [rad]."""
     even: Floats
-    """Lag [rad] of error-free wheels at the same driver angles, caused by a centre distance other than the design
-    distance.
+    """Lag of error-free wheels [rad] at the driver angles of the columns, caused by a centre distance other than
+    the design distance.
     """
     distance: float
     """Centre distance [module]; infinite if the axles are not parallel."""

@@ -142,7 +142,7 @@ class InvolutePair:
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess that the tip circles give [module].
+        """Arcs X of approach and recess, as limited by the tip circles [module].
 
         One arc is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on
         one side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
@@ -167,8 +167,9 @@ class InvolutePair:
 def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
     """Return the centre distance without backlash [module]: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
 
-    With a ring gear, z1 and x1 of the pinion enter with negative sign. Raises `GearTrainError` if no such distance
-    exists because the negative profile shifts are too large.
+    psi is the pressure angle of the rack, psi_w the operating pressure angle; x are the profile shifts [module] and
+    z the tooth numbers. With a ring gear, z1 and x1 of the pinion enter with negative sign. Raises `GearTrainError`
+    if no such distance exists because the negative profile shifts are too large.
     """
     psi, sign = first.psi, -1 if second.ring else 1
     teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift
@@ -177,19 +178,21 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
         raise GearTrainError(
             Problem(
                 f"no centre distance lets wheels of {first.z} and {second.z} teeth mesh without backlash",
-                f"with their shifts {first.shift:g} and {second.shift:g} the involute function of the operating angle "
-                f"would be {value:.4g}, but it must be 0 or more",
-                "reduce the inward profile shifts, or give a centre_distance",
+                f"with profile shifts x1 = {first.shift:g} and x2 = {second.shift:g} the involute function of the "
+                f"operating pressure angle would be {value:.4g}, but it cannot be negative",
+                "increase the sum of the profile shifts (with a ring, x2 - x1), or give a centre_distance",
             )
         )
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:
-    """Return the arc X of a spherical involute from the pitch cone R to the tip cone `tip` [rad on the unit sphere].
+    """Return the arc X of a spherical involute from the pitch cone R to the tip cone `tip` [rad on the unit
+    sphere].
 
-    It is negative if the tip cone is inside the pitch cone. cos tip = cos d cos R - sin d sin psi sin R, where
-    cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
+    It is negative if the tip cone is inside the pitch cone. The distance d of the last contact from the pitch point
+    follows from cos tip = cos d cos R - sin d sin psi sin R with the pressure angle psi, where cos(base cone) =
+    sqrt(cos^2 R + sin^2 psi sin^2 R).
     """
     base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
     # the involute begins at the base cone, so a smaller tip cone is replaced by it

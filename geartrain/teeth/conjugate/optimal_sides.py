@@ -1,12 +1,14 @@
 """Sides of the optimal tooth forms: uniform stress, uniform temperature and minimum friction; and the involute.
 
-A side is described by the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the pitch
-surface whose dedendum works: a = A, b = B in recess, exchanged in approach.
+A side (approach or recess) of a path of contact gives the pressure angle psi at the distance d from the pitch
+point. It depends on the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the
+pitch surface whose dedendum works: a = A, b = B in recess, exchanged in approach.
 
-Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. For
-pressure angles below 45 deg exactly one solution is bounded there. Chebyshev collocation finds that solution, because
-polynomials are bounded. Minimum friction is a ray followed by one piece of minimum contact speed. These two
-pieces are optimal under the conditions in docs/shapes.md, section 15.
+Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0. Here S is d, or sin d for bevel
+gears, and v is sin psi or sin psi / S. For pressure angles below 45 deg exactly one solution is bounded at the
+pitch point, where S is 0. Chebyshev collocation finds that solution, because polynomials are bounded. Minimum
+friction is a ray (constant pressure angle) followed by one piece of minimum contact speed. These two pieces are
+optimal under the conditions in docs/shapes.md, section 15.
 """
 
 from __future__ import annotations
@@ -32,20 +34,21 @@ if TYPE_CHECKING:
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
 _NODES = (24, 48, 96, 192)  # doubled until the last coefficients are small
-_FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding error
+_FALLEN = 1e-14  # fraction of the largest coefficient: smaller values are rounding error
 _UNFINISHED = 1e-5  # upper bound of the last coefficients at the maximum number of nodes; exceeded above about 84 deg
 _STEPS = 25  # maximum number of Newton steps
 _ROUGH = 1e-9  # residuals below this are rounding error
 _CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are checked, and tolerance of their rounding
-_NEAR = 0.05  # of a side: closer to the pitch point slopes are taken from the series
+_NEAR = 0.05  # fraction of a side: closer to the pitch point slopes are taken from the series
 # 16 nodes give rounding on usual sides; many more for pressure angles near a right angle
 _GAUSS = np.polynomial.legendre.leggauss(64)
 _TRIES = 60  # maximum number of solved ends
-_GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
+_GIVEN_UP = 1e-4  # fraction of the end: resolution at which an end counts as unreachable
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """Return the side of an involute with the arc X: constant pressure angle `psi` [rad].
+    """Return the side of the path of contact of an involute, with constant pressure angle `psi` [rad] and the
+    arc X along the pitch surfaces.
 
     With the arc 0, the path begins or ends at the pitch point.
     """
@@ -53,18 +56,20 @@ def involute(X: float, psi: float) -> PathSide:
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
-    """Return the side with constant Hertzian pressure and the arc X, so that kr / cos psi is constant.
+    """Return the side of a path of contact with constant Hertzian pressure and the arc X.
 
-    w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0.
+    The relative curvature of the profiles divided by cos psi is then constant. `a` and `b` are the curvatures of
+    the pitch surfaces of addendum and dedendum, `psi` is the pressure angle psi0 at the pitch point [rad]. The
+    derivative w of S sin psi with respect to d is ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2 with k = sin
+    psi0 cos psi0.
     """
     return PathSide((_piece_over_arc(_solutions(pitch, stress_law(pitch, a, b, psi), sin(psi)), X * cos(psi), X),))
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
-    """Return a function for f(d, v) and df/dv of uniform stress, docs/shapes.md (8): S v' + f(d, v) = 0 with v = sin
-    psi.
+    """Return the function f of the differential equation of uniform stress, S v' + f(d, v) = 0 with v = sin psi.
 
-    `psi` is the pressure angle at the pitch point [rad].
+    It returns f and df/dv, docs/shapes.md (8). `psi` is the pressure angle at the pitch point [rad].
     """
     k = sin(psi) * cos(psi)
 
@@ -80,10 +85,11 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
 
 def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
-    """Return the piece that ends at the arc X, by Newton's method for its end d.
+    """Return the piece of a path of contact that ends at the arc X, by Newton's method for the distance d of its
+    end.
 
-    `made` returns the piece with a given end. An end that cannot be reached is bisected towards the last end that was
-    reached.
+    `made` returns the piece with a given end. An end that cannot be reached is bisected towards the last end that
+    was reached.
     """
     low, end, last = start, guess, inf
     for _ in range(_TRIES):
@@ -106,7 +112,8 @@ def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, 
 def _solutions(
     pitch: PitchSurfaces, f: ValueAndSlope, first: float, start: float = 0.0, piece_maker: PieceMaker | None = None
 ) -> Callable[[float], PathPiece]:
-    """Return a function from the end of a piece to the piece that solves S v' + f = 0.
+    """Return a function that solves S v' + f(d, v) = 0 up to a given end d, and returns the piece of the path of
+    contact.
 
     Each solution is the initial guess of the next one.
     """
@@ -121,12 +128,14 @@ def _solutions(
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
-    """Return the piece for a solution v = sin psi."""
+    """Return the piece of a path of contact for a solution v = sin psi, the sine of the pressure angle at distances
+    d.
+    """
     return sampled(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callable[[Floats], Floats]:
-    """Return a function for v'.
+    """Return a function that computes the derivative v' of a solution v of S v' + f(d, v) = 0.
 
     It uses the differential equation, and the series close to the pitch point, where the equation gives 0/0.
     """
@@ -141,9 +150,11 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
 
 
 def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
-    """Return the side with uniform heat and the arc X: w = beta S + gamma S / cos psi, psi = 0 at the pitch point.
+    """Return the side of a path of contact with uniform frictional heat per area of a profile, and the arc X.
 
-    beta is the curvature b of the hotter surface, as read in docs/shapes.md.
+    The derivative w of S sin psi with respect to d is beta S + gamma S / cos psi, and the pressure angle psi is 0
+    at the pitch point. `beta` is the curvature of the pitch surface of the hotter profile, as interpreted in
+    docs/shapes.md, and `gamma` is the sum of both curvatures divided by the heat.
     """
     f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
     # initial guess of the end: the cycloid tangent to the path at the pitch point
@@ -153,8 +164,9 @@ def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> P
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
-    """Return a function for f(d, g) and df/dg of uniform heat, docs/shapes.md (9): S g' + f(d, g) = 0 with g = sin psi
-    / S.
+    """Return the function f of the differential equation of uniform heat, S g' + f(d, g) = 0 with g = sin psi / S.
+
+    It returns f and df/dg, docs/shapes.md (9). `beta` and `gamma` are as in `uniform_heat`.
     """
 
     def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
@@ -168,7 +180,9 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
-    """Return the piece for a solution g = sin psi / S, with 2 S' g + S g' = beta + gamma / cos psi."""
+    """Return the piece of a path of contact for a solution g = sin psi / S of 2 S' g + S g' = beta + gamma / cos
+    psi.
+    """
     steep = _slope(pitch, f, g)
     return sampled(
         lambda d: pitch.S(d) * g(d),
@@ -180,9 +194,11 @@ def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, 
 
 
 def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: float) -> PathSide:
-    """Return a side with finite stress: a ray of pressure angle `psi` up to the permitted heat, then uniform heat.
+    """Return a side of a path of contact with finite stress: constant pressure angle `psi` up to the permitted
+    heat, then uniform heat.
 
-    The ray ends where S / S' = sin psi / (b + gamma / cos psi). If it does not reach that heat, it is the whole side.
+    The first piece ends where S / S' = sin psi / (b + gamma / cos psi), with S = d, or sin d for bevel gears, and
+    `b` and `gamma` as `beta` and `gamma` in `uniform_heat`. If it does not reach that heat, it is the whole side.
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
@@ -203,12 +219,13 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 def least_friction(
     pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
 ) -> PathSide:
-    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum contact speed `u` along
-    the dedendum, as a fraction of the pitch-line speed.
+    """Return the side of a path of contact with minimum friction loss: first the maximum pressure angle `psi`, then
+    the minimum contact speed `u` along the dedendum, as a fraction of the pitch-line speed.
 
-    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) if friction
-    depends on speed and `weight` gives mu S at distances d. Raises `RangeError` if the arc is longer than teeth within
-    both bounds can reach, or if a shape other than these two pieces would have less loss.
+    The length of the first piece makes the first variation of the loss over the second piece vanish: docs/shapes.md
+    (12) and (13), or (19) if friction depends on speed and `weight` gives the coefficient of friction times S at
+    distances d. Raises `RangeError` if the arc is longer than teeth within both bounds can reach, or if a shape
+    other than these two pieces would have less loss.
     """
     loss = pitch.S if weight is None else weight
     longest = X * cos(psi)
@@ -254,10 +271,12 @@ def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> Ran
 
 
 def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
-    """Return the first variation of the piece, docs/shapes.md (13) or (19).
+    """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13)
+    or (19).
 
-    It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi), with lambda = S / cos psi at the
-    end of the piece. The S in these two terms is replaced by `loss` if friction depends on speed.
+    It is the integral over d of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi). Here psi is the
+    pressure angle, S is d or sin d, eta = S sin psi, and lambda is S / cos psi at the end of the piece. The S in
+    the last two terms is replaced by `loss` if friction depends on speed.
     """
     x, weights = _GAUSS
     d = piece.start + (piece.end - piece.start) * (x + 1) / 2
@@ -275,7 +294,8 @@ def solved(
     start: float = 0.0,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """Return the solution of S v' + f = 0 on [start, end] with v = `first` at `start`, by Chebyshev collocation.
+    """Return the solution v(d) of S v' + f(d, v) = 0 on [start, end] with v = `first` at `start`, by Chebyshev
+    collocation. S is d, or sin d for bevel gears.
 
     f      function of d, v that returns f and its derivative with respect to v; f(0, first) = 0 makes the solution
            bounded at the pitch point
@@ -306,7 +326,7 @@ def fitted(
     nodes: int,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """Return the solution of the equation of `solved` with a fixed number of nodes."""
+    """Return the solution of the differential equation in `solved` with a fixed number of Chebyshev nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges
@@ -315,16 +335,19 @@ def fitted(
 
 
 def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats, v: Floats) -> Floats:
-    """Return the solution at the Chebyshev nodes d with the value `first` at the first node.
+    """Return the solution v of the differential equation in `solved` at the Chebyshev nodes d, with v = `first` at
+    the first node.
 
-    Starts at the guess v and takes damped Newton steps until rounding limits them.
+    Damped Newton steps start at the guess `v` and end at the limit of rounding.
     """
     matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
     # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
     matrix[0] = 0.0
 
     def residual(v: Floats) -> tuple[Floats, Floats]:
-        """Return the residual at each node, and the diagonal entries df/dv of the Jacobian."""
+        """Return the residual of the differential equation at each node, and the diagonal entries df/dv of the
+        Jacobian.
+        """
         off, slope = f(d, v)
         off[0], slope[0] = v[0] - first, 1.0
         return matrix @ v + off, slope
@@ -355,7 +378,7 @@ def unreachable_end(end: float) -> RangeError:
     """Return the error for an end of the path of contact that cannot be reached."""
     return RangeError(
         Problem(
-            f"the path of contact does not reach {end:.6g} from the pitch point",
+            f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point",
             "its pressure angle would reach 90 deg before that distance",
             "use shorter arcs, more teeth, or a smaller pressure angle",
         )
@@ -366,8 +389,10 @@ def unreachable_end(end: float) -> RangeError:
 
 
 def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss: Weight) -> Floats:
-    """Return the integrand of the first variation: loss of a higher path at d minus the loss saved by its longer
-    arc.
+    """Return the integrand of the first variation of the friction loss at distances d.
+
+    It is the additional loss if the path of contact is higher at d, minus the loss saved because the arc becomes
+    longer.
     """
     S, sine = pitch.S(d), piece.sin_psi(d)
     cosine = np.sqrt(1 - sine**2)
@@ -378,8 +403,8 @@ def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss:
 
 
 def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None:
-    """Raise `RangeError` if a ray and this piece of minimum speed are not optimal (conditions in docs/shapes.md,
-    section 15).
+    """Raise `RangeError` if a constant pressure angle followed by this piece of minimum contact speed does not have
+    minimum friction loss (conditions in docs/shapes.md, section 15).
     """
     if (np.diff(weight(np.linspace(0.0, piece.end, _CHECKED))) < 0).any():
         raise other_shape_error("the friction loss decreases with increasing sliding velocity at some contacts")
@@ -390,7 +415,9 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
 
 
 def other_shape_error(why: str) -> RangeError:
-    """Return the error for a friction law whose side of minimum loss does not consist of two pieces."""
+    """Return the error for a friction law under which constant pressure angle and minimum contact speed do not give
+    minimum loss.
+    """
     return RangeError(
         Problem(
             "with this friction law, teeth of minimum loss do not consist of a constant pressure angle and a minimum "

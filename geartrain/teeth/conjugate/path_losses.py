@@ -7,12 +7,13 @@ at every instant. They agree if the contact ratio is 1.
 Friction of one contact is exact in its coefficient, for spur and bevel wheels and ring gears (docs/shapes.md (6) for
 spur pairs). The contact pushes with N along the normal n and rubs with mu N across it, against the sliding, whose
 sense reverses at the pitch point. The power that enters at gear i, or leaves there, divided by N and by the
-pitch-line speed, is
+pitch-line speed, is, at the distance d from the pitch point and the pressure angle psi,
 
     gear 1: cos psi + s mu (S' sin psi + A S),   gear 2: cos psi + s mu (S' sin psi - B S),
 
-with s = sign d if gear 1 drives and -sign d if gear 2 drives. The difference is mu (A + B) |S|, friction times
-sliding. A contact line of a bevel pair has these ratios at every distance from the apex, so they are exact there also.
+with s = sign d if gear 1 drives and -sign d if gear 2 drives. S is d, or sin d on the sphere, S' its derivative, and A
+and B are the curvatures of the pitch surfaces. The difference is mu (A + B) |S|, friction times sliding. A contact
+line of a bevel pair has these ratios at every distance from the apex, so they are exact there also.
 """
 
 from __future__ import annotations
@@ -38,14 +39,14 @@ if TYPE_CHECKING:
 _GAUSS = np.polynomial.legendre.leggauss(48)
 _SCAN = 257  # grid points of one piece in the search for a maximum
 _NARROWED, _ACROSS = 5, 33  # number of refinements of its bracket, and grid points of each
-_ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding error
-_NEARLY_0 = 1e-14  # of a pitch: rounding error of an arc
+_ROUNDING = 1e-12  # fraction of a pitch: shorter intervals are rounding error
+_NEARLY_0 = 1e-14  # fraction of a pitch: rounding error of an arc
 
 ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
 
 LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
-"""Names of the results that depend on load sharing, in the order of tables."""
+"""Names of the results that depend on the load sharing of tooth pairs, in the order of the table columns."""
 FREE = ("depth", "contact_ratio", "slowest")
 """Names of the results that do not depend on load sharing."""
 _STEP, _STEPS = 1.25, 40  # growth factor of the bracket, and maximum number of growths: 1.25^40 = 7500
@@ -70,24 +71,24 @@ class PathLosses(Result):
     loss: float
     """Mean loss divided by the friction coefficient, to first order.
 
-    If one tooth pair carries the load, this is the mean along its path, (A + B) (J_a + J_r) / (X_a + X_r) (Buckingham).
-    If tooth pairs share the load, it is the mean over a pitch (Ohlendorf).
+    If one tooth pair carries the load, this is the mean along its path, (A + B) (J_a + J_r) / (X_a + X_r)
+    (Buckingham), with the curvatures A and B of the pitch surfaces, and sliding integrals J and arcs X of approach
+    and recess. If tooth pairs share the load, it is the mean over a pitch (Ohlendorf).
     """
     stress: float
-    """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite if psi is 0
-    at a contact.
+    """Maximum Hertzian pressure divided by the square root of the tangential force, up to a material constant: the
+    square root of the maximum of `PathContact.H`. It is infinite if the pressure angle is 0 at a contact.
     """
     off_pitch: float
     """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0
     without such contacts.
     """
     heat: float
-    """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force: max
-    Q.
-    """
+    """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force."""
     flash: float
-    """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path; Blok's flash temperature is proportional to
-    this quantity.
+    """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path, to which Blok's flash temperature is
+    proportional. F_n is the normal force, kr the relative curvature, U1 and U2 are the contact speeds along both
+    profiles.
     """
 
     def over(self, other: PathLosses) -> dict[str, float]:
@@ -117,7 +118,9 @@ class PathMeasures(Result):
     shared: PathLosses
     """Losses and loads if the tooth pairs in contact share the load equally."""
     depth: float
-    """Working depth |eta_a| + eta_r [module; rad for bevel gears]."""
+    """Working depth, |eta_a| + eta_r, from the heights eta of the first and the last contact above the pitch line
+    [module; rad for bevel gears].
+    """
     slowest: float
     """Minimum speed of the contact point along a dedendum, divided by the pitch-line speed."""
     contact_ratio: float
@@ -183,11 +186,11 @@ def measure(path: PathOfContact) -> PathMeasures:
 
 
 Stretch = tuple[float, float, int]
-"""Interval from the first to the second value of X, and the number of tooth pairs in contact in it."""
+"""Interval of the arc X, as its first and last value, and the number of tooth pairs in contact in it."""
 
 
 def sharing(path: PathOfContact) -> list[Stretch]:
-    """Return the intervals of X in which the number of tooth pairs in contact is constant."""
+    """Return the intervals of the arc X in which the number of tooth pairs in contact is constant."""
     p, (approach, recess) = path.pitch.p, path.arcs
     whole = floor(path.contact_ratio)
     cuts = sorted(
@@ -227,8 +230,8 @@ def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -
 
 
 def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
-    """Return the sliding integral J, docs/shapes.md (7): S / cos^2 psi integrated over d, for arcs X from `low` to
-    `high`.
+    """Return the sliding integral J for arcs X from `low` to `high`: S / cos^2 psi integrated over d,
+    docs/shapes.md (7), with S = d, or sin d for bevel gears.
     """
     x, weights = _GAUSS
     total = 0.0
@@ -264,9 +267,10 @@ def maximum(
     low: float = -inf,
     high: float = inf,
 ) -> float:
-    """Return the maximum of `what` over contacts with |X| >= `beyond` and X from `low` to `high`; -inf without contact.
+    """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to
+    `high`; -inf without contact.
 
-    Each piece is scanned on a grid, and the bracket of its maximum is then refined.
+    Each piece of the path is scanned on a grid, and the bracket of its maximum is then refined.
     """
     bounds = ((low, min(high, -beyond)), (max(low, beyond), high)) if beyond else ((low, high),)
     best = -inf
@@ -360,7 +364,8 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
-    """Return gamma = (A + B) / heat for which `depth`, which increases with gamma, equals `wanted`.
+    """Return gamma, the sum A + B of the pitch-surface curvatures divided by the heat, for which `depth` equals
+    `wanted`. The depth increases with gamma.
 
     `start` is the initial guess, around which the root is bracketed. `most` is an upper bound of the depth, such as the
     sum of the arcs, because a contact rises by less than its arc. Raises `GearTrainError` if no heat gives that depth.

@@ -38,15 +38,21 @@ class PathPiece:
     start: float
     end: float
     sin_psi: Curve
-    """Sine of the pressure angle at distances d."""
+    """Function that returns the sine of the pressure angle psi at distances d from the pitch point."""
     slope: Curve
-    """Derivative of sin psi with respect to d, which equals d(psi)/dX."""
+    """Function that returns the derivative of sin psi with respect to the distance d; it equals d(psi)/dX, with
+    the arc X along the pitch surfaces.
+    """
     travel: Curve
-    """Arc X from `start` to d: the integral of 1/cos psi, docs/shapes.md (1)."""
+    """Function that returns the arc X along the pitch surfaces from `start` to d: the integral of 1/cos psi,
+    docs/shapes.md (1).
+    """
 
 
 def ray(psi: float, end: float) -> PathPiece:
-    """Return the piece of constant pressure angle `psi` [rad] up to the distance `end`: the path of an involute."""
+    """Return the piece of a path of contact with constant pressure angle `psi` [rad] up to the distance `end`
+    from the pitch point, as for an involute.
+    """
     return PathPiece(
         0.0,
         end,
@@ -57,18 +63,20 @@ def ray(psi: float, end: float) -> PathPiece:
 
 
 def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int = 64) -> PathPiece:
-    """Return the piece with a given sine of the pressure angle; its arc X is an integrated Chebyshev series of 1 / cos
-    psi.
+    """Return the piece of a path of contact with a given sine of the pressure angle psi. Its arc X is an
+    integrated Chebyshev series of 1 / cos psi.
     """
     travel = ChebyshevSeries.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
     return PathPiece(start, end, sin_psi, slope, travel)
 
 
 def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> PathPiece:
-    """Return the piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S.
+    """Return the piece of a path of contact with constant contact speed `u` along the dedendum, divided by the
+    pitch-line speed.
 
-    By docs/shapes.md (12), eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
-    pitch surface of the gear whose dedendum works.
+    By docs/shapes.md (12), sin psi = eta / S with eta = S(start) sin psi(start) + u (d - start) + b (integral of
+    S). S is d, or sin d for bevel gears, and b is the curvature of the pitch surface of the gear whose dedendum
+    works.
     """
     first, below = float(pitch.S(start)) * sin_start, float(pitch.S_integral(start))
 
@@ -106,7 +114,7 @@ class PathSide:
 
     @cached_property
     def arc(self) -> float:
-        """Arc X of the whole side [module]."""
+        """Arc X along the pitch surfaces over the whole side [module]."""
         return float(self.travel(np.array(self.end)))
 
     @property
@@ -115,15 +123,17 @@ class PathSide:
         return tuple(piece.end for piece in self.pieces)
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle at distances d in [start, end]."""
+        """Return the sine of the pressure angle at distances d from the pitch point, from `start` to `end`."""
         return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin psi with respect to d."""
+        """Return the derivative of the sine of the pressure angle with respect to the distance d from the pitch
+        point.
+        """
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X from `start` to d."""
+        """Return the arc X along the pitch surfaces while the contact moves from `start` to the distance d."""
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 
@@ -133,11 +143,13 @@ class PathSide:
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
-        """Return the index of the piece that contains each distance; a joint belongs to the piece that follows it."""
+        """Return the index of the piece that contains each distance d; a joint belongs to the piece that follows it."""
         return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
-        """Return the distance d at the arc X, by Newton's method with dd/dX = cos psi."""
+        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces, by
+        Newton's method with dd/dX = cos psi.
+        """
         X = np.asarray(X, dtype=float)
         arc = self.arc
         d = self.start + (np.clip(X / arc, 0.0, 1.0) * (self.end - self.start) if arc else np.zeros(X.shape))
@@ -196,14 +208,16 @@ class PathContact(Shown):
     kr: Floats
     """Relative curvature k1 - k2 of the two profiles [1/module]."""
     H: Floats
-    """Ratio kr / cos psi. The Hertzian pressure is proportional to the square root of this ratio."""
+    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the
+    square root of this ratio.
+    """
     Q1: Floats
     """Frictional heat per area of the profile of gear 1, divided by friction coefficient times tangential force."""
     Q2: Floats
     """Frictional heat per area of the profile of gear 2, divided by friction coefficient times tangential force."""
     flash: Floats
-    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|. Blok's flash temperature of equal materials is proportional to
-    it.
+    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, with F_n the normal force at unit tangential force. Blok's
+    flash temperature of equal materials is proportional to it.
     """
     rub: Floats
     """Ratio |S| / cos psi, where S is d, or sin d for bevel gears. The friction loss is proportional to its integral
@@ -371,9 +385,11 @@ class PathOfContact(Shown):
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Compute contact speeds and curvatures, docs/shapes.md (2) to (5).
+        """Return speeds, curvatures, stress and heat of contacts at arcs X and distances d, docs/shapes.md (2) to (5).
 
-        U1 = w + A S, U2 = w - B S; k_i = T_i / U_i; kr = (A + B) sin psi / (U1 U2).
+        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, with w the derivative of S sin psi with
+        respect to d, and A and B the curvatures of the pitch surfaces. The relative curvature is kr = (A + B) sin psi /
+        (U1 U2).
         """
         pitch = self.pitch
         A, B = pitch.A, pitch.B

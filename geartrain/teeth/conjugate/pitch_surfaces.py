@@ -59,12 +59,12 @@ class PitchSurfaces:
 
     @property
     def reach(self) -> float:
-        """Arc X per radian of gear 1: R1, or sin R1 on cones."""
+        """Arc X per radian of rotation of gear 1: R1, or sin R1 on cones."""
         return sin(self.R1) if self.bevel else self.R1
 
     @property
     def reach2(self) -> float:
-        """Arc X per radian of gear 2: R2 (negative for a ring gear), or sin R2 on cones."""
+        """Arc X per radian of rotation of gear 2: R2 (negative for a ring gear), or sin R2 on cones."""
         return sin(self.R2) if self.bevel else self.R2
 
     def teeth_of(self, gear: int) -> float:
@@ -72,7 +72,7 @@ class PitchSurfaces:
         return self.z1 if gear == 1 else self.z2
 
     def reach_of(self, gear: int) -> float:
-        """Return the absolute arc |X| per radian of gear 1 or 2."""
+        """Return the absolute arc |X| per radian of rotation of gear 1 or 2."""
         return self.reach if gear == 1 else abs(self.reach2)
 
     def axle_of(self, gear: int) -> float:
@@ -153,7 +153,9 @@ class PitchSurfaces:
         return 1.0 if self.axle_of(gear) < 0 else -1.0
 
     def _axis_and_up(self, gear: int) -> tuple[Floats, Floats]:
-        """Return two unit vectors of a cone: the gear's axis, and the direction of the pitch point normal to it."""
+        """Return two unit vectors of a pitch cone: the axis of the gear, and the direction normal to the axis
+        towards the pitch point.
+        """
         R, side = self.axle_of(gear), self._side(gear)
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
 

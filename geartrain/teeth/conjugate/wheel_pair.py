@@ -1,4 +1,4 @@
-"""Wheels of a conjugate gear pair, and checks that such a pair exists."""
+"""Wheels of a conjugate gear pair, and checks that such a pair can exist."""
 
 from __future__ import annotations
 

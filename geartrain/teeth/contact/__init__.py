@@ -1,8 +1,9 @@
-"""Contact of two outlines of any shape: driven angle, backlash, teeth in contact, transmission function over a period.
+"""Contact of two outlines of any shape: driven angle, backlash, teeth in contact, transmission function over a
+period.
 
 Neither normals nor paths of contact are used: the driven angle is the maximum that any point of the driver's outline
-requires. This gives an independent check of teeth that are derived in other ways, and a transmission function to teeth
-that are worn, misplaced or displaced.
+requires. This provides an independent check of teeth that are derived in other ways, and the transmission function of
+worn, misplaced or displaced teeth.
 
 gear_outline              curves, teeth made of them, a wheel
 flank_table               flanks as polynomial pieces of increasing radius

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _NODES = 1025  # of the tables along the contact, with linear interpolation
 _CORNER_NODES = 257  # of the tables beyond its ends
 _SEARCHED = 2001  # samples in the window of a tooth pair, for the ends of its contact
-_FARTHEST = 0.25  # of a driven pitch: with more lag the neighbouring pairs are in contact instead
+_FARTHEST = 0.25  # fraction of a driven pitch: with more lag the neighbouring pairs are in contact instead
 _NO_CORNER = 1e-9  # rad of the driver: shorter contact of a tip beyond the flanks is neglected
 _AT_PITCH_POINT = 1e-6  # modules: closer to the pitch point the normal is taken from the flank
 _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are divided; it is 0 for parallel sides
@@ -106,7 +106,8 @@ class ToothPairSearch:
 
 @lru_cache(maxsize=256)
 def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
-    """Return the contact of two outlines at their centre distance, with the effects of displaced flanks.
+    """Return the contact of two tooth outlines at their centre distance, and the lag of the driven wheel caused by
+    displaced flanks.
 
     Raises `RangeError` if the teeth do not touch for a whole pitch.
     """
@@ -150,7 +151,9 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return the range of driver angles in which flanks touch, and the larger range in which tips touch too [rad]."""
+    """Return the range of driver angles in which flanks touch, and the larger range that includes contact of tips
+    [rad].
+    """
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -166,7 +169,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """Return a mask of the contiguous true entries around index `at`."""
+    """Return a mask of the contiguous true entries of an array around index `at`."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -183,7 +186,9 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
 
 
 def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
-    """Return the indices at which this tooth pair drives the wheel, rather than the pair one pitch before or behind."""
+    """Return the indices of the driver angles at which the examined tooth pair drives the wheel, rather than the
+    pair one pitch before or behind.
+    """
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))
 

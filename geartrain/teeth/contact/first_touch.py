@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.flank_table import FlankTable
 
-_ASIDE = 1e-5  # of a segment: offset at which a slope is evaluated if it is undefined at the end
+_ASIDE = 1e-5  # fraction of a segment: offset at which a slope is evaluated if it is undefined at the end
 _FINE = 1e-14  # of u: at a maximum of G only the speed depends on u to first order
 _WIDE = 2.0  # safety factor of bounds from tangents
 _LEFT = 1e-8  # of u: error of an inversion where a curve is stationary, the square root of rounding
@@ -84,7 +84,9 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return two signs: direction towards the second axle, and contribution of the first radius along it."""
+        """Return two signs: of the direction towards the second axle, and of the component along it of the radius about
+        the first axle.
+        """
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
     @property
@@ -94,8 +96,8 @@ class DrivenFrame:
         return found
 
     def moved(self, dr: Floats | float, db: Floats | float) -> tuple[Floats, Floats]:
-        """Return the differentials of radius and azimuth about the second axle for differentials dr and db about the
-        first.
+        """Return the differentials of radius and azimuth about the second axle for differentials dr of the radius and
+        db of the azimuth about the first axle.
         """
         e, s = self._signs()
         stretch = self.height * dr
@@ -121,8 +123,8 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Tooth pairs that may touch: driver angle x [rad], shape index of both teeth, angle of the driven tooth `place`
-    [rad], index of the position.
+    """Tooth pairs that may touch: driver angle x [rad], shape indices of both teeth, angle `place` of the driven
+    tooth [rad], and index of the driver position.
     """
 
     x: Floats
@@ -144,8 +146,8 @@ class FlankSegments(NamedTuple):
     u: Floats
     """Parameters of `piece1` at both ends of the segment, shape (2, n)."""
     polar2: Floats
-    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives with respect to u,
-    shape (4, 2, n).
+    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives with respect
+    to the parameter u of `piece1`, shape (4, 2, n).
     """
     v: Floats
     """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
@@ -191,8 +193,8 @@ class FirstTouchSearch:
         return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the intervals between search nodes that may be at radii of the driven flank; their `piece2` is not yet
-        chosen.
+        """Return the intervals between search nodes that may be at radii of the driven flank. Their `piece2` is chosen
+        later.
         """
         nodes = self.first.nodes
         pieces, us, begins = (
@@ -258,15 +260,15 @@ class FirstTouchSearch:
         return cells._replace(u=u, polar2=polar2)
 
     def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Return radius, azimuth and their derivatives with respect to u of the driver's points about the second axle,
-        shape (4, n).
+        """Return radius and azimuth of the driver's points about the second axle, and their derivatives with respect
+        to the parameter u, shape (4, n).
         """
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """Return the driver's points about the second axle, and the derivatives with respect to u of their radius and
-        azimuth about the first.
+        """Return the driver's points about the second axle, and the derivatives of their radius and azimuth about
+        the first axle with respect to the parameter u.
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
@@ -284,12 +286,14 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the touches of all segments, exact to rounding error: both ends, and any interior maximum of G."""
+        """Return the touches of all segments, exact to rounding error: at both ends, and at an interior maximum of the
+        required driven angle G.
+        """
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
-            """Return the slope of G times d radius / dv of the driven piece, a factor that is 0 or more."""
+            """Return the slope of the required driven angle G, times d radius / dv of the driven piece (0 or more)."""
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
             # clipped, because rounding may move a radius beyond the ends of the piece

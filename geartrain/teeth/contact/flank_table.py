@@ -19,7 +19,7 @@ _CELLS = 8  # minimum number of search cells of a side
 _CLOSER, _CLOSE = 0.75, 30  # geometric steps towards a stationary end: an extreme may be at any distance from it
 _MOST = 80  # maximum number of steps of an inversion
 _NEAR = 1e-10  # a Newton step of this length ends at the root, as the next would be about its square
-_STALLED = 1e-3  # of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
+_STALLED = 1e-3  # fraction of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,9 @@ class FlankTable:
     """Polynomial pieces of the leading or trailing flanks of all teeth, with u from -1 to 1 and increasing radius."""
 
     radius: Floats
-    """Coefficients of the radius by powers of u, shape (COUNT, pieces)."""
+    """Polynomial coefficients of the radius by powers of the parameter u, shape (COUNT, pieces)."""
     azimuth: Floats
-    """Coefficients of the azimuth [rad] by powers of u, shape (COUNT, pieces)."""
+    """Polynomial coefficients of the azimuth [rad] by powers of the parameter u, shape (COUNT, pieces)."""
     corners: Bools
     """Flags, shape (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
     flat: Bools
@@ -114,8 +114,8 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Radius, its derivative with respect to u, azimuth [rad] and its derivative with respect to u at the search
-        nodes.
+        """Values at the search nodes: radius and its derivative with respect to the parameter u, azimuth [rad] and
+        its derivative with respect to u.
         """
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)

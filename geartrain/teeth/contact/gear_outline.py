@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
 
-_MEETS = 1e-9  # of the radius: curves whose ends are closer than this are connected
-_FLAT = 1e-12  # of the radius: a piece that rises less counts as an arc about the axle
-_TURNED = 1e-9  # of the maximum slope: smaller sign changes are rounding error
+_MEETS = 1e-9  # fraction of the radius: curves whose ends are closer than this are connected
+_FLAT = 1e-12  # fraction of the radius: a piece that rises less counts as an arc about the axle
+_TURNED = 1e-9  # fraction of the maximum slope: smaller sign changes are rounding error
 _SMOOTH = 1e-7  # rad: curves that meet at a smaller angle form a smooth joint
-_STILL = 1e-3  # of its second derivative: a smaller slope does not determine the direction
+_STILL = 1e-3  # fraction of its second derivative: a smaller slope does not determine the direction
 
 
 @dataclass(frozen=True)
@@ -319,7 +319,9 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
     if not side:
         raise QuestionError(
             Problem(
-                "a tooth has a flank without curves", "both flanks can touch a mate", "give at least one curve for each"
+                "a tooth has a flank without curves",
+                "each flank can touch a mate and needs a profile",
+                "give at least one curve for each flank",
             )
         )
     last = None

@@ -62,7 +62,9 @@ class OutlinePair:
         return z2 if self.first.equal else lcm(z1, z2)
 
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
-        """Return the fields of `FlankContact` at driver angles of shape (n,) [rad]; tolerance `within` [rad]."""
+        """Return the fields of `FlankContact` at driver angles of shape (n,) [rad]. Tooth pairs with a gap below
+        `within` [rad] count as in contact.
+        """
         period = self.cycle * self.first.pitch
         # computed within one period; whole periods are added afterwards, so that their rounding does no harm
         turns = np.floor(self.sign * phi1 / period)
@@ -139,7 +141,9 @@ class OutlinePair:
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return the number of tooth pairs at each position that touch at the driven angle `minimum` or beyond."""
+        """Return the number of tooth pairs at each driver position that touch at the driven angle `minimum` or
+        beyond.
+        """
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
 

@@ -39,9 +39,10 @@ class OutlineMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a driven tooth past the line of centres at angle 0, where flanks touch [pitch].
+        """Distance of a tooth of the driven wheel past the line of centres while the driven angle is 0 [pitch].
 
-        It is the sum of half the tooth thicknesses of both wheels.
+        A tooth of the driver is then on the line of centres, and flanks touch. The distance is the sum of half the
+        tooth thicknesses of both wheels.
         """
         return self.transmission.gears.half_teeth / pi
 
@@ -58,14 +59,14 @@ class OutlineMesh(GearMesh):
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of a single tooth pair of the outlines, with the effects of displaced flanks."""
+        """Contact of a single tooth pair of the outlines, and lag of the driven wheel caused by displaced flanks."""
         from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
         return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
-        """Return a report of speed ratio, transmission error, backlash and efficiency in both directions of power
-        flow.
+        """Return the report of the pair: speed ratio, transmission error, backlash, and efficiency with either wheel
+        driving.
         """
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 

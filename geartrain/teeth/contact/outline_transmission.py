@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.transmission_fit import PiecewiseTransmission
 
-_NEAR_PITCH_POINT = 1e-7  # of the centre distance: uncertainty of roots of differences of squares
+_NEAR_PITCH_POINT = 1e-7  # fraction of the centre distance: uncertainty of roots of differences of squares
 _FLAT = 1e-9  # smaller friction slopes against a contact are rounding error, and do not lock
 _SAMPLES = 256  # angles of a pitch at which backlash is evaluated
 
@@ -87,7 +87,9 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, backlash and gaps in contact at this distance."""
+        """Verdict on whether the pair can run: faults of its teeth, backlash, and gaps in contact at the centre
+        distance.
+        """
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding error
@@ -179,7 +181,8 @@ class OutlineTransmission(ToothTransmission):
 
 
 def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cos psi and the terms of input and output power per unit friction coefficient, for a contact at (x, y).
+    """Return the cosine of the pressure angle, and the terms of input and output power per unit friction
+    coefficient, for a contact at (x, y).
 
     (x, y) is relative to the instantaneous pitch point; R1 and R2 are the distances of that point from the axles.
     """
@@ -193,8 +196,8 @@ def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Fl
 
 
 def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cos psi and the terms of input and output power per unit friction coefficient, at driver angles `forward`
-    [rad].
+    """Return the cosine of the pressure angle, and the terms of input and output power per unit friction
+    coefficient, at driver angles `forward` [rad].
     """
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding error
+_JUMP = 1e-6  # fraction of the ratio: smaller steps at a kink are rounding error
 # Chebyshev nodes are interior, so that a stretch is never evaluated beyond its kinks
 _NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)
 # between the nodes, where fits have their largest errors, and inside the ends, beyond which the contact may change
@@ -34,33 +34,37 @@ _ALL = np.sort(np.concatenate([_NODES, _CHECKS]))
 # from values to coefficients; at these nodes it is as well conditioned as a cosine transform
 _SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
 _PARTS = 4  # initial stretches of a pitch
-_OFFSET = 0.1180339887498949  # of a stretch: an irrational offset, so that a kink is unlikely to be at an end
-_THIN = 1e-9  # of a pitch: thinner stretches are not divided; a tip tangent to a side makes the speed infinite
+_OFFSET = 0.1180339887498949  # fraction of a stretch: an irrational offset, so that a kink is unlikely to be at an end
+_THIN = 1e-9  # fraction of a pitch: thinner stretches are not divided; a tip tangent to a side makes the speed infinite
 _CUTS = 17  # subdivisions of a gap with a kink; one call for many angles costs little more than for one
 _SAFETY = 2.0  # reported error divided by the maximum found
-_FLAT = 1e-7  # of the ratio: kinks with a smaller change of speed are not refined
+_FLAT = 1e-7  # fraction of the ratio: kinks with a smaller change of speed are not refined
 _LEAP = 1e-9  # rad: a larger step of the angle is a discontinuity, not a kink
 _MOST = 100_000  # maximum number of stretches per driver pitch
 
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """Driven angle as a periodic piecewise polynomial: angle = ratio phi1 + error."""
+    """Driven angle as a periodic piecewise polynomial of the driver angle phi1: ratio phi1 + transmission error
+    [rad].
+    """
 
     ratio: Fraction
     """Mean speed ratio, driven divided by driver, without sign."""
     period: float
     """Period in driver angle [rad]."""
     breaks: Floats
-    """Ends of the intervals [rad], shape (n + 1,), from `breaks[0]` over one period."""
+    """Ends of the intervals [rad], shape (n + 1,), ascending over one period of the driver angle."""
     middles: Floats
-    """Midpoints of the intervals [rad], shape (n,): u = (phi1 - middle) / half is from -1 to 1 except for rounding."""
+    """Midpoints of the intervals [rad], shape (n,). The polynomials have the argument u = (phi1 - middle) / half,
+    which is from -1 to 1 except for rounding.
+    """
     halves: Floats
     """Half widths of the intervals [rad], shape (n,)."""
     errors: Floats
-    """Coefficients of the transmission error [rad] by powers of u, shape (COUNT, n)."""
+    """Polynomial coefficients of the transmission error [rad] by powers of u (see `middles`), shape (COUNT, n)."""
     speeds: Floats
-    """Coefficients of the speed ratio d angle / d phi1 by powers of u, shape (COUNT, n)."""
+    """Polynomial coefficients of the speed ratio by powers of u (see `middles`), shape (COUNT, n)."""
     pair: Indices
     """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
@@ -70,9 +74,9 @@ class PiecewiseTransmission:
     kinks: Floats
     """Driver angles at which the contact changes to another tooth or curve [rad]."""
     uncertainty: float
-    """Estimated error of the angle [rad]: twice the maximum difference found between nodes."""
+    """Estimated error of the driven angle [rad]: twice the maximum difference found between interpolation nodes."""
     speed_uncertainty: float
-    """Estimated error of the speed ratio: twice the maximum difference found between nodes."""
+    """Estimated error of the speed ratio: twice the maximum difference found between interpolation nodes."""
 
     def error(self, phi1: ArrayLike) -> Floats:
         """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
@@ -117,7 +121,9 @@ class PiecewiseTransmission:
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Return the maximum of -d speed / d phi1 within the intervals [1/rad]; 0 if the speed never decreases."""
+        """Return the maximum rate at which the speed ratio decreases with the driver angle within the intervals
+        [1/rad]; 0 if it never decreases.
+        """
         slopes = np.zeros_like(self.speeds)  # degree reduced by one, same number of coefficients
         slopes[:-1] = self.speeds[1:] * np.arange(1, len(slopes))[:, None] / self.halves
         return max(0.0, -extremes(slopes)[0])
@@ -133,8 +139,8 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Intervals with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth, kind of contact, maximum
-    differences.
+    """Intervals with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth and kind of contact, and
+    maximum differences from the function.
     """
 
     ends: Floats

@@ -158,7 +158,7 @@ def _arc_centre(start: Floats, end: Floats, bulge: float) -> Floats:
 
 
 def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
-    """Return the radius of the arc with this bulge between two vertices, in the unit of the vertices."""
+    """Return the radius of the arc with a given bulge between two vertices, in the unit of the vertices."""
     return float(np.hypot(*(end - start))) * (1 + bulge**2) / (4 * abs(bulge))
 
 

@@ -2,10 +2,11 @@
 
 The tooth of an escape wheel is pointed and leans forward, so that a pallet of the anchor touches only its tip.
 
-The teeth of a strain wave have straight flanks. With a wave of n lobes, whose ring gear has n teeth more, the middle
-line of the thin wheel is displaced outwards by w cos(u), w = n/2 modules, without stretching. A tooth then leaves its
-space of the ring by n/2 (1 - cos u) while it moves along by (u - sin u)/2. Flanks at the angle a from the middle of the
-tooth clear each other while n (1 - cos u) tan a > u - sin u (docs/reducers.md, (8)).
+The teeth of a strain wave have straight flanks. With a wave of n lobes, whose ring gear has n teeth more, the
+middle line of the thin wheel is displaced outwards by w cos(u), without stretching. Here w = n/2 modules, and u
+is n times the angle from a crest of the wave. A tooth then leaves its space of the ring by n/2 (1 - cos u)
+while it moves along by (u - sin u)/2. Flanks at the angle a from the middle of the tooth clear each other while
+n (1 - cos u) tan a > u - sin u (docs/reducers.md, (8)).
 """
 
 from __future__ import annotations
@@ -23,17 +24,19 @@ if TYPE_CHECKING:
 ESCAPEMENT = "escapement"
 ESCAPE_WORDS = "of a dead-beat escapement, pointed, faces undercut by 6 degrees"
 UNDERCUT = radians(6.0)
-"""Angle of the leading face of a tooth behind the radius through its tip [rad], as for a dead-beat anchor."""
-_DEPTH = 0.7  # of a pitch: depth of a tooth
-_DEEPEST = 0.5  # of the radius: maximum depth of a tooth
-_BASE = 0.45  # of a pitch: thickness of a tooth at its root
-_LAND = 0.03  # of a pitch: width of a tip
+"""Angle of the leading face of an escape wheel tooth behind the radius through its tip [rad], as for a
+dead-beat anchor.
+"""
+_DEPTH = 0.7  # fraction of a pitch: depth of a tooth
+_DEEPEST = 0.5  # fraction of the radius: maximum depth of a tooth
+_BASE = 0.45  # fraction of a pitch: thickness of a tooth at its root
+_LAND = 0.03  # fraction of a pitch: width of a tip
 WAVE = "strain wave"
 WAVE_WORDS = "of a strain wave, straight flanks of 30 degrees, 0.7 modules out and 0.9 in"
 FLANK = radians(30.0)
-"""Angle of a flank from the centre line of its tooth [rad]."""
+"""Angle of a flank of a strain wave tooth from the centre line of the tooth [rad]."""
 ADDENDUM, DEDENDUM = 0.7, 0.9
-"""Addendum and dedendum [module].
+"""Addendum and dedendum of strain wave teeth [module].
 
 Their sum is below 2 modules: where a wheel with two lobes is bent inwards, its teeth are 2 modules further in than
 where they are fully engaged, and must be out of the tooth spaces.

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _DENSE = 801  # sample points from which the final spacing is computed
 _FEWEST = 8  # minimum number of pieces of a flank
 _FINE = 4e-6  # modules: at smaller tolerances the change of direction is lost in rounding
-_NEAR = 1e-3  # of a flank: points closer than this are merged
+_NEAR = 1e-3  # fraction of a flank: points closer than this are merged
 _STRAIGHT = 1e-9  # modules, or rad: pieces with smaller deviation count as straight
 _MEETING = 1e-9  # rad: fillets closer to each other meet in the middle of the space
 
@@ -240,8 +240,8 @@ def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
 
 
 def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Return the arc coordinates X at which to sample a flank so that all chords deviate equally from it: ds
-    sqrt(curvature) is constant.
+    """Return the arcs X at which to sample a flank so that all chords deviate equally from it: the length of a
+    chord times the square root of the curvature is constant.
     """
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)

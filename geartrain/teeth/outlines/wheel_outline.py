@@ -231,7 +231,14 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
     teeth = teeth.scaled(cut.module)
     if kind != "ring":
         if cut.rim is not None:
-            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --blank rim", "--blank rim"))
+            raise QuestionError(
+                Problem(
+                    "--blank rim does not apply to an external wheel with teeth",
+                    "only rings and lanterns have a rim of declared width",
+                    "omit --blank rim",
+                    "--blank rim",
+                )
+            )
         return [teeth, *bore(cut, root * cut.module)]
     if cut.bore is not None:
         raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --blank bore", "--blank bore"))

@@ -20,7 +20,7 @@ from geartrain.teeth.triangular.real_path import DWELL, DraggedPath, DriveInterv
 from geartrain.teeth.triangular.tooth_pair import APPROACH
 
 MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "dwell", "apart"]
-_ROUNDING = 1e-11  # of a driven pitch: backlash above minus this counts as 0
+_ROUNDING = 1e-11  # fraction of a driven pitch: backlash above minus this counts as 0
 _NEARLY_0 = 1e-9  # of the maximum excess
 
 
@@ -38,26 +38,32 @@ class TriangularContact:
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Drive intervals in order of time."""
+        """Drive intervals over one pitch of the driver, in order of time, including dwells."""
         return self.dragged.intervals
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """Return the interval that contains the driver position t [rad], and the angle alpha_1 there [rad]."""
+        """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] of the
+        driver's apex from the line of centres at t.
+        """
         return _locate(self.intervals, t, self.sizes.p1)
 
     def lag(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the lag of the driven wheel behind its mean motion [rad] at alpha_1 = x [rad], number or array."""
+        """Return the lag of the driven wheel behind its mean motion [rad] while the driver's apex is at the angle x
+        [rad] from the line of centres.
+        """
         y = self.path.tooth_pair.angle(interval.phase, x, m) if interval.held is None else interval.held
         return y - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau at alpha_1 = x [rad], a number or an array; 0 during a dwell."""
+        """Return the speed ratio while the driver's apex is at the angle x [rad] from the line of centres; 0 during a
+        dwell.
+        """
         return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals in which a contact limits the driven wheel, including contacts that cannot drive it; there may be
-        gaps.
+        """Intervals in which a contact limits the driven wheel, including contacts that cannot drive it; gaps are
+        possible.
         """
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
@@ -66,8 +72,9 @@ class TriangularContact:
     def backlash(self) -> float:
         """Minimum backlash at the coast flanks over a pitch [rad of the driven wheel]; negative if they jam.
 
-        The sum of the transmission function and the mirror image of the bounds is smooth between their kinks. Within a
-        smooth cell it has its minimum where both have the same tau.
+        The backlash is the sum of the transmission function of the drive flanks and the mirror image of the bounds of
+        the coast flanks, which is smooth between their kinks. Within a smooth cell its minimum is where both flanks
+        have the same speed ratio.
         """
         pitch = self.sizes.p1
         kinks = {kink % pitch for interval in self.intervals for kink in self._kinks(interval)}
@@ -81,8 +88,8 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """Return the minimum backlash between two kinks [rad]: at one of them, or where both flanks have the same
-        tau.
+        """Return the minimum backlash between two kinks [rad]: at one of them, or where drive and coast flanks have the
+        same speed ratio.
         """
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
@@ -173,14 +180,15 @@ class TriangularContact:
             if lean or back is not None:
                 x = interval.start if interval.phase == APPROACH else interval.end
                 return (
-                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), "
-                    "where it cannot drive"
+                    "a flank leans beyond the perpendicular and cannot drive while the apex of the driver is "
+                    f"{degrees(x):.4g} deg from the line of centres ({interval.phase})"
                 )
         return ""
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """Return the interval that contains the driver position t, and the angle alpha_1 there [rad].
+    """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] of the
+    driver's apex from the line of centres at t.
 
     If t is in a gap, return the nearest interval and an angle outside it.
     """
@@ -323,7 +331,7 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _start_of_range(margin: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the excess from which `margin` is positive; 0 if it is positive at `low`."""
+    """Return the minimum excess above which the function `margin` is positive; 0 if it is positive at `low`."""
     return 0.0 if margin(low) > 0 else _first_sign_change(margin, low, reach)
 
 
@@ -339,7 +347,7 @@ def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
 
 
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Return the bounds of the first range of excess in which `margin` is positive.
+    """Return the bounds of the first range of excess in which the function `margin` is positive.
 
     The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.
     """
@@ -357,13 +365,17 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
 
 
 def _entry(path: RealPath) -> float:
-    """Return the margin at entry [rad of the driven wheel]: negative if a tooth pair enters below the other pairs."""
+    """Return the margin at entry [rad of the driven wheel]: maximum lag that the entering tooth pair permits, minus the
+    maximum lag that the other pairs permit. A negative margin is a clash of tips.
+    """
     last = path.pieces[-1]
     return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
 
 
 def _exit(path: RealPath) -> float:
-    """Return the margin at exit [rad of the driven wheel]: negative if a pair leaves before another pair can drive."""
+    """Return the margin at exit [rad of the driven wheel]: negative if a tooth pair leaves contact before another
+    pair can drive, so that the driven wheel dwells.
+    """
     first = path.pieces[0]
     return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 

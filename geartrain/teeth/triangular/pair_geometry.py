@@ -21,23 +21,26 @@ _NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle f
 
 
 def depth(z: int, beta: float) -> float:
-    """Return the tooth depth divided by the tip radius, Eq. (1), as a product because the printed difference cancels at
-    large z.
+    """Return the tooth depth divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq. (1).
 
-    For a ring gear of z teeth pass -z and multiply by the negative radius.
+    It is computed as a product, because the printed difference cancels at large z. For a ring gear of z teeth pass
+    -z and multiply by the negative radius.
     """
     return 2 * sin(pi / (2 * z)) * cos(beta + pi / (2 * z)) / sin(beta + pi / z)
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank divided by the tip radius, Eq. (2); `beta` is the half aperture angle [rad]."""
+    """Return the length of a flank divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq.
+    (2).
+    """
     return sin(pi / z) / sin(beta + pi / z)
 
 
 def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
-    """Return the maximum |alpha_1| at which tips can touch [rad], Eq. (4), from the overlap of the tip circles.
+    """Return the maximum angle of a tip of wheel 1 from the line of centres at which tips can touch [rad], Eq. (4).
 
-    The overlap is delta = R1 + R2 - D.
+    It follows from the overlap delta = R1 + R2 - D of the tip circles, with tip radii R1 and R2 and centre distance
+    D.
     """
     # half-angle form of the cosine rule: the cosine, near 1, would lose half the digits
     square = delta * (2 * R2 - delta) / (4 * D * R1)
@@ -46,8 +49,8 @@ def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
 
 
 def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
-    """Return the direction psi of a flank of wheel 1 almost tangent to the tip circle of wheel 2 [rad], and sin(psi +
-    alpha_2).
+    """Return the direction psi [rad] of a flank of wheel 1 almost tangent to the tip circle of wheel 2, and sin(psi
+    + alpha_2), where alpha_2 is the angle of the touching apex of wheel 2 from the line of centres.
     """
     sine = min(1.0, (_GRAZING * R2 + R1 * sin(beta)) / D)
     return asin(sine), (D * sine - R1 * sin(beta)) / R2
@@ -221,18 +224,22 @@ class TriangularSizes(Shown):
 
     @cached_property
     def reach1(self) -> float:
-        """Maximum angle alpha_1max at which tips can touch, Eq. (4) [rad]."""
+        """Maximum angle alpha_1max of a tip of the driver from the line of centres at which tips can touch [rad], Eq.
+        (4).
+        """
         return contact_half_angle(*self.signed_radii, self.side * self.D, self.delta)
 
     @cached_property
     def reach2(self) -> float:
-        """Maximum angle alpha_2max at which tips can touch, Eq. (4) [rad]."""
+        """Maximum angle alpha_2max of a tip of the driven wheel from the line of centres at which tips can touch [rad],
+        Eq. (4).
+        """
         return contact_half_angle(*self.signed_radii[::-1], self.side * self.D, self.delta)
 
     @cached_property
     def matching(self) -> float:
-        """Matching position alpha_1m of Eq. (10) [rad], at which the flanks coincide. It is also defined for unequal
-        aperture angles.
+        """Matching position: angle alpha_1m of the driver's apex from the line of centres at which the flanks of both
+        teeth coincide [rad], Eq. (10). It is also defined for unequal aperture angles.
 
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The expression for the
         sine of alpha_1m avoids the difference of nearly equal angles. The value is infinite if no such position exists.
@@ -249,8 +256,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def lean(self) -> tuple[bool, bool]:
-        """Flag for each wheel: True if its flanks overhang, beyond the perpendicular to the mate's radius where tips
-        meet.
+        """Flag for each wheel: True if its flanks overhang, that is, lean beyond the perpendicular to the mate's radius
+        where tips meet.
 
         Flanks overhang in wheels with few, deep teeth. They never overhang in an internal pair, because flank and
         driven radius turn in the same sense.
@@ -262,7 +269,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def entry(self) -> float:
-        """Angle alpha_1 at which a tooth pair comes into contact [rad].
+        """Angle alpha_1 of the driver's apex from the line of centres at which a tooth pair comes into contact [rad].
 
         The angle is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that
         position.
@@ -273,7 +280,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def exit(self) -> float:
-        """Angle alpha_1 at which a tooth pair ceases to drive [rad].
+        """Angle alpha_1 of the driver's apex from the line of centres at which a tooth pair ceases to drive [rad].
 
         The angle is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
         """
@@ -284,13 +291,17 @@ class TriangularSizes(Shown):
 
     @cached_property
     def maximum_excess(self) -> float:
-        """Excess beyond which tips never touch or, in an internal pair, the tip circles overlap at every angle."""
+        """Maximum excess at which the teeth can touch; beyond it tips never touch or, in an internal pair, the tip
+        circles overlap at every angle.
+        """
         apart = min(self.depths) / self.deepest_distance
         return apart if not self.ring else min(apart, 1 + self.side * sum(self.signed_radii) / self.deepest_distance)
 
     @cached_property
     def has_valleys(self) -> bool:
-        """True if neighbouring flanks meet in a valley: beta + 180/z < 90 deg, or beta > 180/z for a ring gear."""
+        """True if neighbouring flanks of both wheels meet in a valley: half aperture angle + 180 deg/z < 90 deg, or
+        half aperture angle > 180 deg/z for a ring gear.
+        """
         wheels = zip(self.signs, (self.z1, self.z2), self.half_angles, strict=True)
         return all(0 < beta + sign * pi / z < pi / 2 for sign, z, beta in wheels)
 

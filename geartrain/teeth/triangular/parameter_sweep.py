@@ -63,7 +63,7 @@ class ParameterSweep:
 def sweep(
     make: TransmissionFactory, ranges: Mapping[str, Sequence[float]], on_point: Callable[[], None] = lambda: None
 ) -> ParameterSweep:
-    """Return the results at every combination of one or two parameter ranges.
+    """Return the results at every combination of values of one or two parameters.
 
     A combination without a valid pair has the verdict "none" and results NaN. Teeth that never touch have their own
     verdict and results NaN. `on_point` is called after each combination.
@@ -132,8 +132,8 @@ def phases_of(transmission: TriangularTransmission) -> str:
 
 @dataclass(frozen=True)
 class VerdictChange:
-    """Value of a parameter at which the verdict or the phases change: `before` is their label below it, `after` above
-    it.
+    """Value of a parameter at which the verdict or the phases of a pair change: `before` is their label at
+    smaller values, `after` at larger values.
     """
 
     value: float

@@ -1,14 +1,17 @@
-"""Real path of contact of triangular teeth: the tooth pair that drives at each position, collisions, dwells, clashes.
+"""Real path of contact of triangular teeth: the tooth pair that drives at each position, collisions, dwells,
+clashes.
 
-Every tooth pair k prevents the driven wheel from lagging behind f(t + k p1) - k p2 (`tooth_pair`). The driven wheel
-therefore follows U(t) = min over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t decreases. Without the
-mean motion, U is the minimum of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between the matching position
-and the ends of contact g is convex, or concave and then convex (few teeth). On each such piece only its ends, or the
-two tooth pairs next to its minimum, can drive, so the cost does not grow with the number of tooth pairs within range.
+The tooth pair k is at the driver angle alpha_1 = t + k p1 and permits the driven angle alpha_2 = f(alpha_1) - k
+p2 at most, with driver position t and angular pitches p1, p2. Both angles decrease with time. The driven wheel
+therefore follows U(t), the minimum over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t
+decreases. Without the mean motion, U is the minimum of the lag g(x) = f(x) - (z1/z2) x over the lattice x = t +
+k p1. Between the matching position and the ends of contact g is convex, or concave and then convex (few teeth).
+On each such piece only its ends, or the two tooth pairs next to its minimum, can drive, so the cost does not
+grow with the number of tooth pairs within range.
 
-The envelope of the tooth pairs decreases with time, but it may be discontinuous. It steps up where a pair leaves
-before the next one can drive (the driven wheel dwells until one reaches it), and down where a pair enters tip against
-tip (a clash). A collision is a step of the speed ratio as another tooth pair takes over.
+The envelope of the tooth pairs decreases with time, but it may be discontinuous. It steps up where a pair
+leaves before the next one can drive (the driven wheel dwells until one reaches it), and down where a pair
+enters tip against tip (a clash). A collision is a step of the speed ratio as another tooth pair takes over.
 """
 
 from __future__ import annotations
@@ -25,13 +28,15 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, RETURN, SLIP, ToothPair
 
 DWELL = "dwell"
-_ROUNDING = 1e-11  # of a pitch: shorter intervals are discarded
-_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding error
+_ROUNDING = 1e-11  # fraction of a pitch: shorter intervals are discarded
+_SMALL = 1e-10  # fraction of a pitch: smaller steps and gaps are rounding error
 
 
 @dataclass(frozen=True, slots=True)
 class MonotonePiece:
-    """Range of alpha_1 [rad] in one phase in which tau is monotonic, so that f is convex or concave."""
+    """Range of the driver's apex angle alpha_1 [rad], within one phase of contact, in which the speed ratio is
+    monotonic, so that the driven angle is convex or concave.
+    """
 
     phase: str
     low: float
@@ -41,7 +46,8 @@ class MonotonePiece:
 
 @dataclass(frozen=True, slots=True)
 class DriveInterval:
-    """Range of alpha_1 from `start` down to `end` in which one tooth pair drives, or none does (dwell).
+    """Range of the driver's apex angle alpha_1 from `start` down to `end` in which one tooth pair drives, or none
+    does (dwell).
 
     `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1 for a position t common to all intervals of a path. In a
     dwell it is the pair that has just let go, and `held` is the angle alpha_2 at which it left the driven wheel.
@@ -51,13 +57,15 @@ class DriveInterval:
     """Phase of contact: approach, recess or dwell; slip or return in a path that includes contacts that cannot drive.
     """
     start: float
-    """Angle alpha_1 at the start [rad]."""
+    """Angle alpha_1 of the driver's apex from the line of centres at the start [rad]."""
     end: float
-    """Angle alpha_1 at the end [rad]."""
+    """Angle alpha_1 of the driver's apex from the line of centres at the end [rad]."""
     tooth_pair: int
-    """Number of the tooth pair."""
+    """Number of the tooth pair that drives, or that drove last before a dwell."""
     held: float | None = None
-    """Angle alpha_2 at which the driven wheel dwells [rad]; None while a tooth pair drives."""
+    """Angle alpha_2 of the driven apex from the line of centres during a dwell [rad]; None while a tooth pair
+    drives.
+    """
 
     @property
     def width(self) -> float:
@@ -69,7 +77,7 @@ class RealPath:
     """Contact of all tooth pairs of two triangular wheels over one pitch of the driver, and the pair that drives."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path; with `slips` it includes contacts that limit the driven wheel but cannot drive it."""
+        """Create the path. If `slips` is True, it includes contacts that limit the driven wheel but cannot drive it."""
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -77,18 +85,19 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] at alpha_1 = x
-        [rad].
+        """Return the lag of the driven wheel behind its mean motion [rad] while the driver's apex is at the angle x
+        [rad]: g(x) = f(x) - (z1/z2) x, with f the angle of the driven apex.
         """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
-        """Return the derivative of g at x: tau minus its mean."""
+        """Return the derivative of the lag g at x: the speed ratio minus its mean."""
         return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Monotone pieces of the path, divided where the curvature of f changes sign: recess, then approach.
+        """Monotone pieces of the path of contact, divided where the curvature of the driven angle changes sign: recess,
+        then approach.
 
         With `slips`, the contacts beyond the exit come first. Empty for teeth without valleys.
         """
@@ -116,7 +125,9 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return the values of g at its extrema between `low` and `high`, where tau is monotonic: at most one value."""
+        """Return the values of the lag g [rad] at its extrema between `low` and `high`, where the speed ratio is
+        monotonic: at most one value.
+        """
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
         x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.tooth_pair.slope(phase, x), low, high)
@@ -126,7 +137,9 @@ class RealPath:
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """Parts of the pieces, at most one pitch long, in which a tooth pair can be the lowest of its piece."""
+        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have the minimum lag of all pairs on its
+        piece.
+        """
         return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
     def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
@@ -153,12 +166,12 @@ class RealPath:
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
-        """Return the increase g(x + p1) - g(x) over one pitch [rad]."""
+        """Return the increase of the lag, g(x + p1) - g(x), over one pitch p1 of the driver [rad]."""
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """Return the minimum of g over the tooth pairs at position t, except pair `besides`; infinite without a pair in
-        range.
+        """Return the minimum lag g [rad] over the tooth pairs at driver position t [rad], except pair `besides`;
+        infinite if none is in range.
         """
         minimum = inf
         for piece in self.pieces:
@@ -173,7 +186,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Drive intervals over one pitch in order of decreasing t, without dwells; there may be gaps."""
+        """Drive intervals over one pitch in order of decreasing driver position t, without dwells; it may have gaps."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:
@@ -185,7 +198,9 @@ class RealPath:
         return self._with_whole_first(_join_neighbours(found))
 
     def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """Return the intervals with the period shifted so that it begins where an interval begins."""
+        """Return the drive intervals of one period, whose start is shifted to the start of an interval so that no
+        interval is divided.
+        """
         if not found:
             return found
         first, last = found[0], found[-1]
@@ -195,7 +210,7 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """Yield the drive intervals in a range of t in which no branch begins or ends."""
+        """Yield the drive intervals in a range of driver positions t in which no branch begins or ends."""
         middle = low + (high - low) / 2
         found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
@@ -218,8 +233,8 @@ class RealPath:
     def _lowest_at(
         self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
     ) -> tuple[MonotonePiece, int]:
-        """Return the lowest branch at t; within rounding error the previous one, because branches may coincide over a
-        range.
+        """Return the branch with the minimum lag g at driver position t. Within rounding error this is the previous
+        branch `last`, because branches may coincide over a range.
         """
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
         minimum = min(heights)
@@ -229,13 +244,13 @@ class RealPath:
 
     @cached_property
     def _noise(self) -> float:
-        """Rounding error of g [rad], from the magnitude of its two terms."""
+        """Rounding error of the lag g [rad], from the magnitude of its two terms."""
         return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
     ) -> Iterator[float]:
-        """Yield the positions t at which two branches intersect."""
+        """Yield the driver positions t [rad] at which the lags of two branches are equal."""
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
         low, high = low + i * self.pitch, high + i * self.pitch
@@ -280,14 +295,16 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27)."""
+    """Impact of teeth: speed ratio before and after, and the relative jump 1 - before/after of Eqs. (22), (25),
+    (26), (27).
+    """
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
     """Phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth."""
     alpha1: float
-    """Driver angle alpha_1 at the impact [rad]."""
+    """Angle alpha_1 of the driver's apex from the line of centres at the impact [rad]."""
     before: float
     """Speed ratio before the impact."""
     after: float
@@ -364,13 +381,17 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum of g over an interval, which the driven wheel reaches from any initial position."""
+    """Return the minimum of the lag g over an interval [rad], which the driven wheel reaches from any initial
+    position.
+    """
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
 def _arrival(path: RealPath, interval: DriveInterval, y: float) -> float:
-    """Return the angle alpha_1 at which the tooth pair of an interval reaches a driven wheel at rest at alpha_2 = y."""
+    """Return the angle alpha_1 of the driver's apex [rad] at which a tooth pair reaches a driven wheel that dwells
+    at alpha_2 = y [rad].
+    """
     return bracketed_root(
         lambda x: path.tooth_pair.angle(interval.phase, x) - y,
         lambda x: path.tooth_pair.speed(interval.phase, x),

@@ -27,17 +27,23 @@ overhanging driver flank. Both limit the backlash. The driven wheel would turn b
 """
 
 FlankLine: TypeAlias = tuple[Any, Any, Any, Any, Any, Any]
-"""Values u = sin(x/2), sin psi, cos psi, s, q, sin y of a contact in approach.
+"""Values of a contact in approach at alpha_1 = x and alpha_2 = y: sin(x/2), sin psi, cos psi, s, q, sin y.
 
-psi = x + beta1 is the direction of the driver's flank; s and q are sine and cosine of psi + y.
+psi = x + beta1 is the direction of the driver's flank, with half aperture angle beta1; s and q are sine and
+cosine of psi + y.
 """
 
 DrivenApex: TypeAlias = tuple[Any, Any, Any, Any, Any]
-"""Values sin x, cos x, arm R2 cos(beta2) - v with v of Eq. (16, smaller root), and sine and cosine of alpha_2."""
+"""Values of a contact in recess or slip at alpha_1 = x and alpha_2 = y: sin x, cos x, arm, sin y, cos y.
+
+The arm is R2 cos(beta2) - v, with tip radius R2, half aperture angle beta2 and the smaller root v of Eq. (16).
+"""
 
 
 class ToothPair:
-    """Constants of one tooth pair, and functions of its contact at any driver angle alpha_1 = x [rad]."""
+    """Constants of one tooth pair, and functions of its contact for the driver's apex at any angle alpha_1 = x
+    [rad] from the line of centres.
+    """
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
 
@@ -65,7 +71,11 @@ class ToothPair:
         return u, sin_psi, cos_psi, s, q, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """Return R1 cos(beta1) - v with v of Eq. (9): distance along the flank from the foot of O1 to the contact."""
+        """Return the distance along the driver's flank from the foot of the perpendicular from the driver's axis to the
+        contact.
+
+        It is R1 cos(beta1) - v, with tip radius R1, half aperture angle beta1 and v of Eq. (9).
+        """
         # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
         if self.leans:
             return self.D * cos_psi - self.R2 * q
@@ -88,7 +98,11 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def _apex_directions(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, and sine of x."""
+        """Return values of a contact in recess: arm, cosine and sine of beta2 - x - y, sine and cosine of beta2 - y,
+        and sine of x.
+
+        The angles of the apices are x and y, and beta2 is the half aperture angle of the driven wheel.
+        """
         sine, cosine, arm, sin_y, cos_y = self._driven_apex(x, m)
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
         return arm, cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine, sin_psi, cos_psi, sine
@@ -96,7 +110,8 @@ class ToothPair:
     # -------------------------------------------------------------------------------------------- motion and friction
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 [rad] at alpha_1 = x [rad] in a phase: Eq. (7) in approach, Eq. (17) in recess and slip.
+        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad] in a phase: Eq. (7) in approach, Eq.
+        (17) in recess and slip.
 
         In the return phase it is the second root of Eq. (7).
         """
@@ -110,7 +125,8 @@ class ToothPair:
         return self.side * m.atan2(sin_y, cos_y)
 
     def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances n1, n2 of both centres from the common normal, with tau = n1/n2.
+        """Return the distances n1 and n2 of both wheel centres from the common normal of the contact; n1/n2 is the
+        speed ratio.
 
         The second is O2C cos(psi) of Eq. (11) in approach, the first is O1C cos(psi2) of Eq. (18) in recess.
         """
@@ -129,7 +145,7 @@ class ToothPair:
         return first / second
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the derivative d tau / d alpha_1 [1/rad].
+        """Return the derivative of the speed ratio tau with respect to alpha_1 [1/rad].
 
         In approach it is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi], in recess tau (1 + tau) [(1 + tau)
         tan(beta2 - x - y) - tau tan(beta2 - y)]: in reversed motion the driven wheel meets the driver in approach at
@@ -148,9 +164,10 @@ class ToothPair:
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return the side of the line of centres (1 or -1) and the tangents tan2, tan1 of Eqs. (32) and (33).
+        """Return the side of the line of centres on which the contact is (1 or -1), and the tangents tan2 and tan1 of
+        Eqs. (32) and (33).
 
-        The efficiency with wheel 1 driving is eta = (1 - f side tan2) / (1 - f side tan1) at friction coefficient f.
+        The efficiency with wheel 1 driving is (1 - f side tan2) / (1 - f side tan1) at friction coefficient f.
         """
         mirror = self.mirror
         if phase == APPROACH:
@@ -168,8 +185,9 @@ class ToothPair:
     def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the sliding velocity divided by the driver's angular speed, docs/shapes.md (14).
 
-        In approach it is R2 |sin y| / cos psi, the distance from C, times 1 + tau; in recess R1 |sin x| (1 + tau) /
-        cos psi2. (1 + tau) over the cosine is D divided by the distance of the driven axis from the normal.
+        It is 1 + tau, with the speed ratio tau, times the distance of the contact from the instant centre. That
+        distance is R2 |sin y| / cos psi in approach and R1 |sin x| / cos psi2 in recess. (1 + tau) over the cosine is D
+        divided by the distance of the driven axis from the normal.
         """
         if phase == APPROACH:
             *_, q, sin_y = self._flank_line(x, m)
@@ -178,8 +196,8 @@ class ToothPair:
         return abs(self.D * self.R1 * sine / arm)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances b1, b2 of both centres from the line of force at the friction coefficient f, Eqs. (28)
-        to (31), corrected.
+        """Return the distances b1 and b2 of both wheel centres from the line of the contact force at the friction
+        coefficient f, Eqs. (28) to (31), corrected.
 
         That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
         centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).
@@ -198,7 +216,7 @@ class ToothPair:
         return self.D * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
-        """Return f(x) = min(approach, recess) for |x| up to alpha_1max: the angle alpha_2 of the first phase to touch
-        [rad].
+        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x, |x| up to alpha_1max: the smaller of the
+        angles in approach and recess.
         """
         return float(min(self.angle(APPROACH, x), self.angle(RECESS, x)))

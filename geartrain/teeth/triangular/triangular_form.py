@@ -183,7 +183,9 @@ class Triangular(ToothForm):
         return TriangularMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem:
-        """Return the reason: the backlash of triangular teeth follows from their clearance."""
+        """Return the reason why the backlash of the manufacturing options does not apply: the backlash of triangular
+        teeth follows from their clearance.
+        """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
             "their backlash follows from their clearance, and thinner teeth would move differently",

@@ -63,13 +63,13 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can run, with the cause from the clearance window."""
+        """Verdict on whether the teeth of the pair can run, with the cause from the clearance window."""
         found = self.transmission.verdict
         return found if found else found.explained(*explain_clearance(self.transmission, self.window))
 
     @cached_property
     def window(self) -> ClearanceWindow | None:
-        """Clearance window of the pair; None if such teeth do not exist."""
+        """Clearance window of the pair; None if teeth with its sizes do not exist."""
         from geartrain.teeth.triangular.clearance_window import find_window
 
         sizes = self.transmission.sizes
@@ -81,7 +81,7 @@ class TriangularMesh(GearMesh):
         return {self.driver: self.transmission.sizes.R1, self.driven: self.transmission.sizes.R2}
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the scale and centre distance of the pair.
+        """Return the scale and the centre distance of the pair.
 
         The scale follows from a wheel whose tip radius is in `tips`, otherwise from declared lengths, otherwise from
         pitch circles that touch.
@@ -128,8 +128,8 @@ class TriangularMesh(GearMesh):
     def separation(self) -> float:
         """Mean separating force divided by the tangential force, at constant torque on the driven wheel.
 
-        The normal makes the angle psi with the pitch line. The sum of its distances from both centres is n1 + n2 =
-        D cos(psi); with a ring gear, the difference: (31) of docs/strength.md.
+        The common normal makes the angle psi with the pitch line. The sum of its distances n1 and n2 from both centres
+        is D cos(psi), with the centre distance D; with a ring gear, it is the difference: (31) of docs/strength.md.
         """
         transmission = self.transmission
         sizes, arms = transmission.sizes, transmission.contact.path.tooth_pair.normal_arms
@@ -167,7 +167,7 @@ class TriangularMesh(GearMesh):
         return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all problems of these teeth, each with its fix."""
+        """Yield all faults of the teeth of the pair, each with its fix."""
         yield from (fault.problem for fault in self.verdict.faults)
         if self.verdict:
             yield from self.friction_faults()
@@ -189,7 +189,7 @@ class TriangularFigures(PairFigures):
     sizes: TriangularSizes
     """Sizes of the pair; lengths in m, or in the unit of the declared radii."""
     window: ClearanceWindow | None
-    """Clearance window of the pair; None if such teeth do not exist."""
+    """Clearance window of the pair; None if teeth with these sizes do not exist."""
     intervals: tuple[DriveInterval, ...]
     """Real path of contact over one pitch of the driver, in order of time."""
     jumps: tuple[SpeedJump, ...]

@@ -148,7 +148,7 @@ class TriangularTransmission(ToothTransmission):
         )
 
     def alpha1(self, S: ArrayLike) -> Floats:
-        """Return the angle alpha_1 [rad] of the driving tooth pair at driver angles S.
+        """Return the angle alpha_1 [rad] of the apex of the driving tooth from the line of centres at driver angles S.
 
         Parameters
         ----------
@@ -158,7 +158,7 @@ class TriangularTransmission(ToothTransmission):
         return self.mapped(S, lambda interval, x: x)
 
     def mapped(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
-        """Return a function of the contact at driver angles S.
+        """Return the values of a function of the contact at driver angles S.
 
         Parameters
         ----------
@@ -172,7 +172,9 @@ class TriangularTransmission(ToothTransmission):
     def _map_all(
         self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
     ) -> list[Floats]:
-        """Return `count` functions of interval and alpha_1, evaluated at each driver angle."""
+        """Return the values at each driver angle of the `count` functions that `what` computes from the drive interval
+        and alpha_1.
+        """
         S = np.asarray(S, dtype=float)
         edges = self._edges
         gone = np.mod(self.direction * S, self.period) + self._start
@@ -197,7 +199,9 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle of the start of the first interval from the line of centres, modulo the pitch [rad]."""
+        """Angle of the driver's tooth from the line of centres at the start of the first interval, modulo the pitch
+        [rad].
+        """
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
@@ -222,8 +226,8 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals of the path (interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of tau
-        and the line of centres.
+        """Smooth intervals of the path (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of
+        the speed ratio and the line of centres.
         """
         return [
             (interval, high, low)
@@ -241,7 +245,9 @@ class TriangularTransmission(ToothTransmission):
             yield centre
 
     def _line_of_centres(self, phase: str) -> float:
-        """Return the angle alpha_1 at which the contact is on the line of centres, where sliding reverses [rad]."""
+        """Return the angle of the driver's apex from the line of centres [rad] while the contact is on the line of
+        centres, where sliding reverses.
+        """
         if phase != APPROACH:
             return 0.0
         tooth_pair = self.contact.path.tooth_pair
@@ -276,7 +282,9 @@ class TriangularTransmission(ToothTransmission):
         return mean, sqrt(float(weights @ (error - mean) ** 2))
 
     def _samples(self) -> Iterator[tuple[str, Floats]]:
-        """Yield the phase and 101 angles alpha_1 [rad] of each smooth interval in which a tooth pair drives."""
+        """Yield the phase of contact and 101 angles alpha_1 of the driver's apex [rad] for each smooth interval in
+        which a tooth pair drives.
+        """
         for interval, high, low in self.stretches:
             if interval.held is None:
                 yield interval.phase, np.linspace(high, low, 101)
@@ -286,7 +294,7 @@ class TriangularTransmission(ToothTransmission):
         """Minimum friction coefficient that locks the pair at some point of the real path; infinite if the pair never
         locks.
 
-        Friction locks the pair at a point before the line of centres where f tan = 1.
+        Friction locks the pair before the line of centres where f tan1 = 1, with tan1 as in `ToothPair.friction`.
         """
         steepest = 0.0
         for phase, x in self._samples():
@@ -297,10 +305,10 @@ class TriangularTransmission(ToothTransmission):
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Return the maximum of d tau / d alpha_1 [1/rad], from 101 samples of each smooth interval; 0 if tau never
-        decreases.
+        """Return the maximum rate at which the speed ratio decreases [1/rad], from 101 samples of each smooth interval;
+        0 if it never decreases.
 
-        As alpha_1 decreases with time, tau decreases where this derivative is positive.
+        It is the maximum derivative of the speed ratio with respect to alpha_1, which decreases with time.
         """
         slope = self.contact.path.tooth_pair.slope
         return max(0.0, *(float(slope(phase, x, np).max()) for phase, x in self._samples()))
@@ -340,7 +348,7 @@ class ContactCourse(Result):
     )
 
     phases: tuple[str, ...]
-    """Phase of contact of each row."""
+    """Phase of contact in each row of the table."""
     alpha1: Floats
     """Angle of the driver's apex from the line of centres [rad]."""
     alpha2: Floats
@@ -357,7 +365,9 @@ class ContactCourse(Result):
     driven_arm: Floats
     """Moment arm b2 of the force about the driven wheel's axis, in the unit of the sizes; NaN during a dwell."""
     efficiency: Floats
-    """Efficiency tau b2/b1; NaN during a dwell and where friction locks."""
+    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN during a dwell and where friction
+    locks.
+    """
 
 
 def contact_course(

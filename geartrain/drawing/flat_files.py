@@ -134,7 +134,7 @@ def _draw(space: Any, contour: Contour, layer: str) -> None:
 
 
 OUTLINES = (".svg", ".dxf", ".csv")
-"""Suffixes of files that can contain the outline of one wheel."""
+"""Suffixes of the file formats that can contain the outline of one wheel."""
 
 
 def outline_text(wheel: WheelOutline, suffix: str) -> str:

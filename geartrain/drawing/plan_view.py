@@ -231,7 +231,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved off callout lines (2, 2) where there is space, else unmoved."""
+        """Return the names on wheels, moved off callout lines (2, 2) if there is space, otherwise unmoved."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -458,7 +458,7 @@ def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
 
 
 def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
-    """Return points around a wheel that bound it."""
+    """Return points around a wheel that determine its bounding box."""
     most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
     half = wheel.thickness / 2
     return np.concatenate([projected.circle(wheel, most, half), projected.circle(wheel, most, -half)])

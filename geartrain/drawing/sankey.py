@@ -64,7 +64,10 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band; `start` and `end` are its upper edge at both spots [in]. Only return bands skip columns."""
+    """Segment of a band between two spots; `start` and `end` are the positions of its upper edge at these spots [in].
+
+    Only return bands skip columns.
+    """
 
     source: SankeySpot
     target: SankeySpot
@@ -163,7 +166,7 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return losses by node, and the streams; a bearing fed by only one shaft becomes a loss of that shaft."""
+    """Return the losses by node, and the streams. A bearing that only one shaft feeds becomes a loss of that shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -295,7 +298,9 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of a spot's neighbours on one side, weighted by width; its own without any."""
+    """Return the mean position of a spot's neighbours on one side, weighted by band width; its own position if it has
+    none.
+    """
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
         return places[spot]

@@ -90,7 +90,7 @@ class SceneContext:
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Return the declared starting angle of a link [rad]."""
+        """Return the declared starting angle of a link [rad], 0 by default."""
         angle = self.train.declaration.links[link].angle
         return 0.0 if angle is None else angle.si
 

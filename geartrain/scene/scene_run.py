@@ -40,7 +40,7 @@ class LinkCourse(Result):
 
     See Also
     --------
-    SceneRun : contains a course for each body.
+    SceneRun : contains one for each body.
     """
 
     KEYS = ("rate", packed_key("samples", "<u4"), packed_key("angles", "<f4"))
@@ -50,7 +50,7 @@ class LinkCourse(Result):
     samples: Ints
     """Indices of the simulation samples at which `angles` are stored. Shape (n,)."""
     angles: Floats
-    """Angle that the link has turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
+    """Angle that the link has turned since the start, minus `rate` multiplied by the time [rad]. Shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +127,7 @@ class SceneRun(Result):
     contacts: Sequence[SceneContact]
     """Contacts of teeth, pins and the escapement."""
     deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
-    """Maximum deviations of the simulated outputs from the result of `motion`, ahead and behind."""
+    """Maximum angles by which each output is ahead of and behind the motion with all drive flanks in contact [rad]."""
     notes: Sequence[str]
     """Simplifications of the simulation and its replay: omitted effects, and links that are drawn as one."""
 
@@ -172,7 +172,10 @@ class ShownSamples:
         return float(self.time[-1]) / (len(self.time) - 1)
 
     def link(self, turned: Floats, tolerance: float) -> LinkCourse:
-        """Return the course of a link from its angles at all samples [rad], simplified within a tolerance [rad]."""
+        """Return the mean speed of a link and its simplified deviations, from its angles at all samples [rad].
+
+        tolerance   maximum error of the simplified angles [rad]
+        """
         shown = self.of(turned)
         # without the mean motion the stored angles are small, so that float32 has enough digits for them
         rate = float(shown[-1] - shown[0]) / float(self.time[-1])
@@ -217,7 +220,7 @@ def find_run(
     moves   link -> the link of the run that has the same motion
     """
     if (run.train, run.state) != (stage.train.name, stage.answer.state):
-        what = f"the run is of {run.train}{f', state {run.state}' if run.state else ''}"
+        what = f"the run of {run.train}{f', state {run.state}' if run.state else ''} does not belong to this scene"
         why = f"the scene is of {stage.train.name}{f', state {stage.answer.state}' if stage.answer.state else ''}"
         raise QuestionError(Problem(what, why, "pass the run of the same train in the same state"))
     samples = ShownSamples(run)

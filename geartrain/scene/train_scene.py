@@ -243,7 +243,7 @@ class Scene(Shown):
     hangers: Sequence[SceneHanger] = ()
     """Declared pendulum and weight of a built scene; otherwise empty."""
     waves: Sequence[SceneWave] = ()
-    """Strain waves that bend flexible wheels into their rings."""
+    """Strain waves that deflect flexible wheels into mesh with their rings."""
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"

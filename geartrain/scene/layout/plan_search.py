@@ -236,7 +236,7 @@ _ROW = 1.2  # default distance between two axes on a line divided by the sum of 
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
-    """Return the intersections of two circles.
+    """Return the intersections of two circles with the radii r (`radius`) and s (`other`).
 
     For circles that do not intersect, the result is the point on the line of centres midway between them; it is empty
     for concentric circles. With the distance d of the centres, the intersections are at x = (d^2 + r^2 - s^2) / 2d

@@ -133,9 +133,10 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> tuple[Flags, Flags]:
-    """Return the pairs of blocks that must not be at the same height, and the blocks that links and pins would pierce.
+    """Return masks of the pairs of blocks that must not be at one height, and of the blocks that arbors and pins would
+    pierce.
 
-    The shapes of the two masks are (blocks, blocks) and (links and pins, blocks).
+    The shapes of the masks are (blocks, blocks) and (arbors and pins, blocks).
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
     pins     wheel of a pin and wheel of its slot

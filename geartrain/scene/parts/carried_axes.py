@@ -148,7 +148,9 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:
-    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 without wheels."""
+    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 for an axis without
+    wheels.
+    """
     return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
 
 

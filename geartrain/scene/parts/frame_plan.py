@@ -63,7 +63,9 @@ class PlateChoice:
     outside: int
     """1 if the train extends above the front plate, -1 if below the back plate, 0 if neither."""
     cost: tuple[int, int]
-    """Obstacles on all axes, including crossing wheels that a plate would cut; then studs and arbors through one."""
+    """Number of obstacles on all axes, including crossing wheels that a plate would cut, and then the cost of studs and
+    of arbors that pass through a plate.
+    """
 
 
 def best_places(
@@ -146,7 +148,10 @@ def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """Return the first column without an obstacle, else the first; the iterable is read no further than needed."""
+    """Return the first column without an obstacle, otherwise the first column.
+
+    The iterable is read no further than needed.
+    """
     first = None
     for each in columns:
         if not each.hit and not each.tangled:
@@ -173,7 +178,7 @@ class FramePlan:
     core: float | None
     """Diameter of all arbors; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[bool, bool]]
-    """Link -> True or False for an end at a dial below the stack and for an end at a dial above it."""
+    """Link -> (below, above): True for each end of the link's arbor that extends to a dial."""
 
     # --------------------------------------------------------------------------------------------------- as laid out
 
@@ -211,7 +216,9 @@ class FramePlan:
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Return the diameters of an axis' arbor and pivots [mm], as requested or as declared for its link."""
+        """Return the diameters of the arbor and the pivots of an axis [mm], as requested or as declared for its
+        link.
+        """
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
@@ -440,7 +447,7 @@ class FramePlan:
             for disc, room in column.hit:
                 who = f"arbor on axis '{column.axis}'"
                 what = f"the {who} {'passes through' if room < 0 else 'is too close to'} '{disc.name}'"
-                why = f"the gap is {room:.3f} mm, and at least {APART:g} mm is required"
+                why = f"the clearance is {room:.3f} mm, and at least {APART:g} mm is required"
                 yield Problem(what, why, "move the axis, change the order of the wheels, or use a smaller --bore")
         yield from self._thin_roots()
         for each in self.stack.eccentrics:
@@ -510,7 +517,7 @@ class StackHeights:
     """Heights of all parts as built, with plates inserted into the stack of the layout."""
 
     starts: tuple[float, ...]
-    """Lower face of each slab in the layout; `shifts` are the distances by which the slabs move up [mm]."""
+    """Lower face of each slab in the layout [mm]; `shifts` are the distances by which the slabs move up [mm]."""
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
@@ -524,7 +531,9 @@ class StackHeights:
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return heights as built, with plates inserted between slabs of wheels and the lowest slab in its place."""
+    """Return the heights as built: plates are inserted between slabs of wheels, and the lowest slab stays in its
+    place.
+    """
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [

@@ -63,7 +63,9 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield at least six holes between the lobes of a wide wave generator with a hole of diameter `bore` [mm]."""
+    """Yield at least six holes in a wide wave generator between its lobes, around a central hole of diameter `bore`
+    [mm].
+    """
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -216,7 +218,9 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes beside a seat's hub: for studs of carried axes, posts, pins and eccentrics."""
+        """Return the holes in a seat beside the hole of its hub: for studs of carried axes, posts, pins and
+        eccentrics.
+        """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
     def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:

@@ -13,7 +13,10 @@ from geartrain.errors import Problem, QuestionError, suggest
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """Manufacturing process of flat parts and of those that turn in them [mm]; `web` and `wall` are minima."""
+    """Manufacturing process with its kerf and fits [mm].
+
+    `web` is the minimum width of material between two cuts, and `wall` the minimum thickness of a pipe's wall.
+    """
 
     name: str
     """Name of the process: laser, cnc, fdm or hand."""

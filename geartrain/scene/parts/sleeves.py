@@ -178,7 +178,9 @@ class Barrel:
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters; None if weight or drum is undeclared or space lacks."""
+    """Return the barrel of the link at which power enters; None without a declared weight or drum, or if there is no
+    space.
+    """
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:
         return None

@@ -111,7 +111,7 @@ class Passage:
     middle: Point
     """Centre of the rectangle, in the coordinates of the stack [mm]."""
     way: Point
-    """Unit vector along the length of the rectangle; `length` and `width` are half its sides [mm]."""
+    """Unit vector along the length of the rectangle; `length` and `width` are half the lengths of its sides [mm]."""
     length: float
     width: float
 
@@ -186,7 +186,9 @@ def _notched(line: Floats, start: float, width: float) -> Floats:
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """Return the farthest edge beyond `start` that crosses a level, by its first point, and the intersection."""
+    """Return the first edge beyond `start` along x that crosses the height `level`: the index of its first point, and
+    the intersection.
+    """
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
     a, b = line[crossing], after[crossing]

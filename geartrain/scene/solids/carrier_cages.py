@@ -74,7 +74,9 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face, and downward direction; None without one."""
+        """Direction towards the reader of the first dial on a face of the train, and downward direction; None without
+        such a dial.
+        """
         normal = self.plan.stack.normal
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
         face = next(faces, None)
@@ -202,7 +204,9 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the ends of a body's wheels along its direction, from its point [mm]; None without, besides rings."""
+    """Return the ends of a body's wheels along its direction, from its point [mm]; None for a body without wheels or
+    with rings only.
+    """
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -293,7 +297,9 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of a body with an axis inclined to its carrier's; `reach` is its arbor's end along the body [mm]."""
+    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the end of its arbor along the body
+    [mm].
+    """
 
     body: int
     reach: float
@@ -349,7 +355,9 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1, -1) and place [mm]."""
+        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1 or -1) and its position
+        [mm].
+        """
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)

@@ -27,7 +27,9 @@ _STOCK = (
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
 )  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
-"""Minimum and maximum sizes that can be made [mm]: curves are drawn to 0.001 mm, and other parts match."""
+"""Minimum and maximum sizes that can be made [mm]: outlines are accurate to 0.001 mm, and arbors and plates are a few
+mm.
+"""
 _SHEET = (1, 1e5)  # mm: limits of the sides of sheets
 _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
 
@@ -88,7 +90,7 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
     low, high = bounds
     if low <= value <= high:
         return []
-    why = "drawings are accurate to 0.001 mm, and arbors and plates are a few millimetres thick"
+    why = "drawings are accurate to 0.001 mm, and the sizes of arbors and plates are some millimetres"
     return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 
@@ -123,7 +125,10 @@ def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout
 
 
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
-    """Return the layout's enlargement for the requested module, 1 without; raise `QuestionError` if sizes are given."""
+    """Return the factor by which a requested module enlarges a layout; 1 without a requested module.
+
+    Raise `QuestionError` if the declaration gives sizes.
+    """
     if making.module is None or not layout.wheels:
         return 1.0
     given = [name for name, place in layout.wheels.items() if place.given]
@@ -132,7 +137,7 @@ def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
         named = f"the module of '{given[0]}'" if given else f"the position of axis '{placed[0]}'"
         why = f"it gives {named}, and declared sizes take precedence"
         fix = "omit --module, or remove the sizes from the file"
-        raise QuestionError(Problem("the declaration already has sizes", why, fix, "--module"))
+        raise QuestionError(Problem("no module can be set: the declaration already has sizes", why, fix, "--module"))
     return making.module / usual_module(layout)
 
 

@@ -132,8 +132,8 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw; raise `QuestionError` if an output is unknown, or if there are no faces or more
-    than 60.
+    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, for none to draw, or for more than 60
+    faces.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:

@@ -2,7 +2,8 @@
 
 SVG: one user unit is a millimetre, and y points downwards as SVG requires, so that the part is not mirrored.
 
-DXF: units are millimetres; each use has a layer, and contours are closed polylines with arcs.
+DXF: units are millimetres. Contours to cut, curves for orientation and engraving are on separate layers, and contours
+are closed polylines with arcs.
 
 Outlines of single wheels are written as SVG, DXF or CSV, in mm.
 """

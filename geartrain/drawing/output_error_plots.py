@@ -46,7 +46,7 @@ _OUTPUTS, _STACKED = 12, 4  # maximum number of outputs drawn, and of outputs in
 _WIDE = 5.0  # inches: width of a panel next to others
 _TICKS = 6  # maximum number of intervals between ticks below a panel
 _TURNING_POINTS = 60  # turning points drawn of a curve that would otherwise fill its panel
-_ROUNDING = 1e-12  # rad: smaller deviations are rounding
+_ROUNDING = 1e-12  # rad: smaller deviations are rounding errors
 _MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the panel
 
 
@@ -269,7 +269,7 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
 _ABOVE_LEGEND = 20  # points from the title to the upper panel
 _MOST_POSITIONS = 6000  # positions drawn of the torque: the first of each interval, its minimum and its maximum
 _BINS = 900  # intervals, about one per pixel, over which losses are averaged if there are more positions
-_MINIMUM = 1e-9  # relative to all losses: smaller losses are rounding
+_MINIMUM = 1e-9  # relative to all losses: smaller losses are rounding errors
 _CUT = 1.5  # axis limit over the 98 % quantile of the torque, which is unbounded near a lock
 _MOST_LOSSES = 6
 """Maximum number of parts that are drawn separately, by largest loss; the other parts are drawn as one."""

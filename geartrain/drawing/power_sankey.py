@@ -138,7 +138,7 @@ class _NodeLabels:
 
 
 def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
-    """Draw a forward band: circulating power above, through power below."""
+    """Draw a forward band with its circulating power above and its transmitted power below."""
     circling = float(band[0].stream.circling) * placed.scale
     for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
         if width > 0:

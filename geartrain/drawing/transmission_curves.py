@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 
 _PERIOD_SAMPLES = 1601
-_LOST = 1e-12  # relative to the power: smaller losses are rounding
+_LOST = 1e-12  # relative to the power: smaller losses are rounding errors
 _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "efficiency")
 
 

@@ -290,7 +290,7 @@ def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str
 
 
 def _original(wheel: str, own: dict[str, str], link: str) -> str:
-    """Return the declared wheel of a copied wheel, whose name has the same suffix as its link."""
+    """Return the declared wheel from which a wheel was copied; both the copy and its link have the same suffix."""
     end = link.removeprefix(own[link])
     return wheel.removesuffix(end) if end else wheel
 

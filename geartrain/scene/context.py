@@ -100,7 +100,9 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis, reversed if opposite to z or to the first declared parallel axis."""
+        """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel
+        to it.
+        """
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):

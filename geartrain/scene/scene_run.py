@@ -143,7 +143,7 @@ _FLAT = 1e6  # ratio of the scales of time and angle, so that deviations from a 
 
 @dataclass(frozen=True)
 class ShownSamples:
-    """Samples of the evaluated part of a run, including the sample at time 0, which a run does not store."""
+    """Samples of the evaluated part of a run, including the sample at time 0, which is not stored in the run."""
 
     run: TimeRun
 

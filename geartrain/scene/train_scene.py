@@ -250,7 +250,9 @@ class Scene(Shown):
         return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the scene as plain data, arrays as base64 of little-endian numbers, a run only if there is one."""
+        """Return the scene as plain data, with arrays as base64 text of little-endian numbers; a run is included if
+        there is one.
+        """
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:
             del named["run"]

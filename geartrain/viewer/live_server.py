@@ -76,8 +76,8 @@ class LiveServer:
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
-        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, empty if there is
-        no error.
+        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, or an empty
+        string.
         """
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(report))

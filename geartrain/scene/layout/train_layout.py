@@ -430,7 +430,9 @@ def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seats of wheels in pairs with non-parallel axes, except wheels that also mesh with parallel ones."""
+    """Return the seats of wheels in pairs with non-parallel axes, except wheels that also mesh with wheels on parallel
+    axes.
+    """
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}

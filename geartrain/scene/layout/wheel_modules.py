@@ -219,7 +219,7 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return the modules of roots: declared modules, otherwise least-squares fits to declared positions and
+        """Return the modules of roots: declared modules, otherwise fits by least squares to declared positions and
         offsets.
 
         For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.

@@ -50,7 +50,7 @@ class StackProblem:
     ends: Mapping[str, DialEnds]
     """Link -> ends of its arbor that extend beyond the stack to a dial."""
     plates: Mapping[str, str]
-    """Arbor -> wheel that carries the axis of the arbor."""
+    """Arbor -> wheel of a carrier that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
     """Wheel with a pin and wheel with its slot, in the order of the rows of `pierce` after the rows of arbors."""
     still: str = ""
@@ -298,7 +298,9 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run moved, or reversed."""
+    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run of levels moved or
+    reversed.
+    """
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):

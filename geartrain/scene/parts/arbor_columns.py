@@ -303,7 +303,7 @@ class ColumnProblem:
 
 
 def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
-    """Return the ends of each piece [mm]; where several pieces carry hands, inner pieces extend beyond outer pieces."""
+    """Return the ends of each piece [mm]; inner pieces that carry hands extend beyond the hands of outer pieces."""
     found, steps = [], [0, 0]
     for each in reversed(order):
         below, above = each.ends

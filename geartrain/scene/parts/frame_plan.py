@@ -141,7 +141,7 @@ def obstacles(columns: Iterable[AxisColumn]) -> int:
 
 
 def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem:
-    """Return the problem of the same axis with other discs in the stack."""
+    """Return the `ColumnProblem` of the same axis with other discs in the stack."""
     own = [disc for disc in discs if disc.axis == axis.axis]
     others = [disc for disc in discs if disc.axis != axis.axis]
     return replace(axis, discs=own, others=others)
@@ -478,7 +478,7 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Yield arms beyond all wheels for links that extend to a dial and cannot be nested, each joined by a bar."""
+    """Yield arms beyond all wheels for links that extend to a dial and cannot be nested; each is connected by a bar."""
     for link in column.tangled or ():
         below, above = ends.get(link, (False, False))
         about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]

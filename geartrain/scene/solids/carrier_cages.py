@@ -191,7 +191,9 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of the frame's arbors across the normal; `bores` are diameters by axis [mm]."""
+    """Return the brackets of the frame's arbors that are parallel to its plates; `bores` are arbor diameters by axis
+    [mm].
+    """
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
@@ -307,7 +309,9 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are diameters by axis [mm]."""
+    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are arbor diameters by axis
+    [mm].
+    """
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]

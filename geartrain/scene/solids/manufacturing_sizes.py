@@ -237,7 +237,7 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return True if a wheel is a spur wheel of its module's default thickness, not declared or broadened."""
+    """Return True if a spur wheel has the default thickness of its module, neither declared nor broadened."""
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain

@@ -258,7 +258,9 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with rings of separate pins, whose teeth are the parts between two seats of pins."""
+    """Return the scene with new profiles for rings of separate pins: their teeth are the material between two seats of
+    pins.
+    """
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)

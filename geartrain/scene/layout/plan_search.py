@@ -137,8 +137,8 @@ class PlanOrder:
     index    index of each axis
     radius   radius of the widest wheel of each axis [mm]
     bars     all required distances
-    alike    axis -> all axes of its carrier, including itself, with only one bar each, of equal length, to the carrier's
-             axis
+    alike    axis -> all axes of its carrier, including itself, that have only one bar, of equal length, to the axis of
+             the carrier
     steps    axes in the order in which they are placed
     """
 

@@ -64,7 +64,7 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     kind: str
-    """Name of the deviation on the axis: transmission error with real teeth, otherwise anomaly."""
+    """Name of the deviation on the axis: transmission error if the train has tooth forms, otherwise anomaly."""
     first: tuple[Floats, Floats, Floats]
     """Turns, deviation [rad] and relative speed at each of the first positions."""
 
@@ -190,7 +190,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
 
 
 def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, Floats, Floats]]:
-    """Return turns, deviation [rad] and relative speed of each output at the first positions, without reduction."""
+    """Return turns, deviation [rad] and relative speed of each output at all of the first positions."""
     columns = zip(passage.error[:, :_MOST], passage.rate[:, :_MOST], means, strict=True)
     return [(passage.turns[:_MOST], error, (mean + rate) / (mean or 1.0)) for error, rate, mean in columns]
 
@@ -277,7 +277,7 @@ _OTHERS = 9  # series of the remaining parts, whose fill in print is used by no 
 
 
 class _Loss(NamedTuple):
-    """Power lost (n,) over the turns by a pair, pin or bearing, or by all parts that are not drawn separately."""
+    """Power (n,) lost over the turns in a pair, pin or bearing, or in all parts that are not drawn separately."""
 
     name: str
     power: Floats

@@ -119,7 +119,8 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, the shortest innermost, and the space that they require on either side of columns [in].
+    """Return the return bands, the shortest innermost, and the space [in] that they require on either side of each
+    column.
 
     The keys of the space are (column, True) for the right side and (column, False) for the left side.
     """
@@ -144,7 +145,9 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return abscissae of column centres [in] with space for names and return bands, over the minimum width."""
+    """Return abscissae of column centres [in] with space for names and return bands, at least over the width `minimum`
+    [in].
+    """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     gaps = []
@@ -309,7 +312,9 @@ def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float
 
 
 def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the cost of crossings near some columns: products of crossing widths, plus a constant per crossing."""
+    """Return the cost of crossings near some columns: the product of the widths of both bands plus a constant, per
+    crossing.
+    """
     total = 0.0
     for at in columns:
         places = {spot: place for place, spot in enumerate(table[at])}

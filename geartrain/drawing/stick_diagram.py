@@ -202,9 +202,9 @@ class StickMesh:
     x: float
     """Abscissa of the column [in]. The vertical line of a ring is one column further to the right."""
     low: float
-    """Lower end of the part of the mesh in the column [in]."""
+    """Lower end of the lines of the mesh in its column [in]."""
     high: float
-    """Upper end of the part of the mesh in the column [in]."""
+    """Upper end of the lines of the mesh in its column [in]."""
     meet: float
     """Height at which the wheels touch [in]."""
 

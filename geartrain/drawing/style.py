@@ -134,7 +134,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield an artist's texts, except those of hidden axes, whose ticks would be created only for this query."""
+    """Yield the texts of an artist, except those of hidden axes, whose ticks would be created only for this purpose."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child

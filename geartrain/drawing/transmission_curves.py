@@ -227,7 +227,7 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits around the real path and the ideal path near it; 0 and 1 without finite values."""
+    """Return axis limits around the real path and the nearby part of the ideal path; 0 and 1 if no value is finite."""
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0

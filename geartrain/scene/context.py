@@ -75,7 +75,9 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return a link's exact speed over that of the driving link; None if undetermined or if none is driven."""
+        """Return the exact speed of a link divided by that of the driving link; None if undetermined or if no link is
+        driven.
+        """
         found = self.speed(link)
         if found is None or self.driving_link is None:
             return None
@@ -123,12 +125,14 @@ class SceneContext:
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with real teeth; empty if they cannot be built (`unbuilt` gives the reasons)."""
+        """Gear pairs with their computed tooth geometry; empty if it cannot be computed (`unbuilt` gives the
+        reasons).
+        """
         return self._built[0]
 
     @property
     def unbuilt(self) -> tuple[Problem, ...]:
-        """Reasons why real teeth cannot be built; empty if they can be built."""
+        """Reasons why the tooth geometry cannot be computed; empty if it can."""
         return self._built[1]
 
     @cached_property

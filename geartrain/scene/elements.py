@@ -247,7 +247,7 @@ class ScenePair(Shown):
     and of their carrier k, equation (4) of docs/theory.md.
     """
     form: str
-    """Tooth form of the pair; empty if its real teeth are not known."""
+    """Tooth form of the pair; empty if its tooth geometry is not known."""
     text: str
     """Equation of the pair's fundamental circuit as a string."""
     broken: bool = False

@@ -80,7 +80,9 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield pairs whose real teeth cannot run, in the form of loops (`_loop_data`), with reason and remedy."""
+    """Yield pairs whose tooth forms cannot run together, in the form of loops (`_loop_data`), with reason and
+    remedy.
+    """
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]

@@ -184,7 +184,9 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return indices of samples at which a contact changes, and new states as letters; empty without flanks."""
+        """Return indices of samples at which a contact changes, and its new states as letters; empty for a contact
+        without flanks.
+        """
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))

@@ -191,7 +191,7 @@ class Scene(Shown):
     positive: str
     """Sense of rotation of a positive speed, as declared."""
     front: int
-    """Side of z from which the train is viewed, 1 or -1."""
+    """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
     driving_link: int | None
     """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None

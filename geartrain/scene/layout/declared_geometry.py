@@ -38,7 +38,7 @@ class AxisLine:
     label: str
     direction: Vector
     group: int
-    """Number of the axis's group of parallel axes."""
+    """Index of the group of parallel axes to which the axis belongs."""
     bearers: tuple[str, ...]
     """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
@@ -175,7 +175,7 @@ class DeclaredGeometry:
     strays: tuple[tuple[str, str, str], ...]
     """Wheels that a gear pair requires on a different axis than earlier pairs do: wheel, pair and axis."""
     front: int
-    """Side of z from which the train is viewed: 1 or -1."""
+    """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
     dial_ends: Mapping[str, DialEnds]
     """Link -> ends of its arbor that extend to a dial."""
     driven: str | None

@@ -322,7 +322,7 @@ class Arrangement:
     stacks: Sequence[WheelStack]
     """Stack of wheels of each group of parallel axes."""
     main: int
-    """Number of the group of parallel axes with the most wheels; -1 without axes."""
+    """Index of the group of parallel axes with the most wheels; -1 for a train without axes."""
     up: Vector
     """Upward direction of the group `main`."""
 

@@ -25,7 +25,7 @@ class PlanProblem:
     labels: Sequence[str]
     """Labels of the parallel axes, in the order of their indices."""
     bearers: Mapping[str, str]
-    """Link that carries each axis."""
+    """Axis -> link that carries it."""
     pivots: Mapping[str, str]
     """Axis -> axis of the carrier that carries it, which is placed first."""
     fixed: Mapping[str, Point]

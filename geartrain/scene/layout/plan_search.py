@@ -298,7 +298,9 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return deterministic points in plan of all axes [mm], at the required distances or fitted to them."""
+    """Return points in plan of all axes [mm] at the required distances, or fitted to them; the result is
+    deterministic.
+    """
     return _BeamSearch(problem).found()
 
 
@@ -359,7 +361,9 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points on a line with a placed axis, at required or free distances; empty without such a line."""
+        """Return candidate points of an axis that must lie on a line with a placed axis, at required or free distances;
+        empty for other axes.
+        """
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
             if label not in pair:

@@ -109,7 +109,7 @@ class WheelBlock:
     """Index of the wheel's axis. `link` is the link of its arbor, empty for a crossing wheel."""
     link: str
     stack: int
-    """Number of the stack: a set of wheels with fixed relative heights because they mesh."""
+    """Index of the stack, which is a set of wheels with fixed relative heights because they mesh."""
     offset: float
     """Height in the stack; `low` and `high` are the extents below and above this height."""
     low: float

@@ -104,7 +104,11 @@ def _simple(factor: float) -> Fraction:
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance without using it (Dijkstra); empty without a path."""
+    """Return the shortest path between the two axes of a distance that does not use this distance (Dijkstra's
+    algorithm).
+
+    It is empty if there is only the distance itself.
+    """
     import networkx as nx
 
     graph: nx.Graph[str] = nx.Graph()
@@ -134,7 +138,9 @@ class WheelModules:
     """Wheel -> module [mm]."""
     declared: frozenset[str]
     distances: Mapping[tuple[str, str], float]
-    """Pair of axes -> required distance [mm]: a pin's declared offset, else the mean distance of its gear pairs."""
+    """Pair of axes -> required distance [mm]: the declared offset of a pin, otherwise the mean distance of its gear
+    pairs.
+    """
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
@@ -242,7 +248,7 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes [mm] from their declared points, else from a pin's offset, else None."""
+        """Return the distance of two axes [mm] from their declared points, or from a pin's declared offset, or None."""
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -335,7 +341,7 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
 
 
 def opposite(v: Vector) -> Vector:
-    """Return the opposite of a vector, without components -0.0, which would be printed in pictures."""
+    """Return the opposite of a vector, with 0.0 instead of any component -0.0, which would be printed in pictures."""
     return minus((0.0, 0.0, 0.0), v)
 
 

@@ -98,7 +98,7 @@ class _OrderSearch:
 
     @cached_property
     def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
-        """Stacks of fixed wheels by axis, for axes with several such stacks, whose wheels are one piece."""
+        """Axis -> stacks of its fixed wheels, for axes with several such stacks; these wheels are one piece."""
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
             if block.link and block.link == self.problem.still and not block.across and not block.inner:

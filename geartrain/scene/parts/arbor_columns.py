@@ -134,12 +134,14 @@ class ColumnProblem:
         return beside(self.axis, self.at, self.others)
 
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
-        """Yield possible columns with their obstacles, in order of preference."""
+        """Yield possible columns (an arbor or stud with its pipes) with their obstacles, in order of preference."""
         order, tangled = self._ordered(places)
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Return the column with a single bearing, in a bridge, with a collar at either side of the bridge."""
+        """Return the column (arbor and pipes) with a single bearing, in a bridge, and a collar on either side of the
+        bridge.
+        """
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
 
@@ -199,7 +201,7 @@ class ColumnProblem:
 
     @cached_property
     def _turning_pieces(self) -> tuple[CoaxialLink, ...]:
-        """Pieces of the column that turn."""
+        """Pieces on the axis that turn: the future arbor and pipes."""
         found = []
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
         parted = {link for link, apart in pieces if apart}
@@ -247,7 +249,9 @@ class ColumnProblem:
                 )
 
     def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
-        """Return a fixed piece from its discs into a plate, with hubs at the middles of discs and plate."""
+        """Return the fixed piece that extends from its discs into a plate, with hubs at the mid-heights of the discs
+        and the plate.
+        """
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))

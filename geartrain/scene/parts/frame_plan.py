@@ -319,7 +319,9 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """Column of each axis of the frame, in a bridge if the plates cannot support the axis."""
+        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if the plates cannot support the
+        axis.
+        """
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
         if self.bridge is None:
             return tuple(found)
@@ -361,7 +363,7 @@ class FramePlan:
 
     @cached_property
     def carried(self) -> dict[str, AxisColumn]:
-        """Column of each carried axis."""
+        """Column (stud, with pipes) of each carried axis."""
         named = {disc.name: disc for disc in self.discs}
         found: dict[str, AxisColumn] = {}
         for seat in self.choice.seats:
@@ -386,7 +388,7 @@ class FramePlan:
 
     @cached_property
     def all_columns(self) -> tuple[AxisColumn, ...]:
-        """Columns of the frame, then columns of carriers."""
+        """Columns (arbor or stud, with pipes) of axes of the frame, then of carried axes."""
         return *self.columns, *self.carried.values()
 
     @cached_property

@@ -218,7 +218,7 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes in a seat beside the hole of its hub: for studs of carried axes, posts, pins and
+        """Return the holes, except that of the hub, in a wheel or plate that carries axes: for studs, posts, pins and
         eccentrics.
         """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]

@@ -113,7 +113,7 @@ class FrameStack:
 
     @cached_property
     def turn(self) -> Floats:
-        """Rotation matrix with right, up and normal of the stack as columns. Shape (3, 3)."""
+        """Rotation matrix whose columns are the directions right and up and the normal of the stack. Shape (3, 3)."""
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:

@@ -44,7 +44,7 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None without space.
+    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None if it does not fit.
 
     size   radius and maximum length of the drum [mm]; the length is reduced to a quarter if necessary
     """

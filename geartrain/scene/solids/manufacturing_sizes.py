@@ -179,7 +179,7 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
 
 
 def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
-    """Return the problem that a pair's form fixes its backlash; None if the backlash can be chosen."""
+    """Return the problem that the tooth form of a pair fixes its backlash; None if the backlash can be chosen."""
     form = declared.form_of(gear)
     return None if form is None else form.own_backlash(gear.name)
 

@@ -149,7 +149,7 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """Parts of the couplings of a scene: pins in wheels, and arms and bars for pins and slots without wheels."""
+    """Parts of the couplings of a scene: pins in wheels, and arms and bars where no wheel has the pin or the slot."""
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
@@ -314,7 +314,9 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost bar position with enough clearance to wheel and arm, or else that with the most."""
+    """Return the outermost bar position with enough clearance to wheel and arm, or else the position with the most
+    clearance.
+    """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]

@@ -107,12 +107,12 @@ class ProjectedScene:
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return the line of a thin wheel's bore (points, 3), which its wave generator touches."""
+        """Return the line of a flexible wheel's bore (points, 3), which its wave generator touches."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) in the deflected middle plane of a thin wheel, given radius and angle (n,) in the
+        """Return points (n, 3) in the deflected middle plane of a flexible wheel, given radius and angle (n,) in the
         undeformed wheel.
         """
         wheel = self.scene.wheels[wave.wheel]
@@ -124,7 +124,7 @@ class ProjectedScene:
         return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
 
     def lobes(self, wave: SceneWave) -> Floats:
-        """Return the points (lobes, 3) of the bore of a thin wheel with the maximum outward deflection."""
+        """Return the points (lobes, 3) of the bore of a flexible wheel with the maximum outward deflection."""
         wheel = self.scene.wheels[wave.wheel]
         bore = wave.middle + wave.rise - wave.wall / 2
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes

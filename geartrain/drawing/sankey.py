@@ -102,7 +102,7 @@ class SankeyLayout:
     """Forward bands, each as a sequence of segments from column to column; `turns` are the return bands."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
-    """Abscissa of the centre of each column."""
+    """Abscissa of the centre of each column [in]."""
     scale: float
     """Inches per unit of power."""
     sheds: Mapping[PowerNode, Fraction]

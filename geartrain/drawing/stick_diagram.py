@@ -214,12 +214,12 @@ class StickSkeleton:
     """Positions of all parts of a diagram [in], from the lower left corner."""
 
     rows: dict[str, tuple[float, float]]
-    """Axis -> heights of its lowest and highest shaft."""
+    """Axis -> heights of its lowest and highest shaft [in]."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
     cranks: list[StickCrank]
     lone: list[tuple[str, float]]
-    """Wheels that have no mate, each with the abscissa of its column."""
+    """Wheels that have no mate, each with the abscissa of its column [in]."""
     width: float
     height: float
 

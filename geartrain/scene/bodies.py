@@ -204,7 +204,7 @@ def _half(z: float, r: float) -> float:
 
 
 def _swept(z: float, r: float) -> float:
-    """Return half the angle of the tooth space that the tips of a rack cut out at relative radius r [rad].
+    """Return half the angle [rad] of the tooth space that the tips of a rack cut out, at `r` pitch radii from the axis.
 
     The rack's tip corner is at the distance `b` from the middle of the rack's tooth and at the height `c` above the
     wheel's axis. After a rotation of the wheel by u - b, the corner is displaced by u and is at the angle atan(u / c) -

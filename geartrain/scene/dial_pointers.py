@@ -70,7 +70,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the used pairs, together with the pairs that turn the pins of used followers."""
+    """Return the pairs on which an output depends, with the pairs that turn the pins of its followers."""
     found, left = set(used), set(swings)
     # repeated, because another follower may turn the link of a pin
     while met := found & left:
@@ -107,7 +107,9 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
 
 
 def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterable[str]) -> tuple[str, ...]:
-    """Return the used pairs, and the pairs of loops that contain them, in breadth-first order from the inputs."""
+    """Return the pairs on which an output depends, and the pairs of loops that contain them, in breadth-first order
+    from the inputs.
+    """
     left = dict.fromkeys(name for name in circuits if name in set(used))
     for loop in stage.train.mobility.loops:
         if any(pair in left for pair in loop.pairs):

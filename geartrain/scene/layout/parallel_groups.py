@@ -170,7 +170,7 @@ class _BlockBuilder:
         return found
 
     def _stack(self, node: Node) -> tuple[int, float]:
-        """Return the number of a node's stack, and the node's height in the stack."""
+        """Return the index of the stack of a node, and the height of the node in this stack [mm]."""
         root, height = self.heights.find(node)
         return self.number.setdefault(root, len(self.number)), height
 

@@ -88,7 +88,9 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return chosen distances [mm] for pins without dimensions, and for carried axes not tied to their pivot."""
+    """Return chosen distances [mm] for pins without dimensions, and for carried axes without a required distance from
+    the axis of their carrier.
+    """
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:

@@ -258,7 +258,10 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the crossings of a line (point, unit vector) with a circle, or twice its point nearest the centre."""
+    """Return the intersections of a line (point, unit vector) with a circle.
+
+    If there is none, the result is twice the point of the line nearest to the centre.
+    """
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]
     square = radius * radius - (u * u + v * v - middle * middle)

@@ -55,8 +55,8 @@ class AxisDistance:
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return the modules of all roots [mm] after those in `free` are multiplied by simple factors, so that all closed
-    chains of axes can close.
+    """Return the modules [mm] of the reference clusters (roots), with those in `free` multiplied by simple factors
+    until all closed chains of axes can close.
     """
     found = dict(modules)
     if not free or len(distances) > _MOST:
@@ -133,7 +133,7 @@ class WheelModules:
     """Modules of the wheels of a train, and the distances between axes that result from them."""
 
     cluster: Mapping[str, int]
-    """Wheel -> number of its cluster; a cluster is a set of wheels that meshes connect."""
+    """Wheel -> index of its cluster; a cluster is a set of wheels that meshes connect."""
     module: Mapping[str, float]
     """Wheel -> module [mm]."""
     declared: frozenset[str]
@@ -196,7 +196,9 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root of each cluster, and module of the cluster divided by the module of that root."""
+        """Root (reference cluster) of each cluster, and the module of the cluster divided by the module of that
+        root.
+        """
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -225,8 +227,8 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return the modules of roots: declared modules, otherwise fits by least squares to declared positions and
-        offsets.
+        """Return the modules of the reference clusters (roots), as declared, otherwise fitted by least squares to
+        declared positions and offsets.
 
         For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.
         """
@@ -364,17 +366,17 @@ class WheelSize:
 
     radius: float
     module: float
-    """Transverse module: pitch diameter divided by the tooth count; axial module of a worm."""
+    """Transverse module, the pitch diameter divided by the tooth count, or axial module of a worm [mm]."""
     thickness: float
-    """Thickness of the wheel's rim along the axis."""
+    """Thickness of the wheel's rim along the axis [mm]."""
     inner: float
-    """Radius of the free space inside a ring; 0 for other wheels."""
+    """Radius of the free space inside a ring [mm]; 0 for other wheels."""
     outer: float
-    """Outer radius, including clearance."""
+    """Outer radius, including clearance [mm]."""
     slot: float = 0.0
-    """Height of the middle of the wheel above the lowest slot, if its level is divided into slots."""
+    """Height of the middle of the wheel above the lowest slot [mm], if its level is divided into slots."""
     plain: float = 0.0
-    """Thickness before the wheel was broadened to mesh with several mates."""
+    """Thickness before the wheel was broadened to mesh with several mates [mm]."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
         """Return the wheel broadened to occupy the slots from `low` to `high`, counted from 0 for the lowest slot."""

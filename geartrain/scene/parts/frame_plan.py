@@ -176,7 +176,7 @@ class FramePlan:
     process: Process
     thickness: float
     core: float | None
-    """Diameter of all arbors; None if it may be chosen for each axis."""
+    """Diameter of all arbors [mm]; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[bool, bool]]
     """Link -> (below, above): True for each end of the link's arbor that extends to a dial."""
 
@@ -301,12 +301,12 @@ class FramePlan:
 
     @cached_property
     def heights(self) -> StackHeights:
-        """Heights of all parts as built, with all plates inserted."""
+        """Heights of all parts as built [mm], with all plates inserted."""
         return stack_up(self._slabs, self.choice.places, self.turning, self.thickness)
 
     @property
     def places(self) -> FramePlaces:
-        """Heights of the faces of both frame plates, as built."""
+        """Heights of the faces of both frame plates, as built [mm]."""
         return self.heights.places
 
     @cached_property
@@ -334,7 +334,8 @@ class FramePlan:
 
     @cached_property
     def bridge(self) -> tuple[float, float] | None:
-        """Faces of a plate beyond all wheels on one side, which supports an axis that the frame plates cannot support.
+        """Heights of the faces of a plate beyond all wheels on one side [mm], which supports an axis that the frame
+        plates cannot support.
 
         It is None if no axis needs a bridge, or if no bridge supports such an axis.
         """

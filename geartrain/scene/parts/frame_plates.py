@@ -87,7 +87,7 @@ class FramePlates:
     feet: tuple[TurnedPart, ...] = ()
     """Feet of dials, and the cock of a pendulum, each in one of the plates."""
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
-    """Mortises of brackets within the outline of a plate, by the side of the plate."""
+    """Mortises of brackets within the outline of a plate, by the name of the plate (back or front)."""
     standing: tuple[StandingPins, ...] = ()
     barrel: Barrel | None = None
     """Barrel from which a weight hangs; None for a train without a weight."""

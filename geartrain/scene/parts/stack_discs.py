@@ -29,25 +29,27 @@ class StackDisc:
     link: str
     axis: str
     at: Point
-    """Position of the disc's axis in plan view of the stack."""
+    """Position of the disc's axis in plan view of the stack [mm]."""
     low: float
     high: float
     outer: float
-    """Outer radius of the teeth or of the rim."""
+    """Outer radius of the teeth or of the rim [mm]."""
     inner: float = 0.0
-    """Radius of the free space within the teeth of a ring, or of a central hole for an eccentric; 0 for other discs."""
+    """Radius of the free space within the teeth of a ring, or of a central hole for an eccentric [mm]; 0 for other
+    discs.
+    """
     root: float = 0.0
-    """Root radius of the teeth; 0 for a plate without a limit on its arbor."""
+    """Root radius of the teeth [mm]; 0 for a plate, which does not limit the diameter of its arbor."""
     hub: bool = True
     """True if the disc is mounted on the arbor of its link; False for a ring."""
     carrier: Point | None = None
-    """Position of the axis about which the disc's axis is carried; None if it is not carried."""
+    """Position of the axis about which the disc's axis is carried [mm]; None if it is not carried."""
     apart: bool = False
     """True for an arm that is connected to its link by an eccentric bar, past the parts between them."""
 
     @property
     def middle(self) -> float:
-        """Height of the middle plane of the disc."""
+        """Height of the middle plane of the disc [mm]."""
         return (self.low + self.high) / 2
 
     def clearance_to(self, at: Point, radius: float) -> float:

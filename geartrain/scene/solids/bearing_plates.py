@@ -54,7 +54,7 @@ class FlatDrawing:
     marks: tuple[EngravedText, ...] = ()
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
-    """Polylines to be engraved, shape (n, 2) each."""
+    """Polylines to be engraved [mm], shape (n, 2) each."""
 
     @property
     def box(self) -> tuple[Floats, Floats]:

@@ -223,7 +223,9 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return wheels' thicknesses [mm] as requested or declared; the rest share a stock size that is near enough."""
+    """Return the thicknesses of wheels [mm]: as requested or declared, and one stock size for all others if it is near
+    enough.
+    """
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)
     own = {name: place.thickness for name, place in layout.wheels.items()}

@@ -374,7 +374,9 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown's flanks at a scale of the radius [rad], for oblique passage of mates' teeth."""
+    """Return the angles [rad] of a crown wheel's flanks at `scale` times the radius, with spaces wide enough for teeth
+    that pass obliquely.
+    """
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)

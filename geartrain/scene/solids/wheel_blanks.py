@@ -137,7 +137,7 @@ class Blank:
     """Kind of wheel: external, ring or pins."""
     form: str
     contours: tuple[Contour, ...]
-    """Contours: first the outer contour, then holes."""
+    """Contours [mm]: first the outer contour, then holes."""
     module: float
     pitch_radius: float
     tip_radius: float

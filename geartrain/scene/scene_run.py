@@ -294,7 +294,9 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the pallets' contact point [mm]: on the link's largest wheel, if possible without mates, or the origin."""
+    """Return the point where pallets touch a link's largest wheel, without mates if possible [mm]; the origin without
+    wheels.
+    """
     if not wheels:
         return (0.0, 0.0, 0.0)
     # an escape wheel has no mate among gears

@@ -114,8 +114,8 @@ class PitchContact:
     stretch: Fraction = Fraction(1)
     """Centre distance of the declared teeth divided by the centre distance at which pitch circles touch."""
     worm_sense: int = 0
-    """1 if positive angles of a worm and its wheel move the pitch point in the same direction, -1 if in opposite
-    directions.
+    """1 if positive angles of a worm and of its wheel move thread and teeth at the pitch point in the same direction,
+    -1 if in opposite directions.
 
     It is 0 for other pairs.
     """

@@ -44,7 +44,7 @@ class StackProblem:
     clash: Flags
     """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
     pierce: Flags
-    """Wheels through which an arbor or a pin would pass if it crossed their height, shape (links and pins, blocks)."""
+    """Mask, shape (links and pins, blocks), of the wheels that each arbor or pin would pass through at their height."""
     arbors: Sequence[str]
     """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]

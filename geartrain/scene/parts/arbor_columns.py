@@ -78,7 +78,7 @@ class AxisColumn:
     members: tuple[ColumnMember, ...]
     """Members from the innermost outwards. For a through arbor, the first member is the core."""
     hit: tuple[tuple[StackDisc, float], ...] = ()
-    """Obstructing discs of other axes, with their gaps (below `APART`) [mm]."""
+    """Discs of other axes that obstruct the column, each with its gap [mm], which is less than `APART`."""
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other; None if all links can be nested."""
     on: str = ""

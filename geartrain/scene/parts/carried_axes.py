@@ -174,6 +174,8 @@ def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc as seen from a turning carrier: its own and carried parts are fixed, all others revolve."""
+    """Return a disc as seen from a turning carrier: discs of the carrier and of its axes are fixed, all other discs
+    revolve.
+    """
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)

@@ -104,7 +104,9 @@ class FramePlates:
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
-        """Circles that contain the parts that turn between the plates, in all positions of carriers."""
+        """Circles that contain the parts that turn between the plates, in all positions of carriers, as centre and
+        radius [mm].
+        """
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 

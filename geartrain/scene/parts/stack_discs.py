@@ -53,9 +53,9 @@ class StackDisc:
         return (self.low + self.high) / 2
 
     def clearance_to(self, at: Point, radius: float) -> float:
-        """Return the minimum gap between the disc, at all positions of its carrier, and a fixed column [mm].
+        """Return the minimum gap [mm] between the disc, at all positions of its carrier, and a fixed cylinder.
 
-        It is negative for an overlap. The column has the given radius and may be inside a ring.
+        It is negative for an overlap. The cylinder has the given radius and may be inside a ring.
         """
         if self.carrier is None:
             away = dist(at, self.at)

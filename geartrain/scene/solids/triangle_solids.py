@@ -53,7 +53,7 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
 
 
 def area(polygon: Floats) -> float:
-    """Return the signed area, positive for a counter-clockwise polygon."""
+    """Return the signed area of a polygon, positive if it is counter-clockwise."""
     x, y = polygon.T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
@@ -283,7 +283,7 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
 
 
 def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, Integers]:
-    """Return the triangles repeated in every pitch, with coincident points merged."""
+    """Return the triangles of one pitch repeated in every pitch, with coincident points merged."""
     turn = 2 * pi * np.arange(times)[:, None] / times
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T

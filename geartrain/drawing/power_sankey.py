@@ -80,7 +80,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
         raise GearTrainError(Problem(what, why, "declare `loads` on links that turn"))
     if len(flow.nodes) > _MOST:
         what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
-        why, fix = f"at most {_MOST} are legible in a picture", "declare fewer shafts and pairs, and draw that train"
+        why, fix = f"at most {_MOST} are legible in a picture", "draw a train with fewer shafts and pairs"
         raise GearTrainError(Problem(what, why, fix))
     words = _NodeLabels(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)

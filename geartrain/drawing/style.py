@@ -322,4 +322,4 @@ def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
             f"'{train.name}' has {count} {what}, too many for this picture",
             f"at most {most} {what} are legible",
         )
-        raise QuestionError(Problem(found, why, "write a declaration of fewer parts, or draw another kind of picture"))
+        raise QuestionError(Problem(found, why, "draw a train with fewer parts, or another kind of picture"))

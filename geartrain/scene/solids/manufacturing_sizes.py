@@ -90,7 +90,7 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
     low, high = bounds
     if low <= value <= high:
         return []
-    why = "drawings are accurate to 0.001 mm, and the sizes of arbors and plates are some millimetres"
+    why = "drawings are accurate to 0.001 mm, and arbors and plates are a few millimetres thick"
     return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 

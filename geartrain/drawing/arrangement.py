@@ -174,7 +174,7 @@ def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Occupied boxes (n, 4) on a page [in], used to place labels without overlap."""
+    """Page [in] with occupied boxes (n, 4), on which labels are placed without overlap."""
 
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
 
@@ -228,7 +228,9 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Callouts in columns left and right of a picture, each with its y, and the columns' inner edges [in]."""
+    """Callouts in columns left and right of a picture, each with its ordinate, and the inner edges of the columns
+    [in].
+    """
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -242,7 +244,7 @@ class CalloutMargin:
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Minimum and maximum y of all callouts [in]; (inf, -inf) without callouts."""
+        """Minimum and maximum ordinate of all callouts [in]; (inf, -inf) without callouts."""
         ends = [y + way * each.height / 2 for side in (self.left, self.right) for each, y in side for way in (-1, 1)]
         return min(ends, default=inf), max(ends, default=-inf)
 
@@ -298,7 +300,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return callouts and their y [in] near their points, in the order with the fewest crossing lines found."""
+    """Return callouts with their ordinates [in] close to their points, in an order with few crossing lines."""
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):
@@ -324,7 +326,9 @@ def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[floa
 
 
 def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts with their y [in], as close to their anchors as their order permits (isotonic regression)."""
+    """Return the callouts with their ordinates [in], as close to their anchors as their order permits (isotonic
+    regression).
+    """
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 

@@ -47,17 +47,19 @@ class PointerReading:
 
     output: str
     turned: Fraction | None
-    """Mean turns since the zero pose, clockwise as read positive, exact; None if undetermined."""
+    """Mean rotation since the zero pose [turns], positive clockwise as read, exact; None if it is not determined."""
     error: float
-    """Contribution of the starting angle, teeth and pins to the reading [turns], clockwise as read positive."""
+    """Contribution of starting angle, teeth and pins to the reading [turns], positive clockwise as read."""
     reach: float = 1.0
-    """Length of the hand over its scale's radius; `outline` has points (x, half the width), over this length."""
+    """Length of the hand divided by the radius of its scale; `outline` has points (x, half the width) divided by this
+    length.
+    """
     outline: Sequence[tuple[float, float]] = ()
 
     @property
     def at(self) -> Fraction:
-        """Position of the pointer from the zero mark [turns], clockwise as read; from the zero mark if it is
-        undetermined.
+        """Position of the pointer, clockwise as read from the zero mark [turns]; its mean rotation counts as 0 if it is
+        not determined.
 
         The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line,
         and an error of -1e-17 turns would put it in the cell before.
@@ -67,7 +69,7 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """Face to be drawn, with the indices of the pointers that are read on it; `name` is empty for a plain face."""
+    """Dial face to be drawn, with the indices of the pointers that are read on it; `name` is empty for a plain face."""
 
     name: str
     scale: DialScale
@@ -130,7 +132,9 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to draw; raise `QuestionError` for unknown outputs, no face, or more than 60 faces."""
+    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, for none to draw, or for more than 60
+    faces.
+    """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
@@ -200,7 +204,7 @@ def _sample_length(face: DialPicture) -> float:
 
 
 def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
-    """Draw the engraving of a face: the line along which cells are arranged, the borders of cells, and letters."""
+    """Draw the engraving of a dial face: the line along which cells are arranged, the borders of cells, and letters."""
     for part in engrave(face.scale):
         points = [point for line in part.lines for point in (*line, (np.nan, np.nan))]
         colour = BLACK if part.kind in ("rim", "letters") else GREY

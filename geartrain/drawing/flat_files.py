@@ -2,7 +2,8 @@
 
 SVG: one user unit is a millimetre, and y points downwards as SVG requires, so that the part is not mirrored.
 
-DXF: units are millimetres; each use has a layer, and contours are closed polylines with arcs.
+DXF: units are millimetres. Contours to cut, curves for orientation and engraving are on separate layers, and contours
+are closed polylines with arcs.
 
 Outlines of single wheels are written as SVG, DXF or CSV, in mm.
 """
@@ -134,7 +135,7 @@ def _draw(space: Any, contour: Contour, layer: str) -> None:
 
 
 OUTLINES = (".svg", ".dxf", ".csv")
-"""Suffixes of files that can contain the outline of one wheel."""
+"""Suffixes of the file formats that can contain the outline of one wheel."""
 
 
 def outline_text(wheel: WheelOutline, suffix: str) -> str:

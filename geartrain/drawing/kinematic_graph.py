@@ -74,7 +74,9 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge of kind revolute, gear or coupling between two links; `label` is the axis, or the pair's name."""
+    """Edge between two links, of kind revolute, gear or coupling; `label` is the axis of a turning pair, or the pair's
+    name.
+    """
 
     ends: tuple[str, str]
     kind: str
@@ -96,7 +98,9 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a train's kinematic graph, faulty loops red; raise `QuestionError` for more links than fit on a page."""
+    """Return the kinematic graph of a train, with faulty loops in red; raise `QuestionError` if it has too many
+    links.
+    """
     declared = train.declaration
     links = list(declared.links)
     too_many(train, len(links), _MOST, "links")
@@ -226,7 +230,7 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Traces:
-    """Sampled points (edge, point, 2) of all edges, and each edge's ink per point [in pt]: length times width."""
+    """Sampled points (edge, point, 2) of all edges, and the inked area per point: length [in] times line width [pt]."""
 
     points: Floats
     ink: Floats
@@ -238,7 +242,7 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the ink of edges that is hidden by a box with a margin; the edge `own` is not counted."""
+        """Return the inked area of edges that a box with a margin would hide; the edge `own` is not counted."""
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))
@@ -264,7 +268,9 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return a label's positions along its edge from the middle outwards, with other edges' ink that each hides."""
+    """Return the positions of a label along its edge, from the middle outwards, with the inked area of other edges that
+    each would hide.
+    """
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
         x, y = map(float, _point(curve, share))
@@ -298,7 +304,9 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw a link's name where it hides the minimum of ink; of equal positions, on the side with fewest edges."""
+    """Draw a link's name where it hides the smallest inked area; of equal positions, on the side with the fewest
+    edges.
+    """
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
         for dx, dy in _free_sides(link, at, edges):

@@ -36,7 +36,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: abscissa, members, closed brakes and clutches of each, and speed (None if unknown)."""
+    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if unknown)."""
 
     x: Fraction
     links: list[str]
@@ -110,7 +110,7 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _even_rows(wide: Sequence[float]) -> list[list[int]]:
-    """Return the panels in rows of nearly equal numbers, as few as their total width requires."""
+    """Return the panels in as few rows as their total width permits, with nearly equal numbers of panels."""
     rows = ceil((sum(wide) + _GAP * len(wide)) / _PAGE)
     return [band.tolist() for band in np.array_split(np.arange(len(wide)), min(rows, len(wide)))]
 
@@ -134,7 +134,9 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return a state's heading: name, closed elements, verdict without speeds, and first the unit of speeds."""
+    """Return the heading of a state: its name, closed brakes and clutches, the verdict if speeds are not determined,
+    and for the first state the unit of speeds.
+    """
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:
         said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
@@ -175,7 +177,10 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return a lever's points in order, the carrier apart, with speeds about the carrier's reference direction."""
+    """Return the points of a lever in ascending order of abscissa, with speeds about the carrier's reference direction.
+
+    The carrier has its own point, even if other members have the same abscissa.
+    """
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []

@@ -46,7 +46,7 @@ _OUTPUTS, _STACKED = 12, 4  # maximum number of outputs drawn, and of outputs in
 _WIDE = 5.0  # inches: width of a panel next to others
 _TICKS = 6  # maximum number of intervals between ticks below a panel
 _TURNING_POINTS = 60  # turning points drawn of a curve that would otherwise fill its panel
-_ROUNDING = 1e-12  # rad: smaller deviations are rounding
+_ROUNDING = 1e-12  # rad: smaller deviations are rounding errors
 _MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the panel
 
 
@@ -64,13 +64,13 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     kind: str
-    """Name of the deviation on the axis: transmission error with real teeth, otherwise anomaly."""
+    """Name of the deviation on the axis: transmission error if the train has tooth forms, otherwise anomaly."""
     first: tuple[Floats, Floats, Floats]
-    """Turns, deviation and speed at each of the first positions."""
+    """Turns, deviation [rad] and relative speed at each of the first positions."""
 
     @property
     def errs(self) -> bool:
-        """True if the deviation is larger than rounding errors."""
+        """True if the output deviates from uniform motion by more than rounding errors."""
         return bool(np.ptp(self.error) > _ROUNDING)
 
 
@@ -120,7 +120,9 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def _omitted(erring: int, exact: int) -> Iterator[str]:
-    """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
+    """Yield remarks on outputs that are not drawn, given the numbers of outputs that deviate from uniform motion or do
+    not.
+    """
     if not erring:
         yield "every output moves uniformly"
     less = (erring or exact) - _OUTPUTS
@@ -155,7 +157,7 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
 
 
 def _drawers(trace: _Trace) -> list[_Drawer]:
-    """Return an output's panels: the whole angle for few turns, and only backward motion for many."""
+    """Return the functions that draw an output's panels: the angle for few turns, only backward motion for many."""
     if not trace.errs:
         return [_angle] if np.ptp(trace.mean) <= _MAX_TURNS else [_speed]
     if np.ptp(trace.mean) <= _MAX_TURNS:
@@ -188,13 +190,13 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
 
 
 def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, Floats, Floats]]:
-    """Return turns, deviation [rad] and relative speed of each output at the first positions, without reduction."""
+    """Return turns, deviation [rad] and relative speed of each output at all of the first positions."""
     columns = zip(passage.error[:, :_MOST], passage.rate[:, :_MOST], means, strict=True)
     return [(passage.turns[:_MOST], error, (mean + rate) / (mean or 1.0)) for error, rate, mean in columns]
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the positions to draw: per bin the first and the extremes of deviation and speed, and all reversals."""
+    """Return the positions to draw: the first of each bin, its extremes of deviation and speed, and all reversals."""
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_MOST]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))
@@ -267,7 +269,7 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
 _ABOVE_LEGEND = 20  # points from the title to the upper panel
 _MOST_POSITIONS = 6000  # positions drawn of the torque: the first of each interval, its minimum and its maximum
 _BINS = 900  # intervals, about one per pixel, over which losses are averaged if there are more positions
-_MINIMUM = 1e-9  # relative to all losses: smaller losses are rounding
+_MINIMUM = 1e-9  # relative to all losses: smaller losses are rounding errors
 _CUT = 1.5  # axis limit over the 98 % quantile of the torque, which is unbounded near a lock
 _MOST_LOSSES = 6
 """Maximum number of parts that are drawn separately, by largest loss; the other parts are drawn as one."""
@@ -275,7 +277,7 @@ _OTHERS = 9  # series of the remaining parts, whose fill in print is used by no 
 
 
 class _Loss(NamedTuple):
-    """Power lost (n,) over the turns by a pair, pin or bearing, or by all parts that are not drawn separately."""
+    """Power (n,) lost over the turns in a pair, pin or bearing, or in all parts that are not drawn separately."""
 
     name: str
     power: Floats
@@ -298,7 +300,8 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     -------
     matplotlib.figure.Figure
         Torque, and losses as equivalent torque (power divided by the mean speed of the link) [N m, or
-        number without a unit], against turns of the input. Intervals in which the train locks are shaded.
+        dimensionless if the torque has no unit], against turns of the input. Intervals in which the train locks are
+        shaded.
 
     Raises
     ------
@@ -313,7 +316,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     'torque at sun (N m)'
     """
     if found.turns is None or found.torque is None or not np.isfinite(found.torque).any():
-        what, fix = "the torque over a turn is not known", "declare loads that the input can move"
+        what, fix = "the torque over a turn is not known", "declare loads that the input can drive"
         raise QuestionError(Problem(what, found.verdict.text, fix))
     losses = _losses(found)
     rows = 2 if losses else 1
@@ -374,7 +377,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
 
 
 def _mean_speed(found: TorqueCycle) -> float:
-    """Return turns of the link per turn of the input: 0 if it only swings, 1 if its speed is not known."""
+    """Return the mean turns of a link per turn of the input: 0 if the link only swings, 1 if its speed is not known."""
     assert found.turns is not None
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0
@@ -412,7 +415,7 @@ def _bounds(turns: Floats, values: Floats) -> tuple[float, float]:
 
 
 def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
-    """Return turns and losses (part, position), averaged over equal intervals if there are many positions."""
+    """Return turns and power losses (part, position), averaged over equal intervals if there are many positions."""
     if len(turns) <= 2 * _BINS:
         return turns, powers
     # averages of the integral conserve the energy, whatever the spacing of positions

@@ -179,7 +179,10 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns by panel, extremes of a quantity in one; other columns only without default panels."""
+    """Return the columns of each panel, with both extremes of a quantity in one panel.
+
+    Columns without a default panel are included only if no other columns are given.
+    """
     found: dict[str, dict[str, Floats]] = {}
     for name, values in columns.items():
         stem, _, end = name.rpartition("_")
@@ -255,7 +258,7 @@ def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floa
 
 
 def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
-    """Draw hatching in the regions of faults; name and bound the regions where the pair runs, if there are several."""
+    """Draw hatching in the regions of faults; bound and name the regions where the pair runs, if there are several."""
     for kind, hatch in _FAULTS.items():
         if hatch and (verdicts == kind).any():
             here = (verdicts == kind).astype(float)

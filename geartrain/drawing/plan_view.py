@@ -143,7 +143,7 @@ def _draw_arms(page: ScaledPage, projected: ProjectedScene) -> None:
 
 
 def _draw_waves(page: ScaledPage, projected: ProjectedScene) -> None:
-    """Draw each wave generator from its axis to the points where it deflects its thin wheel outwards."""
+    """Draw each wave generator from its axis to the points where it deflects its flexible wheel outwards."""
     for wave in projected.scene.waves:
         name = f"wave {projected.scene.bodies[wave.by].id}"
         page.axes.add_artist(
@@ -231,7 +231,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved off callout lines (2, 2) where there is space, else unmoved."""
+        """Return the names on wheels, moved off callout lines (2, 2) if there is space, otherwise unmoved."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -374,15 +374,15 @@ class _PlanSize:
     scale: float
     """Inches per millimetre."""
     low: Floats
-    """Lower left corner (2,), relative to the origin of the train."""
+    """Lower left corner (2,) of the plan, relative to the origin of the train [in]."""
     size: Floats
-    """Width and height of the plan (2,)."""
+    """Width and height of the plan (2,) [in]."""
     bottom: float
     """Height of the lowest layer towards the reader [mm]."""
     depth: float
     """Height of all layers together [mm]."""
     deep: float
-    """Width of the side view; 0 without a side view."""
+    """Width of the side view [in]; 0 without a side view."""
 
     @classmethod
     def of(cls, projected: ProjectedScene) -> _PlanSize:
@@ -458,7 +458,7 @@ def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
 
 
 def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
-    """Return points around a wheel that bound it."""
+    """Return points around a wheel that determine its bounding box."""
     most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
     half = wheel.thickness / 2
     return np.concatenate([projected.circle(wheel, most, half), projected.circle(wheel, most, -half)])

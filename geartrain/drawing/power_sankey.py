@@ -80,7 +80,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
         raise GearTrainError(Problem(what, why, "declare `loads` on links that turn"))
     if len(flow.nodes) > _MOST:
         what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
-        why, fix = f"at most {_MOST} are legible in a picture", "declare only a part of the train, and draw that part"
+        why, fix = f"at most {_MOST} are legible in a picture", "draw a train with fewer shafts and pairs"
         raise GearTrainError(Problem(what, why, fix))
     words = _NodeLabels(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
@@ -138,7 +138,7 @@ class _NodeLabels:
 
 
 def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
-    """Draw a forward band: circulating power above, through power below."""
+    """Draw a forward band with its circulating power above and its transmitted power below."""
     circling = float(band[0].stream.circling) * placed.scale
     for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
         if width > 0:

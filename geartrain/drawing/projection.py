@@ -80,11 +80,12 @@ class ProjectedScene:
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
-        """Return the tooth outline of a wheel (points, 3), scaled, and moved by `height` [mm] along axis and helix.
+        """Return the tooth outline of a wheel (points, 3), multiplied by `scale` and moved by `height` [mm] along its
+        axis, with the rotation of its helix.
 
-        It is the tip circle for a lantern pinion, and for a wheel whose teeth are too many to be seen.
+        For a lantern pinion, or a wheel whose teeth are too many to be visible, the result is the tip circle.
 
-        chord   maximum distance [mm] of omitted points from the line
+        chord   maximum distance [mm] of omitted points from the outline
         """
         profile = self.scene.profiles[wheel.profile]
         tooth = np.array(profile.points)
@@ -102,16 +103,18 @@ class ProjectedScene:
         return self._around(wheel, radius, angle, height)
 
     def wave(self, wheel: SceneWheel) -> SceneWave | None:
-        """Return the strain wave that bends a wheel; None for a rigid wheel."""
+        """Return the strain wave that deflects a wheel; None for a rigid wheel."""
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return the line of a thin wheel's bore (points, 3), which its wave generator touches."""
+        """Return the line of a flexible wheel's bore (points, 3), which its wave generator touches."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) of a thin wheel's middle plane as bent, for undeformed radius and angle (n,)."""
+        """Return points (n, 3) in the deflected middle plane of a flexible wheel, given radius and angle (n,) in the
+        undeformed wheel.
+        """
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
         x, y = first @ wave.towards, np.cross(along, first) @ wave.towards
@@ -121,7 +124,7 @@ class ProjectedScene:
         return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
 
     def lobes(self, wave: SceneWave) -> Floats:
-        """Return the points (lobes, 3) of the bore of a thin wheel with the maximum outward deflection."""
+        """Return the points (lobes, 3) of the bore of a flexible wheel with the maximum outward deflection."""
         wheel = self.scene.wheels[wave.wheel]
         bore = wave.middle + wave.rise - wave.wall / 2
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
@@ -188,7 +191,9 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield for each arm its carrier's body index, a point of the carrier's axis and one of the carried axis."""
+    """Yield for each arm of a carrier: the index of the carrier's body, a point of its axis, and a point of the carried
+    axis.
+    """
     scene = projected.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
@@ -284,7 +289,7 @@ def _inner_points(rim: Floats, place: Place) -> Floats:
 def draw_across(
     axes: Axes, projected: ProjectedScene, wheel: SceneWheel, place: Place, red: set[str], order: float
 ) -> None:
-    """Draw a wheel that the plan shows from its side."""
+    """Draw a wheel that faces sideways in the plan, as seen from its side."""
     faces = sorted(_faces(projected, wheel), key=lambda face: face.depth)
     _draw_faces(axes, [(wheel, face) for face in faces], place, red, order)
 
@@ -387,7 +392,7 @@ class SideScale:
         self.left, self.scale, self.low = left, width / size, low
 
     def at(self, height: Any) -> Any:
-        """Return the abscissa on the page [in] of a height or of an array of heights [mm]."""
+        """Return the abscissa on the page [in] of a height towards the reader [mm], or of an array of heights."""
         return self.left + (height - self.low) * self.scale
 
 

@@ -64,7 +64,10 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band; `start` and `end` are its upper edge at both spots [in]. Only return bands skip columns."""
+    """Segment of a band between two spots; `start` and `end` are the positions of its upper edge at these spots [in].
+
+    Only return bands skip columns.
+    """
 
     source: SankeySpot
     target: SankeySpot
@@ -99,7 +102,7 @@ class SankeyLayout:
     """Forward bands, each as a sequence of segments from column to column; `turns` are the return bands."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
-    """Abscissa of the centre of each column."""
+    """Abscissa of the centre of each column [in]."""
     scale: float
     """Inches per unit of power."""
     sheds: Mapping[PowerNode, Fraction]
@@ -116,7 +119,8 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, the shortest innermost, and the space that they require on either side of columns [in].
+    """Return the return bands, the shortest innermost, and the space [in] that they require on either side of each
+    column.
 
     The keys of the space are (column, True) for the right side and (column, False) for the left side.
     """
@@ -141,7 +145,9 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return abscissae of column centres [in] with space for names and return bands, over the minimum width."""
+    """Return abscissae of column centres [in] with space for names and return bands, at least over the width `minimum`
+    [in].
+    """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     gaps = []
@@ -163,7 +169,7 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return losses by node, and the streams; a bearing fed by only one shaft becomes a loss of that shaft."""
+    """Return the losses by node, and the streams. A bearing that only one shaft feeds becomes a loss of that shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -295,7 +301,9 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of a spot's neighbours on one side, weighted by width; its own without any."""
+    """Return the mean position of a spot's neighbours on one side, weighted by band width; its own position if it has
+    none.
+    """
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
         return places[spot]
@@ -304,7 +312,9 @@ def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float
 
 
 def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the cost of crossings near some columns: products of crossing widths, plus a constant per crossing."""
+    """Return the cost of crossings near some columns: the product of the widths of both bands plus a constant, per
+    crossing.
+    """
     total = 0.0
     for at in columns:
         places = {spot: place for place, spot in enumerate(table[at])}

@@ -81,7 +81,9 @@ def sphere_figure(
 
 
 def _face(kind: int) -> tuple[float, float, float, float]:
-    """Return the translucent face colour of a kind, through which the overlapping teeth of mating gears are visible."""
+    """Return the translucent face colour of a kind of gear, through which the overlapping teeth of mating gears are
+    visible.
+    """
     return (*to_rgb(series_colour(kind)), _STRONG)
 
 

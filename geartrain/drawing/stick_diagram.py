@@ -54,7 +54,7 @@ _ELEMENT_NAME = 8.0  # points: font size of an element's name
 
 
 def width_of(train: GearTrain) -> float:
-    """Return the width of all brakes and clutches of a train [in]; 0 without brakes and clutches."""
+    """Return the total width of the symbols of all brakes and clutches of a train [in]; 0 if it has none."""
     count = len(train.declaration.clutches)
     return count * _element_width(train) + 0.2 if count else 0.0
 
@@ -132,7 +132,9 @@ class StickLabels:
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add a link's name: before its shaft from `left` to `right` at height y [in], or above, behind or below."""
+        """Add a link's name before its shaft, which extends from `left` to `right` at height y [in], or above, behind
+        or below it.
+        """
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
         before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second is next to a bearing
@@ -159,7 +161,10 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels, those with few positions first, and without a free one at the best position."""
+        """Place and write all labels, those with the fewest positions first.
+
+        A label without a free position is written at its best position.
+        """
         links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
         for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
             x, y, _, _ = self.room.place(each.places) or each.places[0]
@@ -197,9 +202,9 @@ class StickMesh:
     x: float
     """Abscissa of the column [in]. The vertical line of a ring is one column further to the right."""
     low: float
-    """Lower end of the part of the mesh in the column [in]."""
+    """Lower end of the lines of the mesh in its column [in]."""
     high: float
-    """Upper end of the part of the mesh in the column [in]."""
+    """Upper end of the lines of the mesh in its column [in]."""
     meet: float
     """Height at which the wheels touch [in]."""
 
@@ -209,12 +214,12 @@ class StickSkeleton:
     """Positions of all parts of a diagram [in], from the lower left corner."""
 
     rows: dict[str, tuple[float, float]]
-    """Axis -> heights of its lowest and highest shaft."""
+    """Axis -> heights of its lowest and highest shaft [in]."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
     cranks: list[StickCrank]
     lone: list[tuple[str, float]]
-    """Wheels that have no mate, each with the abscissa of its column."""
+    """Wheels that have no mate, each with the abscissa of its column [in]."""
     width: float
     height: float
 

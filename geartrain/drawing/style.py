@@ -76,7 +76,7 @@ _ONE_AT_A_TIME = Lock()  # the salt of SVG ids is a global setting of matplotlib
 
 
 class ShownFigure(_Figure):
-    """Figure that a notebook shows inline, without a window and without state shared between figures."""
+    """Figure that a notebook displays inline, without a window and without state shared with other figures."""
 
     def _repr_svg_(self) -> str:
         return render(self, ".svg").decode("utf-8")
@@ -134,7 +134,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield an artist's texts, except those of hidden axes, whose ticks would be created only for this query."""
+    """Yield the texts of an artist, except those of hidden axes, whose ticks would be created only for this purpose."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -151,13 +151,13 @@ FILL, SHADE, SKY = _LIGHT.fill, _LIGHT.shade, _LIGHT.band
 BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
 """Colours of wheels, of carriers, of couplings, and of other parts next to them."""
 SCALE = SCALES["light"]
-"""Colour scale of values on a map."""
+"""Colour scale of values on a map in the light theme."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
 LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
 def series_look(at: int) -> dict[str, Any]:
-    """Return the colour and dashes of the series with an index from 0, as keyword arguments of lines."""
+    """Return the colour and dashes of the series with an index from 0, as keyword arguments for matplotlib lines."""
     return {"color": series_colour(at), "linestyle": series_dash(at)}
 
 
@@ -171,7 +171,7 @@ def plain(axes: Axes) -> None:
 
 
 def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT, **how: Any) -> None:
-    """Write the names of the axes and the panel's title; `how` are further properties of the text."""
+    """Write the labels of the axes and the title of a panel; `how` are further text properties."""
     if x:
         axes.set_xlabel(x, fontsize=size, **how)
     if y:
@@ -194,7 +194,7 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tuple[Figure, Axes]:
-    """Return a figure [in] with one panel for horizontal bars and intervals, one for each name, the first on top."""
+    """Return a figure of the given height and width [in] with one panel for horizontal bars, the first name on top."""
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.add_subplot()
     plain(axes)
@@ -205,7 +205,7 @@ def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tupl
 
 
 def draw_interval(axes: Axes, at: float, ends: tuple[float, float] | None) -> None:
-    """Draw an interval as a whisker at the position of a bar; draw nothing if the interval is None."""
+    """Draw an interval as a whisker across the bar with the position `at`; draw nothing if the interval is None."""
     if ends is not None:
         axes.plot(ends, [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=7, gid="within")
 
@@ -266,7 +266,9 @@ def kept_extremes(values: Floats, most: int) -> Ints:
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
-    """Write text literally over a separate halo: text with its own halo would be outlines in a vector file."""
+    """Write text literally, with its halo as a separate text; one text with a halo would be outlines in a vector
+    file.
+    """
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
     axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground=WHITE),), **behind)
@@ -320,4 +322,4 @@ def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
             f"'{train.name}' has {count} {what}, too many for this picture",
             f"at most {most} {what} are legible",
         )
-        raise QuestionError(Problem(found, why, "declare a part of the train, or draw another kind of picture"))
+        raise QuestionError(Problem(found, why, "draw a train with fewer parts, or another kind of picture"))

@@ -80,7 +80,9 @@ class _Painter:
             self._halo(effect)
 
     def paint_grid(self, axes: Axes) -> None:
-        """Convert the grid colour of ticks created later, as files of another resolution may have more ticks."""
+        """Convert the grid colour of ticks that are created later, because a file of another resolution may have more
+        ticks.
+        """
         for axis in (axes.xaxis, axes.yaxis):
             old = axis.get_tick_params().get("grid_color")
             if old is not None:
@@ -151,7 +153,7 @@ def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
 
 
 def _themed_all(colours: Any, name: ThemeName) -> Any:
-    """Return one colour, or the rows of a collection's colours, in the theme."""
+    """Return the theme's equivalents of one colour, or of each row of a collection's colours."""
     if isinstance(colours, np.ndarray) and colours.ndim == 2:
         return [themed_colour(tuple(map(float, row)), name) for row in colours]  # type: ignore[arg-type]
     unset = isinstance(colours, str) and colours in ("none", "auto")
@@ -196,7 +198,7 @@ def _named(theme: Theme) -> Sequence[str]:
 
 
 def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
-    """Return a colour of equal lightness between the theme's paper and ink, in print without its hue."""
+    """Return a colour of the same relative lightness between the theme's paper and ink, and without hue in print."""
     paper, ink, lightness = _rgb_of(theme.paper), _rgb_of(theme.ink), float(_LUMA @ rgb)
     hue = 0.0 if theme is THEMES["print"] else rgb - lightness
     return np.asarray(np.clip(ink + lightness * (paper - ink) + hue, 0.0, 1.0))

@@ -1,8 +1,9 @@
 """Picture of two wheels of triangular teeth in contact, to scale: outlines, contact point, normal, instant centre.
 
-The driver turns about (0, 0), and the driven wheel about (D, 0), or about (-D, 0) if the driven wheel is a ring.
-Lengths are in the unit of `TriangularSizes`. In forward motion the entry side is above the line of centres, where
-alpha_1 and alpha_2 are positive. In backward motion it is below.
+The driver turns about (0, 0), and the driven wheel about (D, 0) with the centre distance D, or about (-D, 0) if the
+driven wheel is a ring. Lengths are in the unit of `TriangularSizes`. The teeth of driver and driven wheel are at the
+angles alpha_1 and alpha_2 from the line of centres, positive on the entry side. In forward motion the entry side is
+above the line of centres, in backward motion below.
 """
 
 from __future__ import annotations
@@ -47,7 +48,10 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
-    """Return a pair's counts, half angle, clearance factor and friction in words, by default its own friction."""
+    """Return a pair's tooth counts, half angle, clearance factor and friction coefficient as a string.
+
+    friction   coefficient to print; by default that of the pair
+    """
     sizes = transmission.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
     beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
@@ -72,7 +76,7 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """Pose of two wheels with the driving tooth pair at alpha_1 and alpha_2 [rad]; the pitch gives all others."""
+    """Pose of two wheels. Their teeth in contact are at alpha_1 and alpha_2 [rad] from the line of centres."""
 
     sizes: TriangularSizes
     phase: str
@@ -95,7 +99,9 @@ class ToothPairPose:
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) at a radius and an angle from the line of centres [rad], positive at the entry."""
+        """Return points (..., 2) at a radius and an angle from the line of centres [rad], positive on the entry
+        side.
+        """
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
         x = along if which == DRIVER else self.axis2 - self.sizes.side * along
@@ -131,7 +137,9 @@ class ToothPairPose:
 
     @property
     def contact(self) -> Point:
-        """Contact point of the tooth pair: the driven apex in approach, the driver's apex in recess."""
+        """Contact point of the tooth pair: the tip of the driven tooth in approach, the tip of the driver's tooth in
+        recess.
+        """
         which = DRIVEN if self.phase == APPROACH else DRIVER
         _, tip, _, alpha = self.wheel(which)
         x, y = self.place(which, tip, alpha)
@@ -150,7 +158,7 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose with the driving pair, or else some tooth of the driver, at `alpha1` [rad], if it is given."""
+    """Return the pose in which the driving tooth pair, or otherwise a tooth of the driver, is at `alpha1` [rad]."""
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
     alpha2 = float(tooth_pair.angle(interval.phase, x)) if standing is None else standing
@@ -304,7 +312,7 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """Draw an arrow in a wheel's sense, with its name, inside its body; a driven wheel at rest has no arrow."""
+    """Draw an arrow in the sense of rotation of a wheel, with the wheel's name; a driven wheel at rest has no arrow."""
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1

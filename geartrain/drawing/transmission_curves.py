@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 
 _PERIOD_SAMPLES = 1601
-_LOST = 1e-12  # relative to the power: smaller losses are rounding
+_LOST = 1e-12  # relative to the power: smaller losses are rounding errors
 _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "efficiency")
 
 
@@ -192,7 +192,7 @@ def _panel(axes: Axes, transmission: TriangularTransmission, row: int, friction:
 
 
 def _phases(transmission: TriangularTransmission) -> Iterator[tuple[str, float, float]]:
-    """Yield each phase of the ideal path with its minimum and maximum alpha_1 [rad]."""
+    """Yield each phase of the ideal path with its minimum and maximum driver angle alpha_1 [rad]."""
     for phase in (RECESS, APPROACH):
         pieces = [piece for piece in transmission.contact.path.pieces if piece.phase == phase]
         if pieces:
@@ -206,10 +206,11 @@ def _values(
     x: Floats,
     held: float | None = None,
 ) -> tuple[tuple[Floats, ...], ...]:
-    """Return the curves of each panel at alpha_1 = x [rad].
+    """Return the curves of each panel at the driver angles alpha_1 = x [rad].
 
-    The curves are alpha_2 [deg], tau, the efficiency, and the relative moment arms of driver and driven wheel.
-    Efficiency and moment arms are NaN during a dwell, and the efficiency is NaN where friction locks.
+    The curves are the driven angle alpha_2 [deg], the speed ratio tau, the efficiency, and the relative moment arms of
+    driver and driven wheel. Efficiency and moment arms are NaN during a dwell, and the efficiency is NaN where friction
+    locks.
     """
     if held is not None:
         none = np.full_like(x, np.nan)
@@ -226,7 +227,7 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits around the real path and the ideal path near it; 0 and 1 without finite values."""
+    """Return axis limits around the real path and the nearby part of the ideal path; 0 and 1 if no value is finite."""
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -241,7 +242,7 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
 
 
 def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
-    """Draw a line at the angle at which the flanks coincide, if it is within the range of alpha_1."""
+    """Draw a line at the angle at which the flanks coincide, if it is within the plotted range of driver angles."""
     matching = transmission.sizes.matching
     if abs(matching) >= transmission.sizes.reach1:
         return
@@ -255,7 +256,9 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact with tau before it, when a tooth pair separates, and after it, when the next one drives."""
+    """Draw each impact: the speed ratio before it, when a tooth pair separates, and after it, when the next pair
+    drives.
+    """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -276,13 +279,17 @@ def _arms_key(axes: Axes) -> None:
 
 
 def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
-    """Return O1C / D at speed ratio tau, bounded where an axis exceeds the real path; `signs` are -1 for a ring."""
+    """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at speed ratio
+    tau.
+
+    It is bounded where an axis of the plot exceeds the real path; a sign in `signs` is -1 for a ring.
+    """
     first, second = signs
     return tau / np.maximum(first + second * tau, 0.1)
 
 
 def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
-    """Return the speed ratio tau at which the instant centre is at O1C / D, bounded as in `_centre_at`."""
+    """Return the speed ratio for a position of the instant centre, which is the inverse of `_centre_at`."""
     first, second = signs
     return centre / np.maximum(first * (1 - second * centre), 0.1)
 
@@ -301,7 +308,9 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis with the instant centre over the centre distance, tau/(1 + tau), or tau/|1 - tau|."""
+    """Draw a second axis for the instant centre: its distance from the driver's axis, divided by the centre
+    distance.
+    """
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -390,7 +399,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     """
     if not paths:
         what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"
-        raise QuestionError(Problem(what, why, "change the arcs or the tooth counts"))
+        raise QuestionError(Problem(what, why, "change the arcs of approach and recess, or the tooth counts"))
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)
     for axes in panels.flat:
@@ -428,7 +437,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
 
 
 def _leaves_panel(axes: Axes) -> bool:
-    """Return True if a curve of a form extends beyond the limits of its panel."""
+    """Return True if the curve of a tooth form extends beyond the limits of its panel."""
     low, high = axes.get_ylim()
     drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
     return any(bool(((y < low) | (y > high)).any()) for y in drawn)
@@ -441,7 +450,7 @@ def _pitch_title(pitch: PitchSurfaces) -> str:
 
 
 def _places(path: PathOfContact) -> Floats:
-    """Return positions X along the whole path of contact, except the pitch point [modules or rad]."""
+    """Return positions along the whole path of contact, except the pitch point [modules or rad]."""
     approach, recess = path.arcs
     if min(approach, recess) < 0:
         return np.linspace(-approach, recess, _PATH_SAMPLES)
@@ -471,7 +480,9 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
-    """Yield each quantity with its label; lengths in modules, so that spur and bevel gears are comparable."""
+    """Yield each plotted quantity with its label; lengths are in modules, so that spur and bevel gears are
+    comparable.
+    """
     # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)

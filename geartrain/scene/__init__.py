@@ -5,8 +5,8 @@ data of an animated picture, and solids to export. Lengths are in mm and angles 
 
 lay_out      `Layout`: axes and wheels in space, as declared or placed so that pitch circles touch
 build_scene  `Scene` with plates, pillars, arbors and dials in manufacturing sizes
-make_scene   `Scene`: the train in one state, with angles from exact speeds and, for real teeth, from equations (1) to
-             (4) of docs/motion.md
+make_scene   `Scene`: the train in one state, with angles from exact speeds and, for pairs with a tooth form, from
+             equations (1) to (4) of docs/motion.md
 SolidModel   wheels, arbors and plates as closed surfaces, in the sizes of `ManufacturingSizes`
 
 context         a train, its answer in one state and its layout, from which all parts of a scene are derived

@@ -42,9 +42,11 @@ class BentWheel:
     axis: str
     """Label of the axis of the wave generator."""
     offset: Vector
-    """Vector from the generator's axis to the wheel's declared axis [mm]: amplitude and direction of the wave."""
+    """Vector from the generator's axis to the wheel's declared axis [mm], which gives amplitude and direction of the
+    wave.
+    """
     lobes: int
-    """Number of lobes of the wave, the difference of the tooth counts of ring and wheel."""
+    """Number of lobes of the wave: the tooth count of the ring minus that of the flexible wheel."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
@@ -68,7 +70,9 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Return new bodies and wheels, flexible wheels on their generators' axes, and the strain waves."""
+    """Return the bodies and wheels, with flexible wheels moved onto the axes of their wave generators, and the strain
+    waves.
+    """
     bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
@@ -104,7 +108,9 @@ def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of an internal gear, shaped as an external wheel's space, `height` [modules] high."""
+    """Return a nominal tooth of an internal gear, shaped like the tooth space of an external wheel, `height` [modules]
+    high.
+    """
     most = 1 + 2 * DEDENDUM / z
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
     tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
@@ -119,7 +125,7 @@ def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
 def tooth_height(z: int, mate: int, within: bool) -> float:
     """Return the maximum height of a tooth [modules] that does not touch the roots of a mate with few teeth.
 
-    within   True if one of the two wheels is a ring, whose teeth the tips of the other also pass outside of the mesh
+    within   True if one of the two wheels is a ring; then the tips must also clear each other outside of the mesh
     """
     if within:
         return _PASSING * abs(z - mate)
@@ -158,7 +164,9 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread around its axis; `height` is addendum over pitch radius."""
+    """Return the axial section of a worm's thread around its axis; `height` is the addendum divided by the pitch
+    radius.
+    """
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -185,7 +193,9 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angular thickness [rad] of an involute tooth, undercut by a rack, at relative radius r."""
+    """Return half the angular thickness [rad] of an involute tooth, undercut by a rack, at `r` pitch radii from the
+    axis.
+    """
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
@@ -194,7 +204,7 @@ def _half(z: float, r: float) -> float:
 
 
 def _swept(z: float, r: float) -> float:
-    """Return half the angle of the tooth space that the tips of a rack cut out at relative radius r [rad].
+    """Return half the angle [rad] of the tooth space that the tips of a rack cut out, at `r` pitch radii from the axis.
 
     The rack's tip corner is at the distance `b` from the middle of the rack's tooth and at the height `c` above the
     wheel's axis. After a rotation of the wheel by u - b, the corner is displaced by u and is at the angle atan(u / c) -
@@ -207,7 +217,9 @@ def _swept(z: float, r: float) -> float:
 
 
 def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
-    """Return a whole tooth, from the middle of one space to that of the next, from a flank from root to tip."""
+    """Return a whole tooth, from the middle of one tooth space to the middle of the next, given one flank from root to
+    tip.
+    """
     root = flank[0][0]
     before = [(r, -angle) for r, angle in flank]
     return ((root, -pi / z), *before, *reversed(flank), (root, pi / z))
@@ -252,7 +264,9 @@ def _role(stage: SceneContext, link: str) -> str:
 
 
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
-    """Return every wheel's tooth profile as cut, or nominal if it cannot be cut, and notices with the reasons."""
+    """Return the tooth profile of every wheel, nominal if it cannot be cut as declared, and notices with the
+    reasons.
+    """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
         wheel: ToothProfile(each.form, each.section(), each.kind == "pins")
@@ -266,7 +280,9 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield reasons why planar wheels are not drawn as cut, each once, and flexible wheels without a wave."""
+    """Yield one notice for each reason why planar wheels are not drawn as cut, and for each flexible wheel without a
+    wave.
+    """
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -274,7 +290,7 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
             by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.approximations), []).append(wheel)
     for (what, why, fix, of_first), wheels in by_reason.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
-        drawn = "drawn with the teeth for the first pair of each wheel" if of_first else "drawn approximately"
+        drawn = "drawn with teeth that fit only the first pair of each wheel" if of_first else "drawn approximately"
         yield Problem(f"the wheels {names} are {drawn}: {what}", why, fix)
     bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
@@ -376,7 +392,9 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Return the helix angle of teeth, or of a worm's thread, relative to the axis [rad], positive for right hand."""
+    """Return the helix angle of teeth, or of a worm's thread, relative to the axis [rad], positive for a right-hand
+    helix.
+    """
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)

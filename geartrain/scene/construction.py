@@ -146,7 +146,9 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return how far a driver's tooth is ahead of its transmission function's phase [pitches, -1/2 to 1/2]."""
+        """Return the lead of a driver's tooth over the phase that its transmission function requires [pitches, -1/2 to
+        1/2].
+        """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
@@ -185,7 +187,9 @@ class _Mounting:
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
     def _position(self, circuit: Circuit, at: int) -> float:
-        """Return the initial position of the first tooth of a placed wheel, forwards from the contact [pitches]."""
+        """Return the initial position of the first tooth of a placed wheel, counted forwards from the contact point
+        [pitches].
+        """
         wheel = circuit.wheels[at]
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
@@ -237,7 +241,9 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return speeds as functions of tooth counts; None without inputs or counts, or if too coupled or too large."""
+    """Return speeds as functions of tooth counts; None if no link is driven or no wheel has a count, or if the formulas
+    would be too large.
+    """
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
     driving_link = next((link for link, speed in case.inputs.items() if speed), None)
@@ -284,13 +290,13 @@ def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str
 
 
 def _original(wheel: str, own: dict[str, str], link: str) -> str:
-    """Return the declared wheel of a copied wheel, whose name has the same suffix as its link."""
+    """Return the declared wheel from which a wheel was copied; both the copy and its link have the same suffix."""
     end = link.removeprefix(own[link])
     return wheel.removesuffix(end) if end else wheel
 
 
 def _parent(train: Train) -> str:
-    """Return the name with which a declaration can extend the train: the shipped train, or the file read."""
+    """Return the name by which a declaration can extend the train: that of the bundled example, or that of the file."""
     from geartrain.train.declaration_files import shipped
 
     file = train.place("name").rpartition(":")[0]
@@ -301,7 +307,7 @@ def _parent(train: Train) -> str:
 
 
 class _Table:
-    """Formulas with their indices, without duplicates."""
+    """Distinct formulas of a scene, each with its index."""
 
     def __init__(self, place: Mapping[str, int]) -> None:
         self.place = place  # index of the count of each wheel
@@ -368,7 +374,7 @@ def make_scene(
 
     Examples
     --------
-    A sun of 24 teeth drives a carrier within a fixed ring of 60: 1 + 60/24 turns to one.
+    A sun of 24 teeth drives a carrier within a fixed ring of 60: 1 + 60/24 turns of the sun per turn of the carrier.
 
     >>> import geartrain
     >>> scene = make_scene(geartrain.load("planetary-24-18-60"))

@@ -75,7 +75,9 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return a link's exact speed over that of the driving link; None if undetermined or if none is driven."""
+        """Return the exact speed of a link divided by that of the driving link; None if undetermined or if no link is
+        driven.
+        """
         found = self.speed(link)
         if found is None or self.driving_link is None:
             return None
@@ -90,7 +92,7 @@ class SceneContext:
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Return the declared starting angle of a link [rad]."""
+        """Return the declared starting angle of a link [rad], 0 by default."""
         angle = self.train.declaration.links[link].angle
         return 0.0 if angle is None else angle.si
 
@@ -100,7 +102,9 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis, reversed if opposite to z or to the first declared parallel axis."""
+        """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel
+        to it.
+        """
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):
@@ -121,12 +125,14 @@ class SceneContext:
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with real teeth; empty if they cannot be built (`unbuilt` gives the reasons)."""
+        """Gear pairs with their computed tooth geometry; empty if it cannot be computed (`unbuilt` gives the
+        reasons).
+        """
         return self._built[0]
 
     @property
     def unbuilt(self) -> tuple[Problem, ...]:
-        """Reasons why real teeth cannot be built; empty if they can be built."""
+        """Reasons why the tooth geometry cannot be computed; empty if it can."""
         return self._built[1]
 
     @cached_property

@@ -41,7 +41,7 @@ class CountCondition(Shown):
     text: str
     """Description of the condition, such as `loop a - b - c closes`."""
     carrier: int | None = None
-    """Index of the body relative to which the wheels of a loop turn; None for a condition that is not on a loop."""
+    """Index of the body relative to which the wheels of a loop turn; None if the condition does not concern a loop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +66,8 @@ class SceneFormulas(Shown):
     conditions: Sequence[CountCondition]
     """Conditions of validity. If one is violated, the formulas do not describe the motion."""
     input: str
-    """Exact speed of the driving link."""
+    """Exact declared speed of the driving link, in the train's unit."""
     exact: bool
     """True if speeds are displayed as fractions, False if as decimals."""
     parent: str
-    """Name of the shipped train, or of the file, that the declaration of a changed train extends."""
+    """Name of the bundled example, or of the file, that the declaration of a train with changed counts extends."""

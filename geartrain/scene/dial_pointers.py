@@ -70,7 +70,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the used pairs, together with the pairs that turn the pins of used followers."""
+    """Return the pairs on which an output depends, with the pairs that turn the pins of its followers."""
     found, left = set(used), set(swings)
     # repeated, because another follower may turn the link of a pin
     while met := found & left:
@@ -87,7 +87,7 @@ def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return for each output the labels of the rows with a non-zero weight; redundant rows have no weight."""
+    """Return for each output the labels of the equations on which it depends; redundant equations are omitted."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -107,7 +107,9 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
 
 
 def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterable[str]) -> tuple[str, ...]:
-    """Return the used pairs, and the pairs of loops that contain them, in breadth-first order from the inputs."""
+    """Return the pairs on which an output depends, and the pairs of loops that contain them, in breadth-first order
+    from the inputs.
+    """
     left = dict.fromkeys(name for name in circuits if name in set(used))
     for loop in stage.train.mobility.loops:
         if any(pair in left for pair in loop.pairs):
@@ -179,7 +181,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
 
 @lru_cache(maxsize=64)
 def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """Return the engraving as differences from point to point, in integer fractions of the radius."""
+    """Return the engraved lines of a scale as integer steps from point to point, in 1/4,000 of the dial's radius."""
     return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
 
 
@@ -247,7 +249,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
 
 
 def _train_width(stage: SceneContext) -> float:
-    """Return the maximum x or y coordinate of the wheels minus the minimum [mm]."""
+    """Return the maximum minus the minimum of all x and y coordinates of the wheels [mm]."""
     places = stage.layout.wheels.values()
     if not places:
         return 1.0
@@ -258,7 +260,7 @@ def _train_width(stage: SceneContext) -> float:
 
 
 def _side_width(stage: SceneContext, normal: Vector) -> float:
-    """Return the width of a dial's side [mm]; infinite for dials that face towards or away from the viewer."""
+    """Return the width of the side of the train on which a dial is [mm]; infinite for the front and the back."""
     # a cosine of 0.5 (60 degrees) separates dials on the front and back from dials on the sides
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
@@ -278,7 +280,7 @@ def _extent(stage: SceneContext, way: Vector) -> float:
 
 
 def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
-    """Return the point of an axis that is a gap [mm] beyond all wheels in the direction of a normal [mm]."""
+    """Return the point of an axis that is `gap` [mm] beyond all wheels in the direction of a normal."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point
     wheels = stage.layout.wheels.values()
@@ -294,7 +296,9 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials in the same order, reduced so that they do not overlap; dials about one axis are nested."""
+    """Return the dials in the same order, with radii reduced so that they do not overlap; dials about one axis are
+    nested.
+    """
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -320,7 +324,9 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """Return a pointer for every output of the state, in the order declared; hands on one dial rise in order."""
+    """Return a pointer for every output of the state, in the order declared, with the hands on one dial stacked in that
+    order.
+    """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found = []
     for name in stage.outputs:
@@ -395,7 +401,9 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return an output's targets relative to the driving link, in the sense of its `speed` if they have none."""
+    """Return the target speeds of an output relative to the driving link; one without a sense takes the sense of
+    `speed`.
+    """
     if stage.driving_link is None or speed is None:
         return ()
     driving_speed = stage.case.inputs[stage.driving_link]

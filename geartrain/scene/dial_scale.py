@@ -33,7 +33,7 @@ _ROMAN |= {4: "IV", 1: "I"}
 
 
 def clock_point(radius: float, turn: float | Fraction) -> Point:
-    """Return the point of a circle about the origin at an angle in turns from the top, clockwise."""
+    """Return the point of a circle about the origin, given its radius and its angle [turns] clockwise from the top."""
     angle = 2 * pi * float(turn)
     return radius * sin(angle), radius * cos(angle)
 
@@ -53,8 +53,8 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """Reading of a pointer: turn of the spiral and cell, both from 1, and the name of a run of cells with the cell in
-    it.
+    """Reading of a pointer: turn of the spiral and cell, both counted from 1, then the name of the group of cells that
+    contains the cell, and the number of the cell within this group.
 
     The name is empty, and `within` is 0, at cells without a name.
     """
@@ -82,9 +82,11 @@ class DialScale:
     cell: str = _CELL
     """Name of one division, such as `cell` or `degree`."""
     names: tuple[tuple[str, Fraction, Fraction], ...] = ()
-    """Names of runs of divisions: name, number of divisions before the run, and number in the run."""
+    """Names of groups of divisions: name, number of divisions before the group, and number of divisions in the
+    group.
+    """
     numerals: tuple[tuple[str, int], ...] = ()
-    """Numerals at lines, each with the number of divisions before its line."""
+    """Numerals at division lines, each with the number of divisions before its line."""
     glyphs: tuple[tuple[int, str], ...] = ()
     """Glyphs in cells: the number of the cell, from 1, and the glyph."""
     around: DialScale | None = None
@@ -92,18 +94,22 @@ class DialScale:
     radial: bool = False
     """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
     counted: int = 0
-    """Number of divisions after which declared numerals restart; 0 without them, when cells are counted from 1."""
+    """Number of divisions after which declared numerals restart; 0 if no numerals are declared and cells are counted
+    from 1.
+    """
 
     def radius(self, turned: float) -> float:
-        """Return the relative radius after a number of turns from the inner end; the outer radius for a circle."""
+        """Return the relative radius of the scale after a number of turns from its inner end; `outer` for a circle."""
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
-        """Return the exact number of turns that a number of divisions takes."""
+        """Return the exact number of turns of the scale that a number of divisions occupies."""
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns; on a line, it reads the cell after the line."""
+        """Return the reading of a pointer after a number of turns; a pointer on a division line reads the cell after
+        the line.
+        """
         along = turned % self.turns
         done = along / self.turns * self.divisions
         for name, first, span in self.names:
@@ -112,13 +118,17 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: its own, or that of the numbered line before the cell."""
+        """Return the number by which a cell is read: its own number, or that of the numbered division line before the
+        cell.
+        """
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading, such as `Leo, degree 14`, with its cell's glyph; empty without divisions."""
+        """Return the reading as a string such as `Leo, degree 14`, with the glyph of the cell; empty for a circle that
+        is not divided.
+        """
         read, parts = self.read(turned), []
         if self.turns > 1:
             parts.append(f"turn {read.turn}")
@@ -165,7 +175,7 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the numerals and their lines: by default up to twelve from 0, on a circle without names only."""
+    """Return the numerals with their division lines, as declared, or up to twelve from 0 on a circle without names."""
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -236,7 +246,7 @@ def _border(scale: DialScale, radius: float, depth: float, turn: Fraction) -> St
 
 
 def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> Stroke:
-    """Return a polyline along the scale, offset inwards by `off`."""
+    """Return a polyline along the scale, offset inwards by `off` radii of the dial."""
     steps = max(1, round(_CHORDS * turns))
     turned = (turns * each / steps for each in range(steps + 1))
     return tuple(_point(scale, scale.radius(each) - off, each) for each in turned)
@@ -265,7 +275,9 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield names in the middles of their divisions; if they do not fit, only every second to sixth, or none."""
+    """Yield names in the middles of their groups of divisions; if they do not fit, every second to sixth name, or
+    none.
+    """
     radius = scale.outer - _BAND
     named = [part for part in scale.names if part[0]]
     # fewer names leave more space for each
@@ -325,7 +337,7 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
 
 
 def _spiral(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the groove and the cells inside it, one turn deep; a turn's first whole cell has its number."""
+    """Yield the spiral groove and the cells on its inner side; the first whole cell of each turn shows its number."""
     pitch = (scale.outer - scale.inner) / scale.turns
     every = -(-scale.divisions // (scale.turns * _MARKS))
     starts = {first for _, first, _ in scale.names}

@@ -72,7 +72,7 @@ class SceneHanger(Shown):
     length: float
     """Distance from the point of suspension to the middle of the bob, or to the weight in the zero pose [mm]."""
     rate: float
-    """Full swings of a pendulum per turn of its body; for a weight, its descent per radian [mm]."""
+    """Full swings of a pendulum per turn of its body, or descent of a weight per radian of its body [mm/rad]."""
     wide: float
     """Radius of the bob, the weight or the line [mm]."""
     parts: Sequence[ScenePart] = ()
@@ -203,9 +203,13 @@ class SceneWheel(Shown):
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at the wheel's meshes; None if unknown, as without loads."""
+    """Fraction of the input power that is lost at the wheel's meshes; None if it is not known, as without declared
+    loads.
+    """
     helix: float = 0.0
-    """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right hand."""
+    """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right-hand
+    helix.
+    """
     holes: Sequence[Sequence[float]] = ()
     """Outlines of holes in the wheel as built, for pins that move in it or for an eccentric on which it turns. Each
     outline has alternating x and y from the middle of the wheel [mm], with x through the first tooth.
@@ -239,9 +243,11 @@ class ScenePair(Shown):
     carrier: int
     """Index of the body that carries both axes."""
     ratio: str
-    """Exact speed ratio of the pair's circuit: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
+    """Exact speed ratio of the pair: (w_i - w_k) / (w_j - w_k) with the speeds of the links i and j of its two wheels
+    and of their carrier k, equation (4) of docs/theory.md.
+    """
     form: str
-    """Tooth form of the pair; empty if its real teeth are not known."""
+    """Tooth form of the pair; empty if its tooth geometry is not known."""
     text: str
     """Equation of the pair's fundamental circuit as a string."""
     broken: bool = False
@@ -282,7 +288,9 @@ class SceneCoupling(Shown):
     text: str
     """Equation of the coupling's fundamental circuit as a string."""
     slot_turn: float = 0.0
-    """Angle from the line of `slot_at` and `pin_at` to the slot in the zero pose [rad]; 0 without starting angles."""
+    """Angle from the line of `slot_at` and `pin_at` to the slot in the zero pose [rad]; 0 if no starting angles are
+    declared.
+    """
     pins_at: Sequence[Vector] = ()
     """Centres of all pins in round holes in the zero pose [mm]; empty for a pin in a slot."""
     holes_at: Sequence[Vector] = ()
@@ -315,7 +323,8 @@ class SceneShiftElement:
 
 @dataclass(frozen=True, slots=True)
 class SceneWave(Shown):
-    """Strain wave that bends a flexible wheel into its ring. Wheel, cup wall and wave generator are coaxial.
+    """Strain wave that deflects a flexible wheel (flexspline) into mesh with its ring (circular spline). Wheel, cup
+    wall and wave generator are coaxial.
 
     See Also
     --------

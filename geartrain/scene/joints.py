@@ -80,7 +80,9 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield pairs whose real teeth cannot run, in the form of loops (`_loop_data`), with reason and remedy."""
+    """Yield pairs whose tooth forms cannot run together, in the form of loops (`_loop_data`), with reason and
+    remedy.
+    """
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
@@ -148,7 +150,9 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the unit vector from the pin link's axis to its first pin; pins in holes avoid carried axes."""
+    """Return the unit vector from the axis of the pin's link to its first pin; pins in holes are kept off carried
+    axes.
+    """
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
@@ -182,7 +186,9 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
 
 
 def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """Return the slot's deviation from its pin in the zero pose [rad], which declared starting angles may cause."""
+    """Return the angle between a slot and the line to its pin in the zero pose [rad]; starting angles can make it
+    nonzero.
+    """
     setting = moved.driving.get(circuit.id)
     if setting is None:
         return 0.0
@@ -191,7 +197,9 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset [mm]: declared, or for axes placed `apart` [mm], or in default proportions."""
+    """Return pin radius and offset [mm]: as declared, or scaled to axes that are `apart` [mm], or in default
+    proportions.
+    """
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
@@ -211,7 +219,10 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the links' nearest wheels [mm], or of the only wheel, or of the pin's axis."""
+    """Return the height midway between the nearest wheels of two coupled links [mm].
+
+    If only one of the links has wheels, it is the height of its first wheel; otherwise, the height of the pin's axis.
+    """
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

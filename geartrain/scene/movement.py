@@ -77,13 +77,13 @@ class ErrorSource(Shown):
     cycles: str
     """Exact number of error periods per turn of the driving link; negative if the driver turns backwards."""
     start: float
-    """Driver's forward angle S at the start, with all errors 0 [rad]."""
+    """Forward angle S of the driver at the start, with all errors 0 [rad]."""
     sense: int
     """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
     bodies: Sequence[int]
     """Indices of the bodies that the error of the pair moves."""
     weights: Sequence[float]
-    """Error of each body in `bodies` per unit of the pair's error [rad/rad]."""
+    """Derivative of the angular error of each body in `bodies` with respect to the error of the pair [rad/rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,9 +100,9 @@ class ErrorStep(Shown):
     known: Sequence[int]
     """Indices of the earlier sources whose errors move the drivers of this step."""
     from_known: Sequence[Sequence[float]]
-    """Change of each driver's angle S per unit of each known error [rad/rad], one row per source."""
+    """Derivative of each source's driver angle S with respect to each known error [rad/rad], one row per source."""
     own: Sequence[Sequence[float]]
-    """Change of each driver's angle S per unit of each error of this step [rad/rad], one row per source.
+    """Derivative of each source's driver angle S with respect to each error of this step [rad/rad], one row per source.
 
     It is empty if the errors of this step do not move its drivers; otherwise, the errors are computed by iteration.
     """
@@ -144,7 +144,7 @@ _DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table
 
 
 def step_of(step: Composed) -> ErrorStep:
-    """Return a step of a composition with its arrays as lists."""
+    """Return a step of an error composition as an `ErrorStep`, with lists instead of arrays."""
     own = step.own.tolist() if step.coupled else []
     return ErrorStep(step.sources, step.known, step.from_known.tolist(), own)
 
@@ -182,7 +182,9 @@ def tables_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """Return the transmission error as polynomials, in the smallest table within `TOLERANCE` of a driven pitch."""
+    """Return the transmission error as piecewise polynomials, in the smallest table accurate to `TOLERANCE` driven
+    pitches.
+    """
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
@@ -222,11 +224,12 @@ class InitialPosition:
     S: float
     """Forward angle of the driver [rad]."""
     error: float
-    """Error of the driven side at S [rad]."""
+    """Transmission error of the driven side at S [rad]."""
     transmission: ToothTransmission
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error of the driven side [rad] at which an out-of-phase driver does not overlap it.
+        """Return the minimum error of the driven side [rad] at which its teeth are clear of a driver that is out of
+        phase.
 
         The driver's teeth are `shift` [rad] ahead of their phase. The driven side follows e(S) + c and its mate
         requires e(S + shift), so c is the maximum of the difference e(S + shift) - e(S).
@@ -252,7 +255,9 @@ class MovementStart:
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement in a state: still if no speed is determined, mean with a reason if errors are unknown."""
+    """Return the movement in a state: `still` if no speed is determined, `mean` with a reason if errors cannot be
+    computed.
+    """
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
@@ -303,7 +308,10 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """Return the movement in reverse and notices: None if it equals `ahead`, or the mean motion if it fails."""
+    """Return the movement with the driving link reversed, and notices.
+
+    It is None if it equals `ahead`, and the mean motion if it cannot be computed.
+    """
     try:
         composition = motion._backward
         _check_positions(composition, -float(motion.period or 1))

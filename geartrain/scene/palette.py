@@ -58,7 +58,7 @@ class Theme:
 
     @property
     def css(self) -> str:
-        """CSS custom properties of pages; `hand-N` is the colour of series N."""
+        """Theme as CSS custom properties of a page; `hand-N` is the colour of series N."""
         named = {
             "ink": self.ink,
             "quiet": self.quiet,
@@ -136,5 +136,8 @@ def series_colour(at: int, theme: ThemeName = "light") -> str:
 
 
 def series_dash(at: int) -> Dash:
-    """Return a series' dashes [line widths] by its index; with the colours, 70 are distinct, in print 10."""
+    """Return the dash pattern [line widths] of the series with an index.
+
+    Together with the colours there are 70 distinct combinations, and 10 in print.
+    """
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

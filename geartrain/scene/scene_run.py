@@ -40,7 +40,7 @@ class LinkCourse(Result):
 
     See Also
     --------
-    SceneRun : contains a course for each body.
+    SceneRun : contains one for each body.
     """
 
     KEYS = ("rate", packed_key("samples", "<u4"), packed_key("angles", "<f4"))
@@ -50,7 +50,7 @@ class LinkCourse(Result):
     samples: Ints
     """Indices of the simulation samples at which `angles` are stored. Shape (n,)."""
     angles: Floats
-    """Angle that the link has turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
+    """Angle that the link has turned since the start, minus `rate` multiplied by the time [rad]. Shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +127,7 @@ class SceneRun(Result):
     contacts: Sequence[SceneContact]
     """Contacts of teeth, pins and the escapement."""
     deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
-    """Maximum deviations of the simulated outputs from the result of `motion`, ahead and behind."""
+    """Maximum angles by which each output is ahead of and behind the motion with all drive flanks in contact [rad]."""
     notes: Sequence[str]
     """Simplifications of the simulation and its replay: omitted effects, and links that are drawn as one."""
 
@@ -143,7 +143,7 @@ _FLAT = 1e6  # ratio of the scales of time and angle, so that deviations from a 
 
 @dataclass(frozen=True)
 class ShownSamples:
-    """Samples of the evaluated part of a run, including the sample at time 0, which a run does not store."""
+    """Samples of the evaluated part of a run, including the sample at time 0, which is not stored in the run."""
 
     run: TimeRun
 
@@ -172,7 +172,10 @@ class ShownSamples:
         return float(self.time[-1]) / (len(self.time) - 1)
 
     def link(self, turned: Floats, tolerance: float) -> LinkCourse:
-        """Return the course of a link from its angles at all samples [rad], simplified within a tolerance [rad]."""
+        """Return the mean speed of a link and its simplified deviations, from its angles at all samples [rad].
+
+        tolerance   maximum error of the simplified angles [rad]
+        """
         shown = self.of(turned)
         # without the mean motion the stored angles are small, so that float32 has enough digits for them
         rate = float(shown[-1] - shown[0]) / float(self.time[-1])
@@ -181,7 +184,9 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return indices of samples at which a contact changes, and new states as letters; empty without flanks."""
+        """Return indices of samples at which a contact changes, and its new states as letters; empty for a contact
+        without flanks.
+        """
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
@@ -217,7 +222,7 @@ def find_run(
     moves   link -> the link of the run that has the same motion
     """
     if (run.train, run.state) != (stage.train.name, stage.answer.state):
-        what = f"the run is of {run.train}{f', state {run.state}' if run.state else ''}"
+        what = f"the run of {run.train}{f', state {run.state}' if run.state else ''} does not belong to this scene"
         why = f"the scene is of {stage.train.name}{f', state {stage.answer.state}' if stage.answer.state else ''}"
         raise QuestionError(Problem(what, why, "pass the run of the same train in the same state"))
     samples = ShownSamples(run)
@@ -289,7 +294,9 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the pallets' contact point [mm]: on the link's largest wheel, if possible without mates, or the origin."""
+    """Return the point where pallets touch a link's largest wheel, without mates if possible [mm]; the origin without
+    wheels.
+    """
     if not wheels:
         return (0.0, 0.0, 0.0)
     # an escape wheel has no mate among gears

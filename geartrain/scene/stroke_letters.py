@@ -129,7 +129,9 @@ _UNKNOWN = "0008585000"
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital of height 1 on the base line y = 0, and its width; a box if unknown."""
+    """Return the strokes of a capital of height 1 on the base line y = 0, and its width; a box for an unknown
+    character.
+    """
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)

@@ -191,7 +191,7 @@ class Scene(Shown):
     positive: str
     """Sense of rotation of a positive speed, as declared."""
     front: int
-    """Side of z from which the train is viewed, 1 or -1."""
+    """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
     driving_link: int | None
     """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None
@@ -243,14 +243,16 @@ class Scene(Shown):
     hangers: Sequence[SceneHanger] = ()
     """Declared pendulum and weight of a built scene; otherwise empty."""
     waves: Sequence[SceneWave] = ()
-    """Strain waves that bend flexible wheels into their rings."""
+    """Strain waves that deflect flexible wheels into mesh with their rings."""
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"
         return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the scene as plain data, arrays as base64 of little-endian numbers, a run only if there is one."""
+        """Return the scene as plain data, with arrays as base64 text of little-endian numbers; a run is included if
+        there is one.
+        """
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:
             del named["run"]

@@ -38,7 +38,7 @@ class AxisLine:
     label: str
     direction: Vector
     group: int
-    """Number of the axis's group of parallel axes."""
+    """Index of the group of parallel axes to which the axis belongs."""
     bearers: tuple[str, ...]
     """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
@@ -49,7 +49,7 @@ class AxisLine:
 
 @dataclass(frozen=True)
 class Parallels:
-    """Group of parallel axes that are planned and stacked together."""
+    """Group of parallel axes, which are arranged in plan and stacked together."""
 
     lines: tuple[AxisLine, ...]
     up: Vector
@@ -72,7 +72,7 @@ class Parallels:
 
     @property
     def frame(self) -> str:
-        """Link that carries all other links: the frame of the train."""
+        """Frame of the train, which directly or indirectly carries all other links."""
         return self.lines[0].bearers[-1]
 
     def flat(self, vector: Vector) -> Point:
@@ -114,8 +114,8 @@ class PitchContact:
     stretch: Fraction = Fraction(1)
     """Centre distance of the declared teeth divided by the centre distance at which pitch circles touch."""
     worm_sense: int = 0
-    """1 if positive angles of a worm and its wheel move the pitch point in the same direction, -1 if in opposite
-    directions.
+    """1 if positive angles of a worm and of its wheel move thread and teeth at the pitch point in the same direction,
+    -1 if in opposite directions.
 
     It is 0 for other pairs.
     """
@@ -173,11 +173,11 @@ class DeclaredGeometry:
     thickness: Mapping[str, float]
     """Declared thickness by wheel [mm], for wheels with a declared thickness."""
     strays: tuple[tuple[str, str, str], ...]
-    """Wheels that a pair has on another axis than earlier pairs have: wheel, pair and axis."""
+    """Wheels that a gear pair requires on a different axis than earlier pairs do: wheel, pair and axis."""
     front: int
-    """Side of z from which the train is viewed: 1 or -1."""
+    """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
     dial_ends: Mapping[str, DialEnds]
-    """Ends that extend to a dial, by link."""
+    """Link -> ends of its arbor that extend to a dial."""
     driven: str | None
     """Axis of the first input, which is at the origin if no position is declared; None without inputs."""
     discs: Mapping[str, float]
@@ -280,7 +280,7 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield lantern wheels with the extent of their discs beyond the pitch circle, 1.5 pins [modules]."""
+    """Yield lantern wheels with the extent of their discs beyond the pitch circle, 1.5 pin diameters [modules]."""
     for gear in declared.gears:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
@@ -291,7 +291,9 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return by pair the real centre distance over that of touching pitch circles, if the ratio is not 1."""
+    """Return by pair the declared centre distance divided by that of touching pitch circles; ratios of 1 are
+    omitted.
+    """
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:
@@ -333,7 +335,10 @@ def _contact(
 
 
 def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:
-    """Return the worm sense of a pair from its equation, because the pitch point of a worm has no tangential motion."""
+    """Return `worm_sense` of a worm gear pair (1 or -1) from the signs of its equation.
+
+    It cannot be derived from circumferential velocities: those of worm and wheel are not parallel at the pitch point.
+    """
     flip = 1
     for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
         flip *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1

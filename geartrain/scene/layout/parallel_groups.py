@@ -106,7 +106,7 @@ def _pins(blocks: Sequence[WheelBlock], ties: Sequence[PinSlotTie]) -> Iterator[
 
 
 def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
-    """Return the widest block of every link."""
+    """Return the block of the widest wheel of every link."""
     found: dict[str, WheelBlock] = {}
     for block in blocks:
         if block.link not in found or block.outer > found[block.link].outer:
@@ -170,12 +170,12 @@ class _BlockBuilder:
         return found
 
     def _stack(self, node: Node) -> tuple[int, float]:
-        """Return the number of a node's stack, and the node's height in the stack."""
+        """Return the index of the stack of a node, and the height of the node in this stack [mm]."""
         root, height = self.heights.find(node)
         return self.number.setdefault(root, len(self.number)), height
 
     def _rise(self, line: AxisLine) -> float:
-        """Return the component of an axis direction along the heights."""
+        """Return the component of an axis direction along the upward direction of the group."""
         return dot(line.direction, self.parallels.up)
 
     def _hold_to_axis(self, each: CrossingSide) -> None:
@@ -193,7 +193,10 @@ class _BlockBuilder:
         return ((place[0] - x) * u + (place[1] - y) * v) / (u * u + v * v) * self._rise(across)
 
     def _join_concurrent(self) -> None:
-        """Fix the heights of crossing axes that mesh with each other and one axis, which they meet at one point."""
+        """Fix the relative heights of crossing axes that intersect an axis of the group at one point.
+
+        Their wheels mesh with each other and with wheels on that axis.
+        """
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
@@ -207,7 +210,9 @@ class _BlockBuilder:
                     self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return a crossing mate's block: a strip in plan, or all that it sweeps if a carrier moves it."""
+        """Return the block of a crossing mate: its strip in plan, or the whole area that it sweeps if a carrier moves
+        it.
+        """
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
@@ -240,7 +245,7 @@ _TRIES = 20_000  # maximum number of trials for one group of wheels; then they s
 
 
 class AxialSlots(NamedTuple):
-    """Lowest and highest slot that a wheel occupies along the width of its mates, counted from 0."""
+    """Lowest and highest slot that a wheel occupies along the width of its mates, both counted from 0."""
 
     low: int
     high: int
@@ -312,18 +317,20 @@ class Arrangement:
     geometry: SizedGeometry
     """Declared geometry; wheels whose mates are at different heights are widened."""
     points: Mapping[str, Vector]
-    """Points of axes by label. `centres` are the centres of wheels by name."""
+    """Points of the axes by label [mm]; `centres` are the centres of the wheels by name [mm]."""
     centres: Mapping[str, Vector]
     stacks: Sequence[WheelStack]
-    """Stack of each group of parallels."""
+    """Stack of wheels of each group of parallel axes."""
     main: int
-    """Number of the group of parallel axes with the most wheels; -1 without axes."""
+    """Index of the group of parallel axes with the most wheels; -1 for a train without axes."""
     up: Vector
-    """Upward direction of the main group."""
+    """Upward direction of the group `main`."""
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return all axes and wheels, placing first the largest group, then the largest that meshes with a placed one."""
+    """Return the positions of all axes and wheels. The largest group is placed first, then repeatedly the largest group
+    that meshes with a placed group.
+    """
     declared = geometry.declared
     order = _order(geometry)
     placing = _Placing(geometry)

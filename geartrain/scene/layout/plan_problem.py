@@ -25,7 +25,7 @@ class PlanProblem:
     labels: Sequence[str]
     """Labels of the parallel axes, in the order of their indices."""
     bearers: Mapping[str, str]
-    """Link that carries each axis."""
+    """Axis -> link that carries it."""
     pivots: Mapping[str, str]
     """Axis -> axis of the carrier that carries it, which is placed first."""
     fixed: Mapping[str, Point]
@@ -39,7 +39,7 @@ class PlanProblem:
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
     """Pairs of axes that must lie on a line, with the direction of the line as a unit vector."""
     sides: Mapping[str, Point] = field(default_factory=dict)
-    """Axis -> direction in which it meshes with a wheel of a crossing axis, preferably on the outside of the plan."""
+    """Axis -> direction in plan towards a crossing mate, which is preferably placed outside the other axes."""
     places: Mapping[str, int] = field(default_factory=dict)
     """Axis of a planet -> number of positions around its pivot at which its teeth mesh with both sun and ring."""
 
@@ -51,7 +51,11 @@ class PlanProblem:
 def plan_problem(
     geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
 ) -> PlanProblem:
-    """Return the conditions on parallel axes' plan, with `fixed` points in plan and points of `standing` axes."""
+    """Return the conditions on the plan of parallel axes.
+
+    fixed      points in plan of the axes that cannot move [mm]
+    standing   axes that are already placed, which set no preferred side
+    """
     declared, labels = geometry.declared, list(parallels.index)
     discs: dict[str, dict[str, WheelSize]] = {label: {} for label in labels}
     for wheel, axis in declared.axis.items():
@@ -84,7 +88,9 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return chosen distances [mm] for pins without dimensions, and for carried axes not tied to their pivot."""
+    """Return chosen distances [mm] for pins without dimensions, and for carried axes without a required distance from
+    the axis of their carrier.
+    """
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -108,7 +114,9 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that cross a common axis (worms do not), with the direction of the line through both."""
+    """Yield pairs of axes that intersect a common axis, except in worm gears, with the direction of the line through
+    both.
+    """
     met: dict[str, list[str]] = {}
     for each in crossing:
         if each.contact.kind != "screw":

@@ -137,8 +137,8 @@ class PlanOrder:
     index    index of each axis
     radius   radius of the widest wheel of each axis [mm]
     bars     all required distances
-    alike    axis -> all equivalent axes on its carrier, including itself, each with only one bar, of one length, to the
-             carrier's axis
+    alike    axis -> all axes of its carrier, including itself, that have only one bar, of equal length, to the axis of
+             the carrier
     steps    axes in the order in which they are placed
     """
 
@@ -236,7 +236,7 @@ _ROW = 1.2  # default distance between two axes on a line divided by the sum of 
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
-    """Return the intersections of two circles.
+    """Return the intersections of two circles with the radii r (`radius`) and s (`other`).
 
     For circles that do not intersect, the result is the point on the line of centres midway between them; it is empty
     for concentric circles. With the distance d of the centres, the intersections are at x = (d^2 + r^2 - s^2) / 2d
@@ -258,7 +258,10 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the crossings of a line (point, unit vector) with a circle, or twice its point nearest the centre."""
+    """Return the intersections of a line (point, unit vector) with a circle.
+
+    If there is none, the result is twice the point of the line nearest to the centre.
+    """
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]
     square = radius * radius - (u * u + v * v - middle * middle)
@@ -298,7 +301,9 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return deterministic points in plan of all axes [mm], at the required distances or fitted to them."""
+    """Return points in plan of all axes [mm] at the required distances, or fitted to them; the result is
+    deterministic.
+    """
     return _BeamSearch(problem).found()
 
 
@@ -359,7 +364,9 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points on a line with a placed axis, at required or free distances; empty without such a line."""
+        """Return candidate points of an axis that must lie on a line with a placed axis, at required or free distances;
+        empty for other axes.
+        """
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
             if label not in pair:

@@ -109,15 +109,15 @@ class WheelBlock:
     """Index of the wheel's axis. `link` is the link of its arbor, empty for a crossing wheel."""
     link: str
     stack: int
-    """Number of the stack: a set of wheels with fixed relative heights because they mesh."""
+    """Index of the stack, which is a set of wheels with fixed relative heights because they mesh."""
     offset: float
-    """Height in the stack; `low` and `high` are the extents below and above this height."""
+    """Height in the stack [mm]; `low` and `high` are the extents below and above this height [mm]."""
     low: float
     high: float
     inner: float
-    """Radius of the free space inside a ring; 0 for other wheels."""
+    """Radius of the free space inside a ring [mm]; 0 for other wheels."""
     outer: float
-    """Outer radius, including clearance."""
+    """Outer radius, including clearance [mm]."""
     across: bool = False
     """True for a wheel of an axis that crosses this group, which meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
@@ -133,9 +133,10 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> tuple[Flags, Flags]:
-    """Return the pairs of blocks that must not be at the same height, and the blocks that links and pins would pierce.
+    """Return masks of the pairs of blocks that must not be at one height, and of the blocks that arbors and pins would
+    pierce.
 
-    The shapes of the two masks are (blocks, blocks) and (links and pins, blocks).
+    The shapes of the masks are (blocks, blocks) and (arbors and pins, blocks).
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
     pins     wheel of a pin and wheel of its slot
@@ -179,7 +180,7 @@ def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, i
 
 
 def segment_distance(point: Point, start: Point, end: Point) -> float:
-    """Return the distance between a point and a segment."""
+    """Return the distance [mm] between a point and a segment in plan."""
     u, v = end[0] - start[0], end[1] - start[1]
     x, y = point[0] - start[0], point[1] - start[1]
     square = u * u + v * v

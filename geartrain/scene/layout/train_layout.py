@@ -284,7 +284,7 @@ class WheelPlace(Shown):
     facing: int = 0
     """Side of the axis, along its direction, towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
-    """Number of the level, from 0 for the lowest along the main axes; None for wheels that are not on them."""
+    """Index of the level, from 0 for the lowest along the main axes; None for wheels on other axes."""
     turn: float = 0.0
     """Angle of the first tooth about the axis direction, from `reference` [rad], at which the teeth mesh."""
     reference: Vector = (1.0, 0.0, 0.0)
@@ -312,7 +312,7 @@ class Layout(Shown):
     notices: tuple[Problem, ...] = ()
     """Problems with wheels and axes that collide or could not be placed as declared, with reasons and remedies."""
     front: int = 1
-    """Side of z from which the train is viewed: 1 or -1."""
+    """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
     apart: Mapping[str, float] = field(default_factory=dict)
     """Gap between pitch circles [mm] of pairs whose wheels do not touch in the layout; negative for an overlap."""
 
@@ -430,14 +430,18 @@ def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seats of wheels in pairs with non-parallel axes, except wheels that also mesh with parallel ones."""
+    """Return the seats of wheels in pairs with non-parallel axes, except wheels that also mesh with wheels on parallel
+    axes.
+    """
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Return level numbers of the wheels on the main axes, from the lowest; a broad wheel counts at its lowest slot."""
+    """Return the level indices of the wheels on the main axes, from the lowest; a broad wheel counts at its lowest
+    slot.
+    """
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

@@ -41,7 +41,7 @@ _MINIMUM = Fraction(1, 1000)  # minimum factor of a module in one step
 
 @dataclass(frozen=True, slots=True)
 class AxisDistance:
-    """Distance between two axes: `times` the module of `root`, or `times` mm if `root` is None."""
+    """Distance between two axes: `times` modules of the cluster `root`, or `times` mm if `root` is None."""
 
     axes: tuple[str, str]
     times: float
@@ -55,7 +55,9 @@ class AxisDistance:
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return roots' modules with those in `free` multiplied by simple factors until all chains can close."""
+    """Return the modules [mm] of the reference clusters (roots), with those in `free` multiplied by simple factors
+    until all closed chains of axes can close.
+    """
     found = dict(modules)
     if not free or len(distances) > _MOST:
         return found
@@ -67,7 +69,9 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance longer than the path round it, or lengthen the path, in place; return True if changed."""
+    """Shorten each distance that is longer than the path round it, or lengthen that path, in place; return True if
+    changed.
+    """
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)
@@ -93,12 +97,18 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """Return the nearest fraction with a denominator up to 1000, so that modules have simple values; it may be 0."""
+    """Return the nearest fraction with a denominator up to 1000, so that modules have simple values; the result may be
+    0.
+    """
     return Fraction(factor).limit_denominator(1000)
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance without using it (Dijkstra); empty without a path."""
+    """Return the shortest path between the two axes of a distance that does not use this distance (Dijkstra's
+    algorithm).
+
+    It is empty if there is only the distance itself.
+    """
     import networkx as nx
 
     graph: nx.Graph[str] = nx.Graph()
@@ -123,12 +133,14 @@ class WheelModules:
     """Modules of the wheels of a train, and the distances between axes that result from them."""
 
     cluster: Mapping[str, int]
-    """Wheel -> number of its cluster; a cluster is a set of wheels that meshes connect."""
+    """Wheel -> index of its cluster; a cluster is a set of wheels that meshes connect."""
     module: Mapping[str, float]
     """Wheel -> module [mm]."""
     declared: frozenset[str]
     distances: Mapping[tuple[str, str], float]
-    """Pair of axes -> required distance [mm]: a pin's declared offset, else the mean distance of its gear pairs."""
+    """Pair of axes -> required distance [mm]: the declared offset of a pin, otherwise the mean distance of its gear
+    pairs.
+    """
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
@@ -184,7 +196,9 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root of each cluster, and the module of the cluster divided by the module of the root."""
+        """Root (reference cluster) of each cluster, and the module of the cluster divided by the module of that
+        root.
+        """
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -213,7 +227,8 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return modules of roots from declared modules, otherwise by least squares from positions and offsets.
+        """Return the modules of the reference clusters (roots), as declared, otherwise fitted by least squares to
+        declared positions and offsets.
 
         For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.
         """
@@ -235,7 +250,7 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes [mm] from their declared points, else from a pin's offset, else None."""
+        """Return the distance of two axes [mm] from their declared points, or from a pin's declared offset, or None."""
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -245,7 +260,7 @@ class _ModuleSearch:
         return next((tie.offset for tie in self.geometry.ties if set(tie.axes) == set(axes)), None)
 
     def _chained(self) -> Iterator[AxisDistance]:
-        """Yield distances of parallel axes, each as a multiple of the module on which it depends or in mm."""
+        """Yield the distances of parallel axes, each as a multiple of the module on which it depends, or in mm."""
         lines = self.geometry.lines
         placed = [label for label, line in lines.items() if line.given is not None]
         # a chain of the fixed axes is sufficient to find the paths between all of them
@@ -285,7 +300,9 @@ class Seat:
     """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
-    """Distance along the axis from where the axes intersect, or are nearest, to the wheel's centre [mm]."""
+    """Distance along the wheel's axis from the point where the axes intersect, or are nearest, to the wheel's centre
+    [mm].
+    """
     cone: float
     """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""
     out: Vector
@@ -293,11 +310,13 @@ class Seat:
 
 
 def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float, float]) -> tuple[Seat, Seat]:
-    """Return the seats of the first and second wheel of a pair, from the declared directions and sides.
+    """Return the seats of the first and second wheel of a pair, from the declared directions of axes and sides of
+    wheels.
 
-    The pitch point is on the side to which both wheels face. Bevel: tan d_1 = sin S / (z_2/z_1 + cos S) with the shaft
-    angle S between the directions n_i = f_i u_i from the apex to the wheels. Crown: the pinion's pitch cylinder rolls
-    on a cone of half angle S, which is a plane if S is a right angle.
+    The pitch point is on the side to which both wheels face. The shaft angle S is the angle between the directions from
+    the apex to both wheels. Bevel wheels have the cone half angle d_1 with tan d_1 = sin S / (z_2/z_1 + cos S), and d_2
+    likewise. The pitch cylinder of a crown wheel's pinion rolls on a cone of half angle S, which is a plane if S is a
+    right angle.
     """
     if contact.kind == "screw":
         out = _from_worm(geometry, contact)
@@ -324,12 +343,16 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
 
 
 def opposite(v: Vector) -> Vector:
-    """Return the opposite of a vector, without components -0.0, which would be printed in pictures."""
+    """Return the opposite of a vector, with 0.0 instead of any component -0.0, which would be printed in pictures."""
     return minus((0.0, 0.0, 0.0), v)
 
 
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
-    """Return the unit vector from a worm's axis to its wheel's; without positions, wheel cross worm direction."""
+    """Return the unit vector from a worm's axis to its wheel's axis.
+
+    If no positions are declared, it is the cross product of the direction of the wheel's axis and that of the worm's
+    axis.
+    """
     worm, wheel = (geometry.lines[axis] for axis in contact.axes)
     way = unit(cross(wheel.direction, worm.direction))
     if worm.given is not None and wheel.given is not None and dot(minus(wheel.given, worm.given), way) < 0:
@@ -343,17 +366,17 @@ class WheelSize:
 
     radius: float
     module: float
-    """Transverse module: pitch diameter divided by the tooth count; axial module of a worm."""
+    """Transverse module, the pitch diameter divided by the tooth count, or axial module of a worm [mm]."""
     thickness: float
-    """Thickness of the wheel's rim along the axis."""
+    """Thickness of the wheel's rim along the axis [mm]."""
     inner: float
-    """Radius of the free space inside a ring; 0 for other wheels."""
+    """Radius of the free space inside a ring [mm]; 0 for other wheels."""
     outer: float
-    """Outer radius, including clearance."""
+    """Outer radius, including clearance [mm]."""
     slot: float = 0.0
-    """Height of the middle of the wheel above the lowest slot, if its level is divided into slots."""
+    """Height of the middle of the wheel above the lowest slot [mm], if its level is divided into slots."""
     plain: float = 0.0
-    """Thickness before the wheel was broadened to mesh with several mates."""
+    """Thickness before the wheel was broadened to mesh with several mates [mm]."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
         """Return the wheel broadened to occupy the slots from `low` to `high`, counted from 0 for the lowest slot."""
@@ -389,12 +412,12 @@ class SizedGeometry:
 
     @cached_property
     def seats(self) -> Mapping[tuple[str, str], Seat]:
-        """Seats by pair and wheel."""
+        """Seats of wheels, by name of the pair and name of the wheel."""
         return {(each.contact.name, each.side.wheel): each.seat for each in self.crossing}
 
 
 def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
-    """Return modules, sizes and seats of all wheels."""
+    """Return the declared geometry with the modules, sizes and seats of all wheels."""
     modules = _ModuleSearch(declared).found()
     sizes = {
         wheel: _size(declared, wheel, modules.module[wheel], wheel in modules.declared) for wheel in declared.wheels

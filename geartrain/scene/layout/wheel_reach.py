@@ -19,7 +19,7 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the size of a bevel wheel's teeth at the narrow end over that at the wide end, from 0.55 to 1.
+    """Return the size of a bevel wheel's teeth at the narrow end divided by that at the wide end, from 0.55 to 1.
 
     cone        half angle of its pitch cone [rad], above 0; a right angle for a crown wheel
     radius      pitch radius at the wide end [mm]
@@ -40,7 +40,10 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 
 
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
-    """Return the position of a bevel wheel's back, as `height_on_cone` [mm]; `root` is the roots' height [mm]."""
+    """Return the position of a bevel wheel's back, measured as in `height_on_cone` [mm].
+
+    root   height of the tooth roots above the pitch cone [mm]
+    """
     ends = 1.0, taper(cone, radius, thickness)
     return min(height_on_cone(cone, radius, root - LAND * radius, scale) for scale in ends) - _BACK * thickness
 
@@ -63,7 +66,7 @@ def reach(cone: float, radius: float, thickness: float, root: float, tip: float)
 
 
 def web(cone: float, radius: float, thickness: float, root: float) -> tuple[float, float]:
-    """Return the axial extents [mm], as `reach` does, of the disc inside the ring of teeth."""
+    """Return the axial extents [mm] of the disc inside the ring of teeth, measured as in `reach`."""
     if not cone:
         return thickness / 2, thickness / 2
     front = height_on_cone(cone, radius, root - LAND * radius, taper(cone, radius, thickness))

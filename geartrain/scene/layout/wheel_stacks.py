@@ -44,13 +44,13 @@ class StackProblem:
     clash: Flags
     """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
     pierce: Flags
-    """Wheels through which an arbor or a pin would pass if it crossed their height, shape (links and pins, blocks)."""
+    """Mask, shape (links and pins, blocks), of the wheels that each arbor or pin would pass through at their height."""
     arbors: Sequence[str]
     """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]
     """Link -> ends of its arbor that extend beyond the stack to a dial."""
     plates: Mapping[str, str]
-    """Arbor -> wheel that carries the axis of the arbor."""
+    """Arbor -> wheel of a carrier that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
     """Wheel with a pin and wheel with its slot, in the order of the rows of `pierce` after the rows of arbors."""
     still: str = ""
@@ -98,7 +98,7 @@ class _OrderSearch:
 
     @cached_property
     def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
-        """Stacks of fixed wheels by axis, for axes with several such stacks, whose wheels are one piece."""
+        """Axis -> stacks of its fixed wheels, for axes with several such stacks; these wheels are one piece."""
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
             if block.link and block.link == self.problem.still and not block.across and not block.inner:
@@ -111,7 +111,9 @@ class _OrderSearch:
 
     @cached_property
     def order(self) -> list[int]:
-        """Order of the stacks: the one with most arbors first, then those that share most arbors with earlier ones."""
+        """Order in which stacks are placed: the one with the most arbors, then those that share the most arbors with
+        earlier ones.
+        """
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
@@ -223,7 +225,11 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) of coaxial arbors' stacks: arbors, stacks, and the first row of each ordered pair."""
+        """Rows (arbor, stack) for each ordered pair of coaxial arbors: the first arbor with every stack of the second
+        arbor.
+
+        The arrays are the arbors and the stacks of all rows, and the index of the first row of each pair.
+        """
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
             for one, other in combinations(about, 2):
@@ -235,7 +241,7 @@ class _OrderSearch:
 
     @cached_property
     def _hubs(self) -> dict[int, dict[int, dict[int, None]]]:
-        """Stacks of each arbor without rings, by axis."""
+        """Axis -> arbor -> stacks of the wheels on the arbor, except rings."""
         hubs: dict[int, dict[int, dict[int, None]]] = {}
         for block in self.problem.blocks:
             if block.link in self.problem.arbors and not block.across and not block.inner:
@@ -256,7 +262,7 @@ class _OrderSearch:
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, stacks whose wheels they would pierce at equal height, and the number of these wheels in each."""
+        """Arbors, stacks with wheels that these arbors would pierce at equal height, and the number of such wheels."""
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
@@ -292,7 +298,9 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run moved, or reversed."""
+    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run of levels moved or
+    reversed.
+    """
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -363,7 +371,10 @@ class WheelStack:
     """Stack -> height [mm] that is determined by parts that are already placed."""
 
     def heights(self) -> dict[str, float]:
-        """Return heights of upright wheels [mm]: given heights, and others shifted as the first given stack."""
+        """Return the heights of upright wheels [mm].
+
+        Stacks without a given height are shifted by the same distance as the first stack with a given height.
+        """
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)
         found = {stack: self.given.get(stack, height + shift) for stack, height in found.items()}
@@ -392,7 +403,9 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels they pass through, except those of a pin and its slot, which share a stud."""
+        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, which share a
+        stud.
+        """
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}

@@ -78,11 +78,13 @@ class AxisColumn:
     members: tuple[ColumnMember, ...]
     """Members from the innermost outwards. For a through arbor, the first member is the core."""
     hit: tuple[tuple[StackDisc, float], ...] = ()
-    """Obstructing discs of other axes, with their gaps (below `APART`) [mm]."""
+    """Discs of other axes that obstruct the column, each with its gap [mm], which is less than `APART`."""
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other; None if all links can be nested."""
     on: str = ""
-    """Axis of the stud on whose end this stud is turned, else empty; `topped` marks the lower of the two."""
+    """Axis of the stud on whose end this stud is turned, otherwise empty; `topped` marks the lower one of two such
+    studs.
+    """
     topped: bool = False
 
     @property
@@ -103,14 +105,16 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """Problem of one axis, solved by an `AxisColumn` for given plates: its discs, other discs, ends at dials."""
+    """Input for the choice of the arbor, pipes and studs of one axis: its discs, discs of other axes, and ends at
+    dials.
+    """
 
     axis: str
     at: Point
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[bool, bool]]
-    """Link -> True or False for an end below the stack and for an end above the stack."""
+    """Link -> (below, above): True for each end of the link's arbor that extends beyond the stack."""
     span: tuple[float, float]
     """Lowest and highest point of the stack, including the space of dials [mm]."""
     frame: str
@@ -124,23 +128,29 @@ class ColumnProblem:
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes, each with its gap [mm], which does not depend on the positions of the plates."""
+        """Discs of other axes, each with its gap to the middle of this axis [mm]; it does not depend on the plates'
+        positions.
+        """
         return beside(self.axis, self.at, self.others)
 
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
-        """Yield possible columns with their obstacles, in order of preference."""
+        """Yield possible columns (an arbor or stud with its pipes) with their obstacles, in order of preference."""
         order, tangled = self._ordered(places)
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Return the column with a single bearing, in a bridge, with a collar at either side of the bridge."""
+        """Return the column (arbor and pipes) with a single bearing, in a bridge, and a collar on either side of the
+        bridge.
+        """
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
 
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given or thickest clear standard core, or with the default if none is clear."""
+        """Return the column with the given core diameter, or with the thickest standard core that is clear of all
+        obstacles, or with the default core if none is clear.
+        """
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -171,7 +181,9 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return pieces from the innermost, and two links of which neither fits into the other; None if all nest."""
+        """Return the pieces from the innermost outwards, and two links of which neither fits into the other, or
+        None.
+        """
         if not self._fixed_discs:
             return self._turning_order
         tangled = None
@@ -189,7 +201,7 @@ class ColumnProblem:
 
     @cached_property
     def _turning_pieces(self) -> tuple[CoaxialLink, ...]:
-        """Pieces of the column that turn."""
+        """Pieces on the axis that turn: the future arbor and pipes."""
         found = []
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
         parted = {link for link, apart in pieces if apart}
@@ -220,7 +232,8 @@ class ColumnProblem:
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
     def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Yield the fixed pieces that can hold the fixed wheels: one piece, or two, of which one is next to its plate.
+        """Yield possible pieces that hold the fixed wheels: one piece for all, or two, of which one is next to its
+        plate.
 
         hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that
         plate
@@ -236,7 +249,9 @@ class ColumnProblem:
                 )
 
     def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
-        """Return a fixed piece from its discs into a plate, with hubs at the middles of discs and plate."""
+        """Return the fixed piece that extends from its discs into a plate, with hubs at the mid-heights of the discs
+        and the plate.
+        """
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
@@ -292,7 +307,7 @@ class ColumnProblem:
 
 
 def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
-    """Return the ends of each piece [mm]; of pieces that carry hands, inner pieces extend farther than outer ones."""
+    """Return the ends of each piece [mm]; inner pieces that carry hands extend beyond the hands of outer pieces."""
     found, steps = [], [0, 0]
     for each in reversed(order):
         below, above = each.ends
@@ -334,7 +349,7 @@ class CoaxialLink:
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on the piece. `ends` is True for each end, below and above, that extends beyond the stack."""
+    """Discs on the piece; `ends` (below, above) is True for each end that extends beyond the stack."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:
@@ -343,7 +358,10 @@ class CoaxialLink:
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Return links from the innermost (topological order), or as given and two that conflict if they form a cycle."""
+    """Return the links from the innermost outwards (topological order).
+
+    If no such order exists, the links are returned as given, with two links that conflict.
+    """
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()
     while left:

@@ -68,7 +68,9 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return the seat on a plate at a height in a gap of the stack, with nominal faces until heights are known."""
+    """Return the seat on a plate in a gap of the stack, at a given height; its faces are nominal until heights are
+    known.
+    """
     disc = replace(disc, low=height - _THIN, high=height + _THIN)
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
 
@@ -81,7 +83,9 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Return possible seats of a link's axes: on its wheels, then on a plate at either side of these axes' wheels."""
+    """Return the possible seats of the axes that a link carries: on its wheels, then on a plate at either side of the
+    wheels of these axes.
+    """
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
     found = [CarrierSeat(link, disc.name, ()) for disc in fit]
@@ -114,7 +118,7 @@ def carried_columns(
     core: float | None,
     head: float = SHAKE + HEAD,
 ) -> list[AxisColumn]:
-    """Return the columns of the axes that one carrier carries, in the order of `axes`, relative to the carrier.
+    """Return the column (stud and pipes) of each axis in `axes`, which one carrier carries, relative to the carrier.
 
     With a `head` of 0, heads of studs take no space yet. If two axes are so close that their studs would intersect, the
     stud of the axis whose wheels are farther from the seat starts at the end of the other, as one stud turned with a
@@ -148,14 +152,16 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:
-    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 without wheels."""
+    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 for an axis without
+    wheels.
+    """
     return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
 
 
 def _carried_column(
     axis: CarriedAxis, seat: StackDisc, seen: Sequence[StackDisc], process: Process, core: float | None, head: float
 ) -> AxisColumn:
-    """Return the preferred column of a carried axis, which has only one plate: its seat."""
+    """Return the preferred column (stud and pipes) of a carried axis, which is fixed only in its seat."""
     ends: Mapping[str, tuple[bool, bool]] = {}
     faces = seat.low, seat.high
     others = _others(axis, seen)
@@ -168,6 +174,8 @@ def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc as seen from a turning carrier: its own and carried parts are fixed, all others revolve."""
+    """Return a disc as seen from a turning carrier: discs of the carrier and of its axes are fixed, all other discs
+    revolve.
+    """
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)

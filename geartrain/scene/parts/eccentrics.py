@@ -179,7 +179,9 @@ def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
 
 
 def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
-    """Return the problem that an eccentric is too thin for an arbor of this diameter [mm]; None if it is not."""
+    """Return the problem that an eccentric is too thin for an arbor of the diameter `arbor` [mm]; None if it is thick
+    enough.
+    """
     beside = eccentric.wall - arbor / 2
     if beside >= _THIN:
         return None
@@ -267,7 +269,10 @@ def pin_seats(
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """Return the plate of pins beside their disc, above or towards axes that it carries, or a cup's bottom."""
+    """Return the plate beside a disc in which its pins are fixed, or the bottom of a cup.
+
+    The plate is above the disc, or on the side of the axes that the plate carries.
+    """
     low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
     others = [disc.middle for each in carried for disc in each.discs]
     below = bool(others) and sum(others) / len(others) < (low + high) / 2

@@ -63,7 +63,9 @@ class PlateChoice:
     outside: int
     """1 if the train extends above the front plate, -1 if below the back plate, 0 if neither."""
     cost: tuple[int, int]
-    """Obstacles on all axes, including crossing wheels that a plate would cut; then studs and arbors through one."""
+    """Number of obstacles on all axes, including crossing wheels that a plate would cut, and then the cost of studs and
+    of arbors that pass through a plate.
+    """
 
 
 def best_places(
@@ -139,14 +141,17 @@ def obstacles(columns: Iterable[AxisColumn]) -> int:
 
 
 def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem:
-    """Return the problem of the same axis with other discs in the stack."""
+    """Return the `ColumnProblem` of the same axis with other discs in the stack."""
     own = [disc for disc in discs if disc.axis == axis.axis]
     others = [disc for disc in discs if disc.axis != axis.axis]
     return replace(axis, discs=own, others=others)
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """Return the first column without an obstacle, else the first; the iterable is read no further than needed."""
+    """Return the first column without an obstacle, otherwise the first column.
+
+    The iterable is read no further than needed.
+    """
     first = None
     for each in columns:
         if not each.hit and not each.tangled:
@@ -171,9 +176,9 @@ class FramePlan:
     process: Process
     thickness: float
     core: float | None
-    """Diameter of all arbors; None if it may be chosen for each axis."""
+    """Diameter of all arbors [mm]; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[bool, bool]]
-    """Link -> True or False for an end at a dial below the stack and for an end at a dial above it."""
+    """Link -> (below, above): True for each end of the link's arbor that extends to a dial."""
 
     # --------------------------------------------------------------------------------------------------- as laid out
 
@@ -211,7 +216,9 @@ class FramePlan:
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Return the diameters of an axis' arbor and pivots [mm], as requested or as declared for its link."""
+        """Return the diameters of the arbor and the pivots of an axis [mm], as requested or as declared for its
+        link.
+        """
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
@@ -294,12 +301,12 @@ class FramePlan:
 
     @cached_property
     def heights(self) -> StackHeights:
-        """Heights of all parts as built, with all plates inserted."""
+        """Heights of all parts as built [mm], with all plates inserted."""
         return stack_up(self._slabs, self.choice.places, self.turning, self.thickness)
 
     @property
     def places(self) -> FramePlaces:
-        """Heights of the faces of both frame plates, as built."""
+        """Heights of the faces of both frame plates, as built [mm]."""
         return self.heights.places
 
     @cached_property
@@ -312,7 +319,9 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """Column of each axis of the frame, in a bridge if the plates cannot support the axis."""
+        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if the plates cannot support the
+        axis.
+        """
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
         if self.bridge is None:
             return tuple(found)
@@ -325,7 +334,8 @@ class FramePlan:
 
     @cached_property
     def bridge(self) -> tuple[float, float] | None:
-        """Faces of a plate beyond all wheels on one side, which supports an axis that the frame plates cannot support.
+        """Heights of the faces of a plate beyond all wheels on one side [mm], which supports an axis that the frame
+        plates cannot support.
 
         It is None if no axis needs a bridge, or if no bridge supports such an axis.
         """
@@ -354,7 +364,7 @@ class FramePlan:
 
     @cached_property
     def carried(self) -> dict[str, AxisColumn]:
-        """Column of each carried axis."""
+        """Column (stud, with pipes) of each carried axis."""
         named = {disc.name: disc for disc in self.discs}
         found: dict[str, AxisColumn] = {}
         for seat in self.choice.seats:
@@ -379,7 +389,7 @@ class FramePlan:
 
     @cached_property
     def all_columns(self) -> tuple[AxisColumn, ...]:
-        """Columns of the frame, then columns of carriers."""
+        """Columns (arbor or stud, with pipes) of axes of the frame, then of carried axes."""
         return *self.columns, *self.carried.values()
 
     @cached_property
@@ -440,7 +450,7 @@ class FramePlan:
             for disc, room in column.hit:
                 who = f"arbor on axis '{column.axis}'"
                 what = f"the {who} {'passes through' if room < 0 else 'is too close to'} '{disc.name}'"
-                why = f"the gap is {room:.3f} mm, and at least {APART:g} mm is required"
+                why = f"the clearance is {room:.3f} mm, and at least {APART:g} mm is required"
                 yield Problem(what, why, "move the axis, change the order of the wheels, or use a smaller --bore")
         yield from self._thin_roots()
         for each in self.stack.eccentrics:
@@ -471,7 +481,7 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Yield arms beyond all wheels for links that extend to a dial and cannot be nested, each joined by a bar."""
+    """Yield arms beyond all wheels for links that extend to a dial and cannot be nested; each is connected by a bar."""
     for link in column.tangled or ():
         below, above = ends.get(link, (False, False))
         about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]
@@ -510,7 +520,7 @@ class StackHeights:
     """Heights of all parts as built, with plates inserted into the stack of the layout."""
 
     starts: tuple[float, ...]
-    """Lower face of each slab in the layout; `shifts` are the distances by which the slabs move up [mm]."""
+    """Lower face of each slab in the layout [mm]; `shifts` are the distances by which the slabs move up [mm]."""
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
@@ -524,7 +534,9 @@ class StackHeights:
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return heights as built, with plates inserted between slabs of wheels and the lowest slab in its place."""
+    """Return the heights as built: plates are inserted between slabs of wheels, and the lowest slab stays in its
+    place.
+    """
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [

@@ -63,7 +63,9 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield at least six holes between the lobes of a wide wave generator with a hole of diameter `bore` [mm]."""
+    """Yield at least six holes in a wide wave generator between its lobes, around a central hole of diameter `bore`
+    [mm].
+    """
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -85,7 +87,7 @@ class FramePlates:
     feet: tuple[TurnedPart, ...] = ()
     """Feet of dials, and the cock of a pendulum, each in one of the plates."""
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
-    """Mortises of brackets within the outline of a plate, by the side of the plate."""
+    """Mortises of brackets within the outline of a plate, by the name of the plate (back or front)."""
     standing: tuple[StandingPins, ...] = ()
     barrel: Barrel | None = None
     """Barrel from which a weight hangs; None for a train without a weight."""
@@ -102,7 +104,9 @@ class FramePlates:
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
-        """Circles that contain the parts that turn between the plates, in all positions of carriers."""
+        """Circles that contain the parts that turn between the plates, in all positions of carriers, as centre and
+        radius [mm].
+        """
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
@@ -216,7 +220,9 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes beside a seat's hub: for studs of carried axes, posts, pins and eccentrics."""
+        """Return the holes, except that of the hub, in a wheel or plate that carries axes: for studs, posts, pins and
+        eccentrics.
+        """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
     def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:

@@ -113,11 +113,11 @@ class FrameStack:
 
     @cached_property
     def turn(self) -> Floats:
-        """Rotation matrix with right, up and normal of the stack as columns. Shape (3, 3)."""
+        """Rotation matrix whose columns are the directions right and up and the normal of the stack. Shape (3, 3)."""
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:
-        """Return a point of the stack, given in plan view with its height, as a point in space [mm]."""
+        """Return the point in space [mm] that has the given plan-view coordinates and height in the stack."""
         x, y, z = (self.turn @ np.array([*at, height])).tolist()
         return x, y, z
 
@@ -216,7 +216,9 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes by coupling, for which no wheel of the pins' link is wide enough."""
+        """Circles of pins in round holes, by coupling, if no wheel of the link of the pins is wide enough for the
+        pins.
+        """
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
@@ -226,7 +228,11 @@ class FrameStack:
 
     @property
     def ends(self) -> dict[str, tuple[bool, bool]]:
-        """Links that extend below and above: eccentric shaft and pins, or a carrier of cranks and its sun."""
+        """Link -> (below, above): True where the link's shaft extends out of the mechanism.
+
+        In a cycloidal or strain wave drive, the eccentric shaft extends below, and the link of pins or cup above. With
+        parallel cranks, their carrier extends below, and wheels about its axis above.
+        """
         # eccentrics on the main axis: a cycloidal or strain wave drive; on carried axes: parallel cranks
         inner = {each.link for each in self.eccentrics if each.axis in self.axes}
         if inner:
@@ -239,7 +245,9 @@ class FrameStack:
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
-        """Heights between which a plate would part wheels from their mates, by axis of wheels that are not upright."""
+        """Heights between which a plate would separate wheels from their mates [mm], by axis of wheels that are not
+        upright.
+        """
         heights: dict[str, list[float]] = {}
         upright = {disc.name: disc for disc in self.discs}
         for gear in self.train.declaration.gears:
@@ -400,7 +408,9 @@ def _arbor(stack: FrameStack, link: str) -> float | None:
 
 
 def _cranks(stack: FrameStack, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-    """Yield the parallel cranks that a link represents, carried about its axis, as link, axis and coupling."""
+    """Yield the link, axis and coupling of each of the parallel cranks that a link represents, carried about its
+    axis.
+    """
     tree = stack.train.kinematics.tree
     for coupling in stack.train.declaration.couplings:
         pair = coupling.pin, coupling.slot
@@ -442,7 +452,7 @@ def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
 
 
 def find_pin_circles(stack: FrameStack) -> Iterator[PinCircle]:
-    """Yield pins in round holes for which no wheel of their own link is wide enough."""
+    """Yield the circles of pins in round holes for which no wheel of the link of the pins is wide enough."""
     for declared in stack.train.declaration.couplings:
         places = [
             stack.layout.axes.get(stack.train.kinematics.tree.axis(link) or "")

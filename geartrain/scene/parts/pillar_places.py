@@ -64,7 +64,9 @@ def pillar_places(
 
 
 def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
-    """Return the first position, then repeatedly the one farthest from those chosen (greedy dispersion)."""
+    """Return the first position, then repeatedly the position farthest from those already chosen (greedy
+    dispersion).
+    """
     taken = [first]
     while len(taken) < min(count, len(set(spots))):
         taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))

@@ -13,17 +13,20 @@ from geartrain.errors import Problem, QuestionError, suggest
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """Manufacturing process of flat parts and of those that turn in them [mm]; `web` and `wall` are minima."""
+    """Manufacturing process with its kerf and fits [mm].
+
+    `web` is the minimum width of material between two cuts, and `wall` the minimum thickness of a pipe's wall.
+    """
 
     name: str
     """Name of the process: laser, cnc, fdm or hand."""
     kerf: float
-    """Width of the cut; half of it is added to every outline."""
+    """Width of the cut [mm]; half of it is added to every outline."""
     web: float
     running: float
-    """Diametral clearance of a running fit."""
+    """Diametral clearance of a running fit [mm]."""
     press: float
-    """Diametral clearance of a fixed joint; 0 for nominal sizes, which are fitted as described by `joint`."""
+    """Diametral clearance of a fixed joint [mm]; 0 for nominal sizes, which are fitted as described by `joint`."""
     backlash: float
     """Circumferential backlash at the pitch circle [modules]."""
     wall: float

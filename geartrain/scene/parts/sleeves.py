@@ -44,7 +44,7 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None without space.
+    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None if it does not fit.
 
     size   radius and maximum length of the drum [mm]; the length is reduced to a quarter if necessary
     """
@@ -178,7 +178,9 @@ class Barrel:
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters; None if weight or drum is undeclared or space lacks."""
+    """Return the barrel of the link at which power enters; None without a declared weight or drum, or for lack of
+    space.
+    """
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:
         return None

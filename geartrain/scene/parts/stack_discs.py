@@ -29,31 +29,33 @@ class StackDisc:
     link: str
     axis: str
     at: Point
-    """Position of the disc's axis in plan view of the stack."""
+    """Position of the disc's axis in plan view of the stack [mm]."""
     low: float
     high: float
     outer: float
-    """Outer radius of the teeth or of the rim."""
+    """Outer radius of the teeth or of the rim [mm]."""
     inner: float = 0.0
-    """Radius of the free space within the teeth of a ring, or of a central hole for an eccentric; 0 for other discs."""
+    """Radius of the free space within the teeth of a ring, or of a central hole for an eccentric [mm]; 0 for other
+    discs.
+    """
     root: float = 0.0
-    """Root radius of the teeth; 0 for a plate without a limit on its arbor."""
+    """Root radius of the teeth [mm]; 0 for a plate, which does not limit the diameter of its arbor."""
     hub: bool = True
     """True if the disc is mounted on the arbor of its link; False for a ring."""
     carrier: Point | None = None
-    """Position of the axis about which the disc's axis is carried; None if it is not carried."""
+    """Position of the axis about which the disc's axis is carried [mm]; None if it is not carried."""
     apart: bool = False
     """True for an arm that is connected to its link by an eccentric bar, past the parts between them."""
 
     @property
     def middle(self) -> float:
-        """Height of the middle plane of the disc."""
+        """Height of the middle plane of the disc [mm]."""
         return (self.low + self.high) / 2
 
     def clearance_to(self, at: Point, radius: float) -> float:
-        """Return the minimum gap between the disc, at all positions of its carrier, and a fixed column [mm].
+        """Return the minimum gap [mm] between the disc, at all positions of its carrier, and a fixed cylinder.
 
-        It is negative for an overlap. The column has the given radius and may be inside a ring.
+        It is negative for an overlap. The cylinder has the given radius and may be inside a ring.
         """
         if self.carrier is None:
             away = dist(at, self.at)
@@ -111,7 +113,7 @@ class Passage:
     middle: Point
     """Centre of the rectangle, in the coordinates of the stack [mm]."""
     way: Point
-    """Unit vector along the length of the rectangle; `length` and `width` are half its sides [mm]."""
+    """Unit vector along the length of the rectangle; `length` and `width` are half the lengths of its sides [mm]."""
     length: float
     width: float
 
@@ -186,7 +188,9 @@ def _notched(line: Floats, start: float, width: float) -> Floats:
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """Return the farthest edge beyond `start` that crosses a level, by its first point, and the intersection."""
+    """Return the first edge beyond `start` along x that crosses the height `level`: the index of its first point, and
+    the intersection.
+    """
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
     a, b = line[crossing], after[crossing]

@@ -54,7 +54,7 @@ class FlatDrawing:
     marks: tuple[EngravedText, ...] = ()
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
-    """Polylines to be engraved, shape (n, 2) each."""
+    """Polylines to be engraved [mm], shape (n, 2) each."""
 
     @property
     def box(self) -> tuple[Floats, Floats]:
@@ -190,7 +190,10 @@ def pin_diameter(radius: float) -> float:
 
 
 def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return edge and slot of a bar from its axis at the origin along x, for a pin at |r - e| to r + e [mm]."""
+    """Return the edge and the slot of a bar from its axis at the origin along x [mm].
+
+    The pin at the radius r about an axis at the distance e moves in the slot between |r - e| and r + e from the origin.
+    """
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 
@@ -199,9 +202,9 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
     """Return the edge and the hole of a bar from its axis at the origin along x, with a round hole in which a pin
     revolves [mm].
 
-    A pin without declared sizes moves its slot uniformly, at the mean of the transmission function. If this mean ratio
-    is 1 (r > e), the pin moves relative to the bar on a circle of radius e about (r, 0); if it is 0, on a circle of
-    radius r about (e, 0).
+    The pin moves at the radius r about an axis at the distance e. A pin without declared sizes moves its slot
+    uniformly, at the mean of the transmission function. If this mean ratio is 1 (r > e), the pin moves relative to the
+    bar on a circle of radius e about (r, 0); if it is 0, on a circle of radius r about (e, 0).
     """
     wide, hole = 1.2 * pin, min(r, e) + 0.55 * pin
     middle, rim = max(r, e), hole + 0.65 * pin
@@ -214,7 +217,9 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
 
 
 def _disc(coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
-    """Return the disc of a pin, or of its slot, which extends from |r - e| to r + e from the slot's axis."""
+    """Return the disc of a pin at radius r, or of its slot, which extends from |r - e| to r + e from an axis at the
+    offset e.
+    """
     assert coupling.pin_radius is not None
     assert coupling.offset is not None
     r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000

@@ -99,7 +99,7 @@ def build_scene(
 
 
 def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
-    """Return a wheel with its slots and its hole for an eccentric; all other holes are filled by parts."""
+    """Return a wheel with its slots and its hole for an eccentric; other holes are omitted because parts fill them."""
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
     if model.plan is not None:
@@ -183,7 +183,7 @@ def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tupl
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """Return all dials and pointers, with a dial without a plate placed on the bracket of its pointers' arbor.
+    """Return all dials and pointers. A dial without a plate is placed on the bracket of the arbor of its pointers.
 
     Neighbouring arbors limit the radius of the dial. Without a bracket, or without space, the dial is unchanged.
     """

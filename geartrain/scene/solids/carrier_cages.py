@@ -74,7 +74,9 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face, and downward direction; None without one."""
+        """Direction towards the reader of the first dial on a face of the train, and downward direction; None without
+        such a dial.
+        """
         normal = self.plan.stack.normal
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
         face = next(faces, None)
@@ -189,7 +191,9 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of the frame's arbors across the normal; `bores` are diameters by axis [mm]."""
+    """Return the brackets of the frame's arbors that are parallel to its plates; `bores` are arbor diameters by axis
+    [mm].
+    """
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
@@ -202,7 +206,9 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the ends of a body's wheels along its direction, from its point [mm]; None without, besides rings."""
+    """Return the ends of a body's wheels along its direction, from its point [mm]; None for a body without wheels or
+    with rings only.
+    """
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -293,7 +299,9 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of a body with an axis inclined to its carrier's; `reach` is its arbor's end along the body [mm]."""
+    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the end of its arbor along the body
+    [mm].
+    """
 
     body: int
     reach: float
@@ -301,7 +309,9 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are diameters by axis [mm]."""
+    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are arbor diameters by axis
+    [mm].
+    """
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]
@@ -349,7 +359,9 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1, -1) and place [mm]."""
+        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1 or -1) and its position
+        [mm].
+        """
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)

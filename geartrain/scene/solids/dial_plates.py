@@ -137,7 +137,9 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Return a plate for each side with dials on the frame, across the normal, that a pointer's arbor passes."""
+    """Return a plate for each side of the frame with dials that are parallel to its plates and that a pointer's arbor
+    reaches.
+    """
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:

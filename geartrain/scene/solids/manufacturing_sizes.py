@@ -27,7 +27,9 @@ _STOCK = (
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
 )  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
-"""Minimum and maximum sizes that can be made [mm]: curves are drawn to 0.001 mm, and other parts match."""
+"""Minimum and maximum sizes that can be made [mm]: outlines are accurate to 0.001 mm, and arbors and plates are a few
+mm.
+"""
 _SHEET = (1, 1e5)  # mm: limits of the sides of sheets
 _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
 
@@ -123,7 +125,10 @@ def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout
 
 
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
-    """Return the layout's enlargement for the requested module, 1 without; raise `QuestionError` if sizes are given."""
+    """Return the factor by which a requested module enlarges a layout; 1 without a requested module.
+
+    Raise `QuestionError` if the declaration gives sizes.
+    """
     if making.module is None or not layout.wheels:
         return 1.0
     given = [name for name, place in layout.wheels.items() if place.given]
@@ -132,7 +137,7 @@ def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
         named = f"the module of '{given[0]}'" if given else f"the position of axis '{placed[0]}'"
         why = f"it gives {named}, and declared sizes take precedence"
         fix = "omit --module, or remove the sizes from the file"
-        raise QuestionError(Problem("the declaration already has sizes", why, fix, "--module"))
+        raise QuestionError(Problem("no module can be set: the declaration already has sizes", why, fix, "--module"))
     return making.module / usual_module(layout)
 
 
@@ -174,7 +179,7 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
 
 
 def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
-    """Return the problem that a pair's form fixes its backlash; None if the backlash can be chosen."""
+    """Return the problem that the tooth form of a pair fixes its backlash; None if the backlash can be chosen."""
     form = declared.form_of(gear)
     return None if form is None else form.own_backlash(gear.name)
 
@@ -218,7 +223,9 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return wheels' thicknesses [mm] as requested or declared; the rest share a stock size that is near enough."""
+    """Return the thicknesses of wheels [mm]: as requested or declared, and one stock size for all others if it is near
+    enough.
+    """
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)
     own = {name: place.thickness for name, place in layout.wheels.items()}
@@ -232,7 +239,7 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return True if a wheel is a spur wheel of its module's default thickness, not declared or broadened."""
+    """Return True if a spur wheel has the default thickness of its module, neither declared nor broadened."""
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain

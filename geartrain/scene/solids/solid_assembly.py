@@ -112,7 +112,7 @@ class SolidModel(Shown):
 
     @cached_property
     def frame(self) -> FramePlates | None:
-        """Plates, pillars, arbors and other turned parts; None without a plan."""
+        """Plates, pillars, arbors and other turned parts; None for a model without plates (`plan` is None)."""
         if self.plan is None:
             return None
         mortises = {side: [each.mortise for each in self.brackets if each.side == side] for side in ("back", "front")}
@@ -122,7 +122,7 @@ class SolidModel(Shown):
 
     @cached_property
     def hanging(self) -> HangingParts | None:
-        """Pendulum and weight with their supports; None without a plan."""
+        """Pendulum and weight with their supports; None for a model without plates (`plan` is None)."""
         if self.plan is None:
             return None
         crank = self.scene.crank
@@ -194,7 +194,7 @@ class SolidModel(Shown):
 
     @cached_property
     def dials(self) -> list[DialPlate]:
-        """Plates of dials; empty without a plan."""
+        """Plates of dials; empty for a model without frame plates (`plan` is None)."""
         thickness = self.making.thickness or THICKNESS
         return [] if self.plan is None else dial_plates(self.scene, self.plan, thickness)
 

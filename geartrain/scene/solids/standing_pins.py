@@ -45,7 +45,10 @@ _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """Coupling cut into wheels: pin in one (None if no wheel carries round holes' pins), slot or holes in another."""
+    """Coupling cut into wheels: a pin in one wheel, and its slot or holes in another.
+
+    The wheel of the pins is None if no wheel carries the pins of round holes.
+    """
 
     coupling: SceneCoupling
     pin: SceneWheel | None
@@ -92,7 +95,7 @@ def _wide_wheels(
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """Return edge and hole of the slotted bar, or without declared sizes of a bar whose hole a pin circles."""
+    """Return the edge of a bar and its slot, or a round hole in which the pin revolves if no sizes are declared."""
     shape = slotted_bar if coupling.drawn else holed_bar
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
@@ -112,7 +115,9 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return a wheel's holes for pins and for a slot, in the coordinates of the wheel, `turn` at `place`."""
+    """Return a wheel's holes for pins and for a slot, in coordinates of the wheel with rotation `turn` and centre
+    `place`.
+    """
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if cut.pin is not None and wheel == cut.pin.id:
@@ -144,14 +149,16 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """Parts of the couplings of a scene: pins in wheels, and arms and bars for pins and slots without wheels."""
+    """Parts of the couplings of a scene: pins in wheels, and arms and bars where no wheel has the pin or the slot."""
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield pins from wheel to wheel, and arms and bars of couplings not cut into wheels; none fixed in plates."""
+        """Yield pins from wheel to wheel, and arms and bars of couplings not cut into wheels; pins fixed in plates are
+        omitted.
+        """
         for coupling in self.scene.couplings:
             direction, cut = self.scene.bodies[coupling.slot].direction, self.cut.get(coupling.id)
             along = np.array(direction)
@@ -251,7 +258,9 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with rings of separate pins, whose teeth are the parts between two seats of pins."""
+    """Return the scene with new profiles for rings of separate pins: their teeth are the material between two seats of
+    pins.
+    """
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)
@@ -305,7 +314,9 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost bar position with enough clearance to wheel and arm, or else that with the most."""
+    """Return the outermost bar position with enough clearance to wheel and arm, or else the position with the most
+    clearance.
+    """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]

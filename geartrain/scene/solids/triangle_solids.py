@@ -53,7 +53,7 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
 
 
 def area(polygon: Floats) -> float:
-    """Return the signed area, positive for a counter-clockwise polygon."""
+    """Return the signed area of a polygon, positive if it is counter-clockwise."""
     x, y = polygon.T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
@@ -249,7 +249,9 @@ def extruded(
 
 
 def lathed(rows: Sequence[Floats]) -> Solid:
-    """Return the closed surface through rows of counter-clockwise points (n, 3); one point is a pole, its end."""
+    """Return the closed surface through rows of counter-clockwise points (n, 3); a row of one point is a pole that
+    closes it.
+    """
     starts = np.cumsum([0, *map(len, rows)])
     count = max(map(len, rows))
     rings = [start + np.arange(count) * (len(row) > 1) for start, row in zip(starts.tolist(), rows, strict=False)]
@@ -264,7 +266,9 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of a tooth with its sector of the web, closed along the bore, or at the centre without."""
+    """Return the polygon of a tooth with its sector of the web, closed along the bore, or at the centre of a solid
+    wheel.
+    """
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -279,7 +283,7 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
 
 
 def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, Integers]:
-    """Return the triangles repeated in every pitch, with coincident points merged."""
+    """Return the triangles of one pitch repeated in every pitch, with coincident points merged."""
     turn = 2 * pi * np.arange(times)[:, None] / times
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T
@@ -308,7 +312,9 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return radius [mm] and angle [rad] of a whole outline, or of the pitch circle above the maximum tooth count."""
+    """Return radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle if it has too many
+    teeth.
+    """
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
     r, angle = np.array(profile.points, dtype=float)[:-1].T
@@ -368,7 +374,9 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown's flanks at a scale of the radius [rad], for oblique passage of mates' teeth."""
+    """Return the angles [rad] of a crown wheel's flanks at `scale` times the radius, with spaces wide enough for teeth
+    that pass obliquely.
+    """
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)

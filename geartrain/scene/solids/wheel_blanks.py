@@ -137,7 +137,7 @@ class Blank:
     """Kind of wheel: external, ring or pins."""
     form: str
     contours: tuple[Contour, ...]
-    """Contours: first the outer contour, then holes."""
+    """Contours [mm]: first the outer contour, then holes."""
     module: float
     pitch_radius: float
     tip_radius: float
@@ -145,7 +145,7 @@ class Blank:
     thickness: float
     bore: float
     helix: float = 0.0
-    """Helix angle of the teeth [rad], positive for a right hand."""
+    """Helix angle of the teeth [rad], positive for a right-hand helix."""
     arms: int = 0
     """Number of spokes; 0 for a solid web."""
     pins: LanternPins | None = None
@@ -208,9 +208,9 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     """Return a wheel without mates, as a disc unless it is an escape wheel, with a notice."""
     if toothing.form == ESCAPEMENT:
-        what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
-        fix = "make an anchor to match it, or recut its teeth for another escapement"
-        return blank, Problem(what, "no anchor is declared", fix)
+        what = f"the teeth of escape wheel '{blank.wheel}' may not match its anchor"
+        fix = "make an anchor to match the teeth, or recut them for another escapement"
+        return blank, Problem(what, "no anchor is declared, so the teeth are those of a dead-beat escapement", fix)
     r = blank.pitch_radius
     form = "a disc without teeth, with the diameter of its pitch circle, because its teeth are not known"
     what = f"wheel '{blank.wheel}' is cut as a disc without teeth, with the diameter of its pitch circle"

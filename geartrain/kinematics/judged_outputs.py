@@ -45,8 +45,8 @@ class RatioGoal:
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return speed / wanted - 1, or the same for the magnitude of the speed if `signed` is False; the speed if
-    `wanted` is 0.
+    """Return the relative error speed / wanted - 1, of the magnitude of the speed if `signed` is False; return the
+    speed if `wanted` is 0.
     """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
@@ -276,7 +276,7 @@ def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
 def judge_outputs(
     train: Train, case: StateCase, relative: Relative, is_rotation: Callable[[str, str], bool]
 ) -> Iterator[OutputResult]:
-    """Yield the evaluation of every output of a case.
+    """Yield the comparison of every output of a state with its declared expectations.
 
     relative      function that returns the speed of one link relative to another, about the axis of the first
     is_rotation   function that returns whether all axes between two links are parallel

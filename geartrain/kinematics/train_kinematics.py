@@ -131,7 +131,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
+        """Sign -1 of each link whose axis points against the reference direction of the axes parallel to it."""
         return self._axes.link_signs
 
     @cached_property

@@ -61,7 +61,8 @@ class PaddedRows:
 
     def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
         """Return right + remainder - A x in twice the working precision, by compensated dot products (Dot2; Ogita, Rump
-        and Oishi 2005).
+        and Oishi 2005). `remainder` contains the digits of the right-hand side that float64 cannot represent in
+        `right`.
         """
         total, low = right.copy(), remainder.copy()
         for position in range(self.columns.shape[1]):

@@ -34,7 +34,7 @@ def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
 
 
 def joined(sets: Sequence[NamedArrays]) -> NamedArrays:
-    """Return one named tuple of arrays, joined along the last axis."""
+    """Join several named tuples of arrays, field by field, along the last axis."""
     kind: Any = type(sets[0])
     found: NamedArrays = kind(*(np.concatenate(each, axis=-1) for each in zip(*sets, strict=True)))
     return found

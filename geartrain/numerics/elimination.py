@@ -20,7 +20,8 @@ PRIME = (1 << 61) - 1
 """
 
 LinearForm = dict[int, Fraction]
-"""Linear form: column -> coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are treated as known.
+"""Linear form as a mapping from column to coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are
+treated as known.
 """
 
 

@@ -159,7 +159,7 @@ def _empty_for_nothing(raw: object) -> object:
 
 
 def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
-    """Return a JSON schema that accepts a short form as well."""
+    """Return a JSON schema that accepts a short form in addition to the given schema."""
     return {"anyOf": [kind, schema]}
 
 
@@ -186,7 +186,7 @@ Nothing = BeforeValidator(_empty_for_nothing)
 
 @cache
 def _form_reader(*names: str) -> TypeAdapter[Any]:
-    """Return the validator of the union of these tooth forms; no other tooth form is imported."""
+    """Return the validator of the union of the given tooth forms; no other tooth form is imported."""
 
     class Forms:
         @classmethod

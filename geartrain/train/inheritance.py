@@ -119,7 +119,7 @@ def _expanded(node: YamlNode, kind: str) -> YamlNode:
 
 
 def _identity(kind: str) -> Callable[[YamlNode], object]:
-    """Return the function whose value identifies an entry of a list."""
+    """Return the function that computes a key by which the entries of a list are matched with those of the parent."""
     return {"revolutes": _joined_links, "gears": _pair_name, "couplings": _coupling_name}[kind]
 
 

@@ -183,7 +183,9 @@ def _wheel_pair(raw: Any) -> str:
 
 
 def _without_space(loc: Loc, value: Any) -> str:
-    """Return the key in a path that contains a colon and has no value, or begins with a known key; empty if none."""
+    """Return the first key in a path that was probably written without a space after its colon: it contains a colon,
+    and has no value or begins with a known key. Empty if there is none.
+    """
     for at, step in enumerate(loc):
         start, colon, _ = str(step).partition(":")
         if colon and (value is None or isinstance(value, dict) or start in _keys_at(loc[:at])):

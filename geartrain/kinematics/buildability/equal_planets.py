@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of a rule: the id of a wheel with a variable count, or a fixed count."""
+"""Tooth count as a term of an assembly rule: the id of a wheel with a variable count, or a fixed count."""
 
 Measure = Literal["", "plain", "m"]
 """Unit of a declared module: "" if no module is declared, "plain" for a number without unit, "m" for a length."""
@@ -60,7 +60,7 @@ class AssemblyMesh:
 
     @property
     def is_free(self) -> bool:
-        """True if at least one tooth count of the pair is variable."""
+        """True if the tooth count of at least one wheel of the pair is variable."""
         return any(isinstance(part, str) for part in self.parts)
 
     @property
@@ -107,7 +107,9 @@ class Planet:
 
     @property
     def mesh_of(self) -> dict[str, AssemblyMesh]:
-        """Wheel of the planet that meshes in the set -> one of its meshes, the last in the order of the fields."""
+        """One mesh for each wheel of the planet that meshes in the set: the last of its inward, central and outward
+        meshes.
+        """
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
         return {self.own(mesh): mesh for mesh in meshes}
@@ -125,9 +127,7 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other, usually one planet; the unit in which equal planets are
-    compared.
-    """
+    """Planets of one carrier that mesh with each other, usually only one. Equal planets are compared set by set."""
 
     carrier: str
     planets: Planet | None
@@ -168,7 +168,9 @@ class TrainAssembly:
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of a rule: its id if the count is variable, else the count."""
+        """Return the tooth count of a wheel as a term of an assembly rule: its id if the count is variable, else the
+        count.
+        """
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
@@ -376,7 +378,9 @@ def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -
 
 
 def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
-    """Combine all conditions D phi = b t into one; append the integers E of their compatibility to `found`."""
+    """Combine all conditions D phi = b t on a planet's angle into one; append the integers E of the conditions under
+    which they are compatible to `found`.
+    """
     (D, b), *others = left
     for D2, b2 in others:
         common, u, v = kind.bezout(D, D2)
@@ -582,7 +586,7 @@ class _EqualPlanets:
                 gap = self._passing_clearance(planet, other, mesh)
                 if gap is not None and gap < 0:
                     wheels = planet.own(mesh), other.own(mesh)
-                    what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets collide"
+                    what = f"'{wheels[0]}' and '{wheels[1]}' of neighbouring planet sets collide ({self.number} sets)"
                     why = f"their tip circles overlap by {-gap:.4g} modules"
                     yield self._clearance_finding(
                         wheels, gap, what, why, "use fewer planets, or change their tooth counts"
@@ -595,18 +599,21 @@ class _EqualPlanets:
         what = f"the tips of {self.number} planets '{wheel}' " + (
             f"overlap by {far}" if grave else f"have a clearance of only {far}"
         )
-        why = "neighbours are 2 a sin(pi/n) apart, less than their tip diameter" + (
+        why = "the axes of neighbours are 2 a sin(pi/n) apart, less than their tip diameter" + (
             "" if grave else f" plus {_CLEAR:g} modules"
         )
         if self.points is not None:
-            why = why.replace("2 a sin(pi/n) apart, less", "placed at a distance less")
+            why = why.replace(
+                "the axes of neighbours are 2 a sin(pi/n) apart, less",
+                "neighbours are placed at a distance less",
+            )
         # evenly spaced planets of the declared number are too close, so fewer are suggested
         most = self._maximum_number() if self.points is not None else min(self._maximum_number(), self.number - 1)
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
     def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
-        """Return a finding on tip clearance `gap` [modules]: an error if tips overlap even with the shortest undeclared
-        teeth, else a note.
+        """Return a finding on tip clearance `gap` [modules]: an error if the tips overlap even with the smallest
+        addendum that is assumed for undeclared teeth, else a note.
         """
         free = sum(wheel not in self.tips for wheel in wheels)
         # addendum at which the tips just touch if all undeclared teeth are shortened equally

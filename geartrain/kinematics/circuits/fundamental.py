@@ -239,7 +239,7 @@ _MEET = 1e-3  # relative to the distance between two declared points: closer axe
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     """Return the shaft angle of a gear pair [rad], between 0 and pi; None if its axes are parallel.
 
-    It is the sum of both cone angles, measured between the directions in which the wheels lie from the apex, which
+    It is the sum of both pitch cone angles: the angle between the directions from the apex to the two wheels, which
     follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
     """
     axes = Axes(train, tree)

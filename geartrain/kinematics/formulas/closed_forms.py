@@ -165,7 +165,7 @@ class ClosedForm(Result):
     formula: Formula
     """Exact numerator and denominator."""
     counts: Mapping[str, int] = field(repr=False)
-    """Wheel -> declared tooth count, at least for all wheels in the formula."""
+    """Declared tooth counts by wheel, at least for all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
     """Candidates for factors: wheels, and the terms whose exponents refer to them."""
 

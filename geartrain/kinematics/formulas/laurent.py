@@ -44,7 +44,7 @@ class Laurent:
 
     width: int
     terms: Mapping[Exponents, Fraction]
-    """Exponents -> non-zero coefficient."""
+    """Non-zero coefficient of each term, by the tuple of its exponents."""
 
     @classmethod
     def constant(cls, value: Fraction | int, width: int) -> Laurent:

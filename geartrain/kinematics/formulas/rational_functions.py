@@ -185,7 +185,9 @@ class Formula:
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """Return the function of the remaining wheels with some tooth counts substituted; other names are ignored."""
+        """Return the function of the remaining wheels after tooth counts are substituted; counts of wheels that do not
+        occur in the function are ignored.
+        """
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
             return self

@@ -29,7 +29,7 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling that the check of phases omits because its position is unknown, with the reason."""
+    """Gear pair or coupling that is omitted from the phase closure because its position is unknown, with the reason."""
 
     name: str
     """Name of the pair or coupling."""
@@ -106,8 +106,8 @@ def mesh_nodes(parts: Components, circuits: Sequence[Circuit]) -> list[tuple[int
 
 
 def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[int, int]], Mapping[object, int]]:
-    """Return the family numbers of the two contacts of every pair, and the number of each key; equal keys form a
-    family.
+    """Return the family numbers of the two contacts of every pair, and the family number of each key. Contacts with
+    equal keys form a family.
     """
     number: dict[object, int] = {}
     for pair in keys:

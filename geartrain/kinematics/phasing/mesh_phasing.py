@@ -44,7 +44,7 @@ class DivisibilityCondition(NamedTuple):
     modulus: int
     """Divisor of the weighted sum of the tooth counts."""
     factors: Mapping[str, int]
-    """Wheel or kind of wheel -> weight of its tooth count."""
+    """Weight of the tooth count of each wheel or kind of wheel."""
 
 
 @dataclass(frozen=True)
@@ -259,12 +259,12 @@ class LoopPhase(Result):
     "numeric".
     """
     inside: Mapping[str, Fraction | float] | None
-    """Wheel -> signed angle inside the loop [turn], the coefficient of its tooth count in the sum; None for compound
-    wheels.
+    """Signed angle inside the loop at each wheel [turn], the coefficient of its tooth count in the sum of the phase
+    equations; None for compound wheels.
     """
     retime: Mapping[str, float]
-    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; one of the listed rotations is
-    enough.
+    """Rotation of each wheel on its arbor that closes the loop, counterclockwise [pitch]; one of the listed rotations
+    is enough.
     """
     together: bool = False
     """True for a condition on several loops that does not follow from the conditions of the single loops."""
@@ -413,11 +413,11 @@ class MeshPhasing(Result):
     problem: PhaseSystem = field(repr=False)
     """Phase equations of all meshes."""
     backlashes: Mapping[str, float] = field(default_factory=dict)
-    """Pair -> circumferential backlash [pitch], for pairs whose tooth form determines it."""
+    """Circumferential backlash of each pair whose tooth form determines it [pitch]."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
     """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have the same name."""
     unjudged: int = 0
-    """Number of loops that cannot be checked, because the position of one of their pairs or pins is unknown."""
+    """Number of loops that cannot be checked because the position of a pair or pin in them is unknown."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):

@@ -66,7 +66,7 @@ class FloatSpeeds(FrozenFields, Shown):
     """
 
     speeds: LabelledArray
-    """Speeds, axes (link, case) [unit of the train]."""
+    """Speeds with axes (link, case) [unit of the train]; a case is one set of input speeds."""
     estimate: LabelledArray
     """Estimated absolute error of each speed, with axes and unit of `speeds`."""
     residual: LabelledArray
@@ -74,8 +74,9 @@ class FloatSpeeds(FrozenFields, Shown):
     working precision [1].
     """
     condition: Mapping[str, float]
-    """Link -> component-wise condition number cond(A, x) of the first case, equation (25). It is at least 1, and
-    infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400 links.
+    """Component-wise condition number cond(A, x) of the speed of each link in the first case, equation (25). It is at
+    least 1, and infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400
+    links.
     """
 
     def _summary(self) -> str:

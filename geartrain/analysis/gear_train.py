@@ -802,9 +802,10 @@ class GearTrain:
 
 
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
-    """Load a train from a YAML file, the name of a shipped train, YAML text, or plain data.
+    """Load a train from a YAML file, the name of a train shipped with geartrain, YAML text, or plain data.
 
-    All circuits and cases are computed at once, so that every error of the declaration is reported.
+    The circuits and the inputs, brakes and locks of all states are computed at once, so that every error of the
+    declaration is reported.
 
     Parameters
     ----------
@@ -815,7 +816,8 @@ def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     Returns
     -------
     GearTrain
-        Train with its circuits and cases; all other results are computed when they are first requested.
+        Train with its circuits and the prescriptions of its states; all other results are computed when they are first
+        requested.
 
     Raises
     ------

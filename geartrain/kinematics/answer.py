@@ -120,8 +120,8 @@ class SpeedAccuracy:
     estimate: float
     true_error: float | None
     condition: float | None = None
-    """Component-wise condition number [1], (25) of docs/theory.md; infinite for a link at rest, None in trains of more
-    than 400 links.
+    """Component-wise condition number of the speed [1], (25) of docs/theory.md; infinite for a link at rest, None in
+    trains of more than 400 links.
     """
 
 

@@ -52,7 +52,7 @@ class Components:
     breaking: Sequence[int]
     """Indices of the circuits that close a loop with another ratio product and lock their component to its carrier."""
     holding: Sequence[int]
-    """Couplings with winding number 0, which lock the component of the slot to its carrier."""
+    """Indices of the couplings with winding number 0, which lock the component of the slot to its carrier."""
 
     @property
     def node_parent(self) -> Sequence[int]:

@@ -83,12 +83,12 @@ class TargetResult(Result):
     the target is 0, the value is the speed of the output.
     """
     days_per_century: float | None
-    """Gain of the pointer in time [days per 36525 days]. None if the unit of speeds does not contain a time, if the
-    target is 0, or if the value exceeds the range of float64.
+    """Time that the pointer gains on the target [days per 36525 days]. None if the unit of speeds does not contain a
+    time, if the target is 0, or if the value exceeds the range of float64.
     """
     degrees_per_unit: float | None
-    """Gain of the pointer in angle during one unit of the train, such as a year [deg]; None if the value exceeds the
-    range of float64.
+    """Angle that the pointer gains on the target during one unit of the train, such as a year [deg]; None if the value
+    exceeds the range of float64.
     """
     met: bool | None
     """True if `error` is within the declared tolerance; None if no tolerance is declared."""

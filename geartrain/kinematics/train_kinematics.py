@@ -155,8 +155,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """Inputs, brakes and locks of each state (key None for a train without states); locks are expressed joint by
-        joint.
+        """Prescriptions (inputs, brakes and locks) of each state, by name, None for a train without states; locks are
+        expressed joint by joint.
         """
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
@@ -188,7 +188,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def whole(self) -> SolvedPart:
-        """Willis system of all links and circuits, prepared for the solution."""
+        """All links and circuits of the train, with components and reduced system computed on first use."""
         return self._solved_part(self.circuits, tuple(self.declaration.links))
 
     @cached_property

@@ -51,8 +51,8 @@ class PaddedRows:
         return csc_array(entries, shape=(size, len(self.at)))
 
     def factorise(self) -> Any:
-        """Return the sparse LU factors of the matrix, computed by SuperLU; only the ordering COLAMD never takes
-        quadratic time.
+        """Return the sparse LU factors of the matrix, computed by SuperLU with the ordering COLAMD, the only one that
+        never takes quadratic time.
         """
         from scipy.sparse import linalg
 
@@ -80,7 +80,7 @@ class PaddedRows:
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """Return |A| |x|, one value for each row and case."""
+        """Return |A| |x|, the sum of the magnitudes of the terms, for each row and case."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 

@@ -27,7 +27,9 @@ NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
 
 
 def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
-    """Return a named tuple of arrays with the entries selected by index or by mask along the last axis."""
+    """Return a named tuple of arrays with the entries that an index or a mask selects along the last axis of each
+    array.
+    """
     kind: Any = type(columns)
     found: NamedArrays = kind(*(each[..., which] for each in columns))
     return found

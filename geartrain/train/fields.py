@@ -95,7 +95,7 @@ def exactly_one(part: DeclaredPart, what: str, keys: Sequence[str], noun: str = 
 
 
 def _replacement_problem(error: Mapping[str, Any]) -> Problem:
-    """Return the problem of a replacement value that was not valid."""
+    """Return the problem to report for an invalid replacement value of a field."""
     if error["type"] == "missing":
         *parent, key = error["loc"]
         return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")

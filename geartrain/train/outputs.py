@@ -20,7 +20,7 @@ NAMED_SCALES: Mapping[str, tuple[str, tuple[tuple[str, int], ...]]] = {
     "zodiac": ("degree", tuple((name, 30) for name in _SIGNS.split())),
     "egyptian_months": ("day", (*((name, 30) for name in _MONTHS.split()), ("Epagomenal", 5))),
 }
-"""Predefined scales: the name of one division, and the labels with the number of divisions that each spans."""
+"""Predefined scales by name: the name of one division, and the labels with the number of divisions that each spans."""
 
 _MOST = 10**6
 

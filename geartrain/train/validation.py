@@ -297,7 +297,7 @@ def _check_short_forms(
 
 
 def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
-    """Yield one problem for all pairs that are written as bare lists."""
+    """Yield one problem for all entries of a section that are written as bare lists."""
     listed = [part for part in parts.items if isinstance(part.value, list)] if parts is not None else []
     if listed:
         names = [*texts(listed[0]), "a", "b"][:2]

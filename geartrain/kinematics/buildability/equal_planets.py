@@ -31,7 +31,9 @@ Measure = Literal["", "plain", "m"]
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMesh:
-    """Gear pair relative to its carrier. Fields with two elements refer to the first and the second wheel."""
+    """Gear pair in the frame of its carrier, with the data that the assembly rules need. Fields with two elements
+    refer to the first and the second wheel.
+    """
 
     name: str
     """Name of the pair."""
@@ -89,15 +91,15 @@ class Planet:
             yield from planet.walk()
 
     def side(self, mesh: AssemblyMesh) -> int:
-        """Return the index (0 or 1) of this planet's wheel in one of its meshes."""
+        """Return the index (0 or 1) of this planet's wheel in a given mesh."""
         return mesh.links.index(self.link)
 
     def own(self, mesh: AssemblyMesh) -> str:
-        """Return the id of this planet's wheel in one of its meshes."""
+        """Return the id of this planet's wheel in a given mesh."""
         return mesh.wheels[self.side(mesh)]
 
     def mate(self, mesh: AssemblyMesh) -> str:
-        """Return the id of the wheel that meshes with this planet in one of its meshes."""
+        """Return the id of the wheel that meshes with this planet in a given mesh."""
         return mesh.wheels[1 - self.side(mesh)]
 
     @property
@@ -314,8 +316,8 @@ def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None)
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each
-    candidate.
+    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each candidate
+    set of tooth counts.
     """
 
     count: Callable[[CountRef], Any]
@@ -698,7 +700,7 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle between neighbouring planets whose tips do not overlap [turn]; see
+        """Return the smallest angle between neighbouring planets at which their tips do not overlap [turn]; see
         `_tip_diameter`.
         """
         found = 0.0

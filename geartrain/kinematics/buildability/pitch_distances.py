@@ -161,7 +161,7 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """Gear pair with its declared sizes. Fields with two elements refer to the first and the second wheel."""
+    """Gear pair with its declared dimensions. Fields with two elements refer to the first and the second wheel."""
 
     name: str
     place: str
@@ -308,7 +308,7 @@ Node = tuple[str, ...]
 
 
 class PitchDistances:
-    """Modules and centre distances of one train, as far as its declaration determines them."""
+    """Modules and centre distances of one train, as far as they follow from its declaration."""
 
     def __init__(self, train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]) -> None:
         self.train, self.pairs = train, pairs
@@ -322,8 +322,8 @@ class PitchDistances:
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return the distance between two axes as a root quantity and a factor; distances with the same root are
-        comparable.
+        """Return the distance between two axes as a factor of a root quantity (a module or a distance), and this
+        quantity; distances with the same root quantity can be compared.
         """
         return self.sizes.root(("axes", *axes))
 

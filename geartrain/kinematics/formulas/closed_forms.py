@@ -105,7 +105,7 @@ def _are_separable(p: Laurent, i: int, j: int) -> bool:
 
 
 def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
-    """Return the polynomial with the variables `others` replaced by primes at which it does not vanish."""
+    """Return a polynomial in which the variables `others` are replaced by primes at which it does not vanish."""
     for at in others:
         p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
     return p
@@ -167,7 +167,9 @@ class ClosedForm(Result):
     counts: Mapping[str, int] = field(repr=False)
     """Declared tooth counts by wheel, at least for all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
-    """Candidates for factors: wheels, and the terms whose exponents refer to them."""
+    """Candidates for factors, which are tried first: each is a list of wheels, and terms whose exponents refer to these
+    wheels.
+    """
 
     def __str__(self) -> str:
         """Return the formula as text."""

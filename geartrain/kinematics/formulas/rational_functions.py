@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MonomialGrouping:
-    """Polynomials rewritten in the smallest possible number of monomials, up to a common monomial factor."""
+    """Polynomials rewritten with monomials of groups of variables as new variables, as few as possible, up to a common
+    monomial factor.
+    """
 
     members: tuple[Mapping[int, int], ...]
     """Exponents of the variables in the monomial of each group, by variable index."""
@@ -141,7 +143,7 @@ class Formula:
     with the coefficients of the denominator.
     """
     denominator: tuple[Term, ...]
-    """Terms of the denominator in the same form; the first coefficient is positive."""
+    """Terms of the denominator in the form of `numerator`; the first coefficient is positive."""
 
     @property
     def constant(self) -> Fraction | None:
@@ -211,7 +213,7 @@ class Formula:
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
     def _bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Return values in float64, and bounds on their absolute errors."""
+        """Return the values of the function in float64, and bounds on their absolute errors."""
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of

@@ -31,7 +31,7 @@ _STARTS = 300  # nodes from which the shortest loop is searched; in larger netwo
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes whose removal frees a locked network, with the loops that prove how few meshes are sufficient."""
+    """Meshes whose removal frees a locked network, with the loops that prove a lower bound on the number of meshes."""
 
     meshes: list[int]
     method: RemovalMethod

@@ -52,9 +52,9 @@ class PitchPoints:
     slack: Floats
     """Maximum error of the azimuth [turn]."""
     family: Sequence[tuple[int, int]]
-    """Number of each contact's family. Contacts of one family are known rational fractions of a turn apart."""
+    """Family number of each contact. Contacts of one family are known rational fractions of a turn apart."""
     part: Sequence[tuple[Fraction, Fraction]]
-    """Angle from the first contact of the family [turn], exact."""
+    """Exact angle of each contact from the first contact of its family [turn]."""
     guessed: frozenset[int] = frozenset()
     """Families with an angle that was recognised as a fraction from rounded positions."""
     omitted: tuple[UnplacedPair, ...] = ()

@@ -127,7 +127,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a condition; merge it with a condition on a coprime modulus if one sum expresses both."""
+    """Add a divisibility condition; merge it with a condition on a coprime modulus if one sum expresses both."""
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -210,7 +210,9 @@ def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
 
 
 def _simplicity(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
-    """Return the sort key of a row: small factors first, then few minus signs, then a positive first factor."""
+    """Return a key that sorts rows by simplicity: small factors first, then few minus signs, then a positive first
+    factor.
+    """
     first = next((value for value in row if value), 0)
     return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
 

@@ -79,7 +79,9 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return a mapping from equation number to factor, from a row of symbols with the columns -1 - number."""
+    """Return the factor of each equation by its number, from a row whose column -1 - number is the symbol of the
+    equation.
+    """
     return {-1 - column: value for column, value in row.items()}
 
 

@@ -74,9 +74,8 @@ class FloatSpeeds(FrozenFields, Shown):
     working precision [1].
     """
     condition: Mapping[str, float]
-    """Component-wise condition number cond(A, x) of the speed of each link in the first case, equation (25). It is at
-    least 1, and infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400
-    links.
+    """Component-wise condition number cond(A, x) of the speed of each link in the first case, equation (25). It is 1 or
+    more, and infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400 links.
     """
 
     def _summary(self) -> str:

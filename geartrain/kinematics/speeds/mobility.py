@@ -57,7 +57,7 @@ class Mobility(Result):
     loops: tuple[Loop, ...]
     """Loops with ratio product 1, each of which has one redundant pair; the first 1000."""
     shared: tuple[str, ...]
-    """Links through which redundant equations couple components."""
+    """Links whose speeds in two components are equated by a redundant equation."""
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; the first 1000."""
     still: tuple[str, ...]

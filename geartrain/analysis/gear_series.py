@@ -238,7 +238,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
 # ------------------------------------------------------------------------------------------------- series, as paths
 
 Links = Mapping[int, Sequence[int]]
-"""Adjacency list: index of a gear -> indices of the gears that may follow it in a series."""
+"""Adjacency list: the indices of the gears that may follow each gear in a series, by index of the gear."""
 
 
 def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single: bool) -> Links:

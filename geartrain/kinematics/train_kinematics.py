@@ -219,7 +219,7 @@ class TrainKinematics(Shown):
         return tuple(lint_train(self.declaration, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
-        """Return exact speeds and the verdict of one case, without a limit on the computing time.
+        """Return exact speeds and the verdict of one state, without a limit on the computing time.
 
         Parameters
         ----------
@@ -316,8 +316,8 @@ class TrainKinematics(Shown):
         return solve_floats(system, inputs)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """Return the case with a single output, the link whose speed is the output, and the link relative to which it
-        is measured.
+        """Return the prescriptions of a state with a single output, the link whose speed is the output, and the link
+        relative to which it is measured.
 
         Parameters
         ----------
@@ -525,7 +525,7 @@ def _nearest(speed: Fraction) -> float:
 
 
 def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
-    """Raise `QuestionError` unless exactly the inputs are given, each with one finite speed for each case."""
+    """Raise `QuestionError` unless exactly the inputs of a state are given, each with one finite speed for each case."""
     for link in inputs:
         check_choice("input", link, declared)
     for link in declared:

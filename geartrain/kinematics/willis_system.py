@@ -135,8 +135,8 @@ def assemble_willis_system(
     signs: Mapping[str, int],
     redundant: Sequence[str] = (),
 ) -> WillisSystem:
-    """Assemble the equations of all circuits, of the frame, and of the inputs, brakes and locks of `case`, if one is
-    given.
+    """Assemble the equations of all circuits, of the frame, and of the inputs, brakes and locks of one state (`case`),
+    if it is given.
 
     signs       -1 for links whose axis is opposite to the reference direction of its parallel axes
     redundant   names of pairs known to follow from others

@@ -45,8 +45,8 @@ class PolynomialPiece(NamedTuple):
 
 
 def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: int = 0) -> list[PolynomialPiece]:
-    """Return the pieces of a curve with k coordinates, t (n,) -> (k, n), by adaptive Chebyshev interpolation to
-    rounding error.
+    """Return the pieces of a curve with k coordinates by adaptive Chebyshev interpolation to rounding error; `curve`
+    maps parameters of shape (n,) to points of shape (k, n).
 
     Pieces are bisected until their last coefficients are negligible. Raises `RangeError` if the curve is not smooth.
     """

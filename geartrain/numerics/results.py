@@ -347,7 +347,7 @@ class Pictured:
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Key of a result's plain data that differs from the attribute with the same name."""
+    """Key of a result's plain data, if it differs from the name of the attribute or needs a conversion."""
 
     name: str
     """Name in the data; "" to merge the keys of a part into the keys of the result."""

@@ -66,7 +66,7 @@ _JOINT_SCHEMA = {
     "type": "object",
     "additionalProperties": {"type": "array", "items": {"type": ["string", "number"]}, "minItems": 2},
 }
-"""JSON Schema of the short form of `revolutes`: axis label -> links on the axis."""
+"""JSON Schema of the short form of `revolutes`, a mapping from axis label to the links on the axis."""
 
 
 FrictionTorque = Annotated[

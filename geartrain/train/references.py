@@ -171,7 +171,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
         )
     elif train.unit_quantity is not None and train.unit_quantity.value <= 0:
         yield Problem(
-            f"the unit '{train.unit_quantity}' is not above 0",
+            f"a unit must be greater than 0, not '{train.unit_quantity}'",
             "a speed of 1 is one turn per this time or length",
             "give a time or a length above 0",
             train.place("unit"),

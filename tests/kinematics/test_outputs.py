@@ -176,7 +176,7 @@ def test_a_pointer_that_stands_still_is_published_as_a_ratio_of_zero() -> None:
 
 @pytest.mark.parametrize("unit", ["0 d", "0", "-7 d", "0 ft", "-1 h", "0/3 d"])
 def test_a_unit_takes_some_time_or_way(unit: str) -> None:
-    with pytest.raises(GearTrainError, match=f"the unit '{unit}' is not above 0"):
+    with pytest.raises(GearTrainError, match=f"a unit must be greater than 0, not '{unit}'"):
         lunar("{speed: 1}", unit=unit)
 
 

@@ -263,7 +263,7 @@ def test_an_input_without_an_axis_of_its_own_refuses_its_state_alone() -> None:
     train = load(DIFFERENTIAL + "states: {a: {inputs: {left: 1, right: 3}}, b: {inputs: {spider: 1}}}\n")
     assert train.solve("a")["crown"] == 2
     assert train.solve("b").verdict.kind == "refused"
-    assert "no speed about one axis" in train.solve("b").verdict.text
+    assert "does not turn about a single axis" in train.solve("b").verdict.text
 
 
 @pytest.mark.parametrize(

@@ -360,8 +360,8 @@ def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
 
 
 def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
-    """Return D and b of the conditions D phi = b t on a planet's angle; append the integers E of its descendants to
-    `found`.
+    """Return (D, b) of each condition D phi = b t on a planet's angle phi, where t is the rotation of its set [turn];
+    append the integers E of its descendants to `found`.
     """
     left = []
     for mesh in planet.central:
@@ -380,8 +380,8 @@ def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -
 
 
 def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
-    """Combine all conditions D phi = b t on a planet's angle into one; append the integers E of the conditions under
-    which they are compatible to `found`.
+    """Combine all conditions D phi = b t on a planet's angle phi into one and return its (D, b); append the integers E
+    of the conditions under which they are compatible to `found`.
     """
     (D, b), *others = left
     for D2, b2 in others:
@@ -420,7 +420,7 @@ def assembly_number(planet: Planet) -> int:
 
 
 def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
-    """Return the terms of the clearance between neighbouring equal planets, 2 a sin(pi/n) - `tips` [unit of `reach`].
+    """Return the terms of the tip clearance of n evenly spaced equal planets, 2 a sin(pi/n) - `tips` [unit of `reach`].
 
     reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p)
     tips    m (z_p + 2 h) plus the required clearance

@@ -520,7 +520,7 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     """Return the profile shifts that give involutes no backlash at a distance [modules], as the text of a fix; "" if
-    the sum of the shifts would exceed `_SHIFTS`, or no involute pair fits.
+    the sum of the shifts would be outside `_SHIFTS`, or no involute pair has this distance.
 
     inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
     cos(helix). With a ring, z and x of its mate are negative. The rack angle is the tooth form's, else 20 degrees.

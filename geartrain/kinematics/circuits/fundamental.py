@@ -47,9 +47,9 @@ class Circuit(NamedTuple):
     carrier: str
     """Carrier k: the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
-    """Coefficient of the relative speed of link i, above 0."""
+    """Coefficient a of the speed of link i relative to the carrier in the Willis equation, above 0."""
     b: int
-    """Coefficient of the relative speed of link j."""
+    """Coefficient b of the speed of link j relative to the carrier in the Willis equation."""
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""

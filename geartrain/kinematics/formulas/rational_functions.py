@@ -165,8 +165,8 @@ class Formula:
         return Fraction(whole(self.numerator, point), bottom) if bottom else None
 
     def values(self, columns: Mapping[str, Ints]) -> Floats:
-        """Return the values for many combinations of tooth counts in float64; NaN or infinite at poles. `accuracy`
-        bounds their error.
+        """Return the values of the function for many combinations of tooth counts in float64; NaN or infinite at poles.
+        `accuracy` bounds their error.
 
         columns   wheel -> array of tooth counts; the arrays are broadcast
         """

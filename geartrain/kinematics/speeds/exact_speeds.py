@@ -402,7 +402,7 @@ class Solution:
 
 
 def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> Mapping[str, Mapping[str, Fraction]]:
-    """Return the exact ratios as a mapping link -> input -> ratio; the equations are solved at the first access."""
+    """Return the exact ratios as `ratios[link][input]`; the equations are solved at the first access."""
 
     @cache
     def forms() -> dict[int, LinearForm]:

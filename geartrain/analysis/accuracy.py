@@ -49,7 +49,7 @@ class MethodAccuracy(Shown):
     method: str
     """Name of the method, such as "exact" or "floats"."""
     seconds: float
-    """Run time [s]."""
+    """Run time of the method [s]."""
     error: float | None
     """Maximum error of the results relative to `reference`, in `unit`; None for the reference method itself."""
     unit: Literal["relative", "pitches", "deg"]

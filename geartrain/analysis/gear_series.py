@@ -44,7 +44,7 @@ class GearSeries(Result):
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
     gears: tuple[PossibleGear, ...]
-    """Gears by decreasing ratio."""
+    """Gears of the series in order of decreasing ratio."""
 
     @property
     def ratios(self) -> tuple[Fraction, ...]:

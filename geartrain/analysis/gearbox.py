@@ -37,7 +37,7 @@ class GearState(Result):
     state: str
     """Name of the state."""
     engaged: tuple[str, ...]
-    """Names of the closed shift elements."""
+    """Names of the closed clutches and brakes."""
     verdict: Verdict
     """Verdict on the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
@@ -82,9 +82,9 @@ class Shift(Result):
     after: str
     """State after the shift."""
     released: tuple[str, ...]
-    """Names of the elements that open."""
+    """Names of the clutches and brakes that open."""
     applied: tuple[str, ...]
-    """Names of the elements that close."""
+    """Names of the clutches and brakes that close."""
 
     @property
     def is_double(self) -> bool:
@@ -99,7 +99,7 @@ class ShiftElement(Result):
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
     name: str
-    """Name of the element."""
+    """Name of the clutch or brake."""
     kind: ElementKind
     """Kind of the element: "brake" or "clutch"."""
     states: tuple[str, ...]

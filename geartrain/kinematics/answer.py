@@ -42,7 +42,7 @@ class Loop(Result):
     carrier: str
     """Link relative to which the ratios of all pairs of the loop are measured."""
     links: tuple[str, ...]
-    """Links in the order of the loop."""
+    """Names of the links in their order around the loop."""
     pairs: tuple[str, ...]
     """Ids of the pairs in the order of the loop; the last pair closes the loop."""
     product: Fraction
@@ -212,8 +212,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links of the requested or declared outputs; without outputs, all links that are neither inputs nor
-        fixed.
+        """Return the links of the requested or declared outputs; if there are none, all links that are neither inputs
+        nor fixed.
         """
         if case is None or self._output is not None:
             return self.speeds

@@ -45,8 +45,8 @@ class RatioGoal:
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error speed / wanted - 1, of the magnitude of the speed if `signed` is False; return the
-    speed if `wanted` is 0.
+    """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared; if `wanted` is 0,
+    the speed is returned.
     """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
@@ -385,9 +385,9 @@ class Sensitivity(Result):
     wheel: str
     """Wheel with an uncertain tooth count."""
     teeth: int
-    """Tooth count of the wheel that the train uses."""
+    """Tooth count that the train uses for the wheel."""
     allowed: tuple[int, ...]
-    """Tooth counts that the evidence allows."""
+    """Tooth counts that the evidence allows for the wheel."""
     output: str
     """Name of the output."""
     less: float | None

@@ -241,7 +241,7 @@ class _Expansion:
     # ------------------------------------------------------------------------------------------------------- one part
 
     def _further_copies(self, *links: str) -> range:
-        """Return the numbers of the further copies, from 2, of a joint or pair between some links."""
+        """Return the numbers, from 2, of the further copies of a joint or pair between the given links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
 
     def _all_copies(

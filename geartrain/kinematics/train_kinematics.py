@@ -131,7 +131,9 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """Sign -1 of each link whose axis points against the reference direction of the axes parallel to it."""
+        """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
+        Links with the sign 1 are omitted.
+        """
         return self._axes.link_signs
 
     @cached_property
@@ -525,7 +527,7 @@ def _nearest(speed: Fraction) -> float:
 
 
 def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
-    """Raise `QuestionError` unless exactly the inputs of a state are given, each with one finite speed for each case."""
+    """Raise `QuestionError` unless exactly the inputs of a state are given, each with one finite speed per case."""
     for link in inputs:
         check_choice("input", link, declared)
     for link in declared:

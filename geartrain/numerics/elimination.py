@@ -34,7 +34,7 @@ class Echelon:
     conditions: tuple[LinearForm, ...]
     """Rows without unknowns, each of which must be 0 for a consistent system."""
     redundant: tuple[int, ...]
-    """Indices of the rows that became 0 = 0."""
+    """Indices of redundant rows, which elimination reduces to 0 = 0."""
 
     @property
     def rank(self) -> int:

@@ -98,7 +98,7 @@ def _text_of(document: Any) -> str:
 
 
 _LONGEST_LINE = 160
-"""Maximum number of characters of a summary."""
+"""Maximum number of characters of the summary line of a result."""
 _LONGEST_VALUE = 40
 """Maximum number of characters of one value in a summary."""
 

@@ -137,7 +137,7 @@ class FrictionInForce:
 
 
 def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> FrictionInForce | None:
-    """Convert declared friction to numbers; None stays None."""
+    """Convert declared friction to its effective coefficients; None stays None."""
     if declared is None:
         return None
     if not isinstance(declared, CoulombFriction):

@@ -25,7 +25,7 @@ def examples() -> Mapping[str, tuple[str, ...]]:
 
 
 def example_data() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield the part and the plain data of each example."""
+    """Yield the name of the declared part and the plain data of each example."""
     for part, each in examples().items():
         for text in each:
             yield part, _plain(parse_yaml(text, part).plain())

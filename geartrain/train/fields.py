@@ -170,7 +170,7 @@ class AlsoShort:
     schema: Mapping[str, Any]
 
     def __get_pydantic_json_schema__(self, kind: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Return the JSON schema of both forms."""
+        """Return the JSON schema of the field in its long and its short form."""
         return also(handler(kind), dict(self.schema))
 
 

@@ -215,7 +215,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if a dial faces away from an observer; sides as declared by `Dial.face` and `View.from_`.
+    """Return True if a dial faces away from an observer; the sides are given as in `Dial.face` and `View.from_`.
 
     A dial with face None faces the observer.
     """

@@ -151,7 +151,9 @@ def _suggested_unit(train: Train, per: str) -> str:
 
 
 def declared_units(train: Train) -> Iterator[Problem]:
-    """Yield problems of an invalid unit, an epoch without a unit of time, and lengths with and without units."""
+    """Yield problems of an invalid unit, an epoch without a unit of time, and a mixture of lengths with and without
+    units.
+    """
     yield from _epoch_units(train)
     if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
         yield Problem(

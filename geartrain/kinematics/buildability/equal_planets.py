@@ -40,9 +40,9 @@ class AssemblyMesh:
     carrier: str
     """Link that carries both axes of the pair, and so keeps their centre distance."""
     wheels: tuple[str, str]
-    """Ids of the wheels."""
+    """Ids of the two wheels in mesh."""
     links: tuple[str, str]
-    """Names of the links of the wheels."""
+    """Names of the links to which the two wheels belong."""
     axes: tuple[str, str]
     """Labels of the axes about which the two links turn relative to the carrier."""
     parts: tuple[CountRef, CountRef]
@@ -430,7 +430,8 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
 
 
 def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    """Return the terms of (2 distance)^2 - tips^2, which is positive if a planet clears the mate of its neighbour.
+    """Return the terms of (2 distance)^2 - tips^2, where the distance is between the axes of a planet and of its
+    neighbour's mate; it is positive if these two planets clear each other.
 
     A, B   twice the distances of the two planets' axes from the central axis
     D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)

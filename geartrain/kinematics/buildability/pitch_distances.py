@@ -183,7 +183,7 @@ class PitchPair:
 
     @property
     def kinds(self) -> tuple[str, str]:
-        """Kinds of the two wheels."""
+        """Kinds of the two wheels, such as `spur` or `bevel`."""
         return self.declared[0].kind, self.declared[1].kind
 
     @property

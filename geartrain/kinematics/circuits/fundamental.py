@@ -109,7 +109,7 @@ class WillisEquation(NamedTuple):
     kind: str
     """Kind of the equation: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
     terms: tuple[tuple[str, int], ...]
-    """Pairs of a link and its non-zero coefficient."""
+    """Terms of the left-hand side, as pairs of a link and its non-zero coefficient."""
     right: Fraction = Fraction(0)
     """Right-hand side of the equation [unit of the train]."""
 

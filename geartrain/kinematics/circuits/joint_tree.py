@@ -281,9 +281,8 @@ class Axes:
 
     @property
     def link_signs(self) -> Mapping[str, int]:
-        """Sign -1 of each link whose axis points against the reference direction of the axes parallel to it.
-
-        Other links have the sign 1 and are omitted.
+        """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
+        Links with the sign 1 are omitted.
         """
         if self.plain:
             return {}

@@ -163,7 +163,7 @@ class ClosedForm(Result):
     KEYS = ("text", "latex", "value", Key("wheels", "formula.wheels"))
 
     formula: Formula
-    """Exact numerator and denominator."""
+    """Formula as exact numerator and denominator."""
     counts: Mapping[str, int] = field(repr=False)
     """Declared tooth counts by wheel, at least for all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
@@ -229,8 +229,8 @@ class ClosedForm(Result):
         return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)
 
     def elasticity(self, wheel: str) -> ClosedForm:
-        """Return the elasticity of f in the tooth count z of one wheel, (z/f) df/dz: relative change of f per relative
-        change of z.
+        """Return the elasticity (z/f) df/dz of this function f in the tooth count z of one wheel: relative change of f
+        per relative change of z.
 
         Parameters
         ----------

@@ -90,7 +90,7 @@ class Laurent:
 
     @property
     def is_unit(self) -> bool:
-        """True if it has one term, and division by it is exact."""
+        """True if the polynomial has exactly one term, so that division by it is exact."""
         return len(self.terms) == 1
 
     @property

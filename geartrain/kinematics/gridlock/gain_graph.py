@@ -16,7 +16,7 @@ from geartrain.numerics.graphs import ways_to_common_ancestor
 
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
-"""Closed walk in the graph: pairs of the node where a step starts, and the mesh of the step."""
+"""Closed walk in the graph, as pairs of the node at which a step starts and the mesh of the step."""
 
 
 @dataclass(frozen=True)

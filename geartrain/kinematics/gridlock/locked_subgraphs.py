@@ -19,7 +19,8 @@ from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000
-"""Maximum number of meshes for which meshes to remove are searched over several carriers; each trial solves the train.
+"""Maximum number of meshes up to which a removal over several carriers is searched for, because each trial solves the
+train.
 """
 _ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
 _TRIALS = 3000  # maximum number of sets that are tried

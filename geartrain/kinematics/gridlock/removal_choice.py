@@ -38,7 +38,7 @@ class RemovalChoice(NamedTuple):
     at_least: int
     """Proved lower bound on the number of meshes; a set with this number of meshes is a smallest set."""
     choices: list[int]
-    """Alternatives to `meshes`, if a single mesh is enough."""
+    """Meshes of which the removal of any one is enough, including the mesh in `meshes`; empty if there are none."""
     example: GainLoop
     """Short inconsistent loop, which shows a reader the cause of the lock."""
     proof: list[GainLoop]

@@ -34,7 +34,7 @@ class UnplacedPair:
     name: str
     """Name of the pair or coupling."""
     why: str
-    """Reason why the position is unknown."""
+    """Reason why the position of the pair or coupling is unknown."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class PitchPoints:
     guessed: frozenset[int] = frozenset()
     """Families with an angle that was recognised as a fraction from rounded positions."""
     omitted: tuple[UnplacedPair, ...] = ()
-    """Pairs and couplings whose positions are unknown."""
+    """Pairs and couplings that are omitted because their positions are unknown."""
 
     @cached_property
     def teeth(self) -> Floats:
@@ -130,7 +130,7 @@ class _Axis:
     way: IntegerVector
     """Declared direction as an integer vector."""
     unsure: float
-    """Maximum error of the direction [rad]."""
+    """Maximum error of the declared direction [rad]."""
     sense: IntegerVector
     """Direction about which speeds are positive, common to all parallel axes."""
     place: IntegerVector | None

@@ -341,7 +341,9 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of a loop's sum [pitch] if one wheel is rotated on its arbor by one pitch."""
+    """Return the change of the sum of a loop's phase equations [pitch] if one wheel is rotated on its arbor by one
+    pitch.
+    """
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 
@@ -464,7 +466,7 @@ class MeshPhasing(Result):
 
     @property
     def omitted(self) -> tuple[UnplacedPair, ...]:
-        """Pairs and couplings whose positions are unknown."""
+        """Pairs and couplings that are not checked because their positions are unknown."""
         return self.problem.contacts.omitted
 
     @cached_property

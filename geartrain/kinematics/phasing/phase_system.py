@@ -40,7 +40,7 @@ class PhaseCycle(NamedTuple):
 
     @property
     def row(self) -> dict[int, int]:
-        """Weight of each mesh."""
+        """Weight of the equation of each mesh of the loop."""
         return dict(zip(self.meshes, self.weights, strict=True))
 
 
@@ -197,7 +197,7 @@ class PhaseSystem:
 
     @property
     def circuits(self) -> Sequence[Circuit]:
-        """Circuits of the meshes."""
+        """Fundamental circuits of the meshes."""
         return self.contacts.circuits
 
     @cached_property

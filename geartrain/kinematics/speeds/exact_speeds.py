@@ -376,7 +376,9 @@ class Solution:
     ratios: Mapping[str, Mapping[str, Fraction]]
     """Speed of each link per unit speed of each input, with the other inputs at rest, as `ratios[link][input]`."""
     signs: Mapping[str, int]
-    """Sign -1 of each link whose axis points against the reference direction of the axes parallel to it."""
+    """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
+    Links with the sign 1 are omitted.
+    """
     difference: Callable[[str, str], Fraction | None] | None = None
     """Function that returns the difference of two links' speeds before axis signs are applied, or None if it depends on
     free unknowns; given only if the train is free.

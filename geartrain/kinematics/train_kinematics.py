@@ -517,7 +517,7 @@ def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> 
 
 
 def _nearest(speed: Fraction) -> float:
-    """Return the nearest float64. Raises `RangeError` beyond its range."""
+    """Return the float64 nearest to a speed. Raises `RangeError` if the speed is beyond the range of float64."""
     value = as_float(speed)
     if value is None:
         why = "in float64 it would become 0 or infinite"

@@ -196,7 +196,9 @@ class Escapement(Declared):
 
     @model_validator(mode="after")
     def _check_pendulum(self) -> Escapement:
-        """Check the length of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes it slightly faster."""
+        """Check the length l of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes the beat slightly
+        shorter.
+        """
         if self.pendulum is not None:
             # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2

@@ -131,7 +131,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     lines = text.splitlines()
     if "single document" in why:
         why, fix = "a file declares one train", "declare each train in its own file"
-        return Problem("a second document begins", why, fix, place)
+        return Problem("the file contains a second document", why, fix, place)
     if "undefined alias" in why:
         alias = re.split(r"[\s,\]}]", lines[mark.line][mark.column :])[0] if mark else "*"
         fix = f"write the value out, or put the anchor '&{alias[1:]}' on an earlier value"

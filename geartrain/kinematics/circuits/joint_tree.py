@@ -525,7 +525,7 @@ class _Bodies:
         return one == other or self._axes.are_one_line(one, other)
 
     def _is_immobile(self, joints: Sequence[JointOnLine]) -> bool:
-        """Return True if a closed chain of these joints has no mobility, False if it may move."""
+        """Return True if a closed chain of the given joints has no mobility, False if it may move."""
         labels = [labels[0] for _, _, labels in joints]
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):

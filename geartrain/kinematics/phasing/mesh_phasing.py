@@ -349,7 +349,7 @@ def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, in
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return for each gear the angle between its two contacts in the loop, signed and weighted [turn]."""
+    """Return, for each gear of a loop, the angle between its two contacts in the loop, signed and weighted [turn]."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)

@@ -80,7 +80,7 @@ class Problem:
     """
 
     what: str
-    """Description of the problem as a clause."""
+    """Description of the problem as a clause, such as "unknown key 'tooths'"."""
     why: str = ""
     """Rule or cause; empty if it is obvious."""
     fix: str = ""

@@ -49,7 +49,7 @@ class MethodAccuracy(Shown):
     method: str
     """Name of the method, such as "exact" or "floats"."""
     seconds: float
-    """Run time [s]."""
+    """Run time of the method [s]."""
     error: float | None
     """Maximum error of the results relative to `reference`, in `unit`; None for the reference method itself."""
     unit: Literal["relative", "pitches", "deg"]
@@ -87,7 +87,7 @@ class TrainAccuracy(Tabular, TrainResult):
     methods: tuple[MethodAccuracy, ...]
     """Measured methods, ordered by stage."""
     neglected: dict[str, str]
-    """Stage that is not measured -> reason why the stage does not apply to the train."""
+    """Reason why a stage does not apply to the train, for each stage that is not measured."""
 
     def _summary(self) -> str:
         return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"
@@ -262,7 +262,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield rows on torques: balance with losses, and mean torque of a run."""
+    """Yield rows on torques: balance with losses, and mean torque over a run of several positions."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

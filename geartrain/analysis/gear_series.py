@@ -44,7 +44,7 @@ class GearSeries(Result):
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
     gears: tuple[PossibleGear, ...]
-    """Gears by decreasing ratio."""
+    """Gears of the series in order of decreasing ratio."""
 
     @property
     def ratios(self) -> tuple[Fraction, ...]:
@@ -74,12 +74,7 @@ class GearSeries(Result):
 
 @dataclass(frozen=True)
 class GearSearch(Tabular, Result):
-    """All gears of a gearbox, and the requested series.
-
-    See Also
-    --------
-    find_gears : Enumerate the gears.
-    """
+    """All gears of a gearbox, and the widest and the most even of the requested gear series."""
 
     MEANINGS: ClassVar = {
         "closed": "Engaged clutches and brakes.",
@@ -116,13 +111,13 @@ class GearSearch(Tabular, Result):
     locked: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` elements that lock the train or contradict its inputs."""
     requested: int = 0
-    """Number of gears of the requested series; 0 if no series was requested."""
+    """Number of gears of the requested gear series; 0 if no series was requested."""
     series: int = 0
-    """Number of series whose steps and shifts satisfy the request; 0 if no series was requested."""
+    """Number of gear series whose steps and shifts satisfy the request; 0 if no series was requested."""
     widest: GearSeries | None = None
-    """Series with the maximum spread; None if no series satisfies the request."""
+    """Gear series with the maximum spread; None if no series satisfies the request."""
     evenest: GearSeries | None = None
-    """Series with the minimum deviation of the steps; None if no series satisfies the request."""
+    """Gear series with the minimum deviation of the steps; None if no series satisfies the request."""
 
     def _summary(self) -> str:
         ways = f"{self.combinations} combinations of {self.closed} closed elements"
@@ -206,7 +201,8 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Return every gear with the smallest number of closed elements that determines the speeds, without a series.
+    """Return every gear with the smallest number of closed elements that determines the speeds, without a search for
+    series.
 
     All such combinations have the same size, because they are the bases of a matroid.
     """
@@ -218,7 +214,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
     # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(declared.clutches) + 1):
         if (number := comb(len(declared.clutches), size)) > MOST_COMBINATIONS:
-            what = f"{size} of {len(declared.clutches)} shift elements can be closed in {number:,} combinations"
+            what = f"{size} of {len(declared.clutches)} shift elements have too many combinations: {number:,}"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
         choices = list(combinations(declared.clutches, size))
@@ -242,7 +238,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
 # ------------------------------------------------------------------------------------------------- series, as paths
 
 Links = Mapping[int, Sequence[int]]
-"""Adjacency list: index of a gear -> indices of the gears that may follow it in a series."""
+"""Adjacency list: the indices of the gears that may follow each gear in a series, by index of the gear."""
 
 
 def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single: bool) -> Links:

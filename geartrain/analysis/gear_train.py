@@ -265,7 +265,8 @@ class GearTrain:
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
-        """Build a train from plain data; circuits and cases are computed when they are first requested.
+        """Build a train from plain data; circuits and the prescriptions of each state are computed when they are first
+        requested.
 
         Parameters
         ----------
@@ -313,8 +314,8 @@ class GearTrain:
     def meshes(self) -> tuple[GearMesh, ...]:
         """Gear pairs with a tooth form, each with its transmission function; empty if no form is declared.
 
-        The driving side of a pair is taken from the first state that determines it. `mechanics.meshes_in` returns the
-        pairs with the driving sides of another state.
+        The driving wheel of a pair is taken from the first state that determines it. `mechanics.meshes_in` returns the
+        pairs with the driving wheels of another state.
         """
         return self.mechanics.meshes
 
@@ -767,14 +768,16 @@ class GearTrain:
 
     @cached_property
     def kinematics(self) -> TrainKinematics:
-        """Results that do not depend on tooth forms: tree of turning pairs, senses of axes, cases, gridlock, float
-        speeds, sensitivity.
+        """Results that do not depend on tooth forms: tree of turning pairs, senses of axes, inputs and brakes of each
+        state, gridlock, float speeds, sensitivity to tooth counts.
         """
         return TrainKinematics(self.declaration)
 
     @cached_property
     def mechanics(self) -> TrainMechanics:
-        """Results that depend on tooth forms and loads: driving sides, transmission errors, pins, torques."""
+        """Results that depend on tooth forms and loads: driving wheel of each pair, transmission errors, pins and
+        torques.
+        """
         from geartrain.dynamics.train_mechanics import TrainMechanics
 
         return TrainMechanics(self.kinematics)
@@ -799,9 +802,10 @@ class GearTrain:
 
 
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
-    """Load a train from a YAML file, the name of a shipped train, YAML text, or plain data.
+    """Load a train from a YAML file, the name of a train shipped with geartrain, YAML text, or plain data.
 
-    All circuits and cases are computed at once, so that every error of the declaration is reported.
+    The circuits and the inputs, brakes and locks of all states are computed at once, so that every error of the
+    declaration is reported.
 
     Parameters
     ----------
@@ -812,7 +816,8 @@ def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     Returns
     -------
     GearTrain
-        Train with its circuits and cases; all other results are computed when they are first requested.
+        Train with its circuits and the prescriptions of its states; all other results are computed when they are first
+        requested.
 
     Raises
     ------

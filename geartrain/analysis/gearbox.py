@@ -37,7 +37,7 @@ class GearState(Result):
     state: str
     """Name of the state."""
     engaged: tuple[str, ...]
-    """Names of the closed shift elements."""
+    """Names of the closed clutches and brakes."""
     verdict: Verdict
     """Verdict on the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
@@ -51,14 +51,14 @@ class GearState(Result):
     input is at rest. Empty if no input turns; `speeds` and `slips` are then in the unit of the train.
     """
     speeds: Mapping[str, Fraction]
-    """Link with a determined speed -> its speed divided by the speed of `driven_by`."""
+    """Speed of each link whose speed is determined, divided by the speed of `driven_by`."""
     slips: Mapping[str, Fraction]
-    """Open element -> slip speed divided by the speed of `driven_by`. The slip of a brake is the speed of its link, and
-    the slip of a clutch is the speed of its first link relative to its second. Elements with an undetermined slip are
-    omitted.
+    """Slip speed of each open element, divided by the speed of `driven_by`. The slip of a brake is the speed of its
+    link, and the slip of a clutch is the speed of its first link relative to its second. Elements with an
+    undetermined slip are omitted.
     """
     torques: Mapping[str, Fraction | None]
-    """Closed element -> torque that it exerts on its link (a clutch: its first link), divided by the torque of the
+    """Torque that each closed element exerts on its link (a clutch: on its first link), divided by the torque of the
     input; None if it is statically indeterminate. Empty if the torques of the train are not determined.
     """
     efficiency: Fraction | float | None
@@ -82,9 +82,9 @@ class Shift(Result):
     after: str
     """State after the shift."""
     released: tuple[str, ...]
-    """Names of the elements that open."""
+    """Names of the clutches and brakes that open."""
     applied: tuple[str, ...]
-    """Names of the elements that close."""
+    """Names of the clutches and brakes that close."""
 
     @property
     def is_double(self) -> bool:
@@ -99,7 +99,7 @@ class ShiftElement(Result):
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
     name: str
-    """Name of the element."""
+    """Name of the clutch or brake."""
     kind: ElementKind
     """Kind of the element: "brake" or "clutch"."""
     states: tuple[str, ...]
@@ -260,7 +260,7 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Return the torques while the input drives and a unit of power leaves at the output; None if undetermined."""
+    """Return the torques while the input drives and unit power leaves at the output; None if they are undetermined."""
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
@@ -273,7 +273,7 @@ def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fr
 
 
 def _circulation(load: Torques) -> Fraction | None:
-    """Return the power recirculating between gear sets, divided by input power; None without input power."""
+    """Return the power recirculating between gear sets, divided by input power; None if the input power is 0."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None

@@ -152,8 +152,8 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | PinMesh | None:
-        """Return the gear pair with teeth as driven in this state, or the pin with dimensions; None for a pair or
-        coupling without teeth or dimensions.
+        """Return the gear pair with tooth geometry and its driving wheel in this state, or the pin with dimensions;
+        None for a pair or coupling without teeth or dimensions.
         """
         return self._meshes.get(name)
 

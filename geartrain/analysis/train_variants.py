@@ -45,7 +45,7 @@ class TrainVariants(Tabular, Result):
     the tooth counts do not satisfy the condition of a closed loop.
     """
     errors: Floats
-    """Bounds of the relative errors of the speeds, shape (n, outputs); infinite if no digit is certain."""
+    """Bounds on the relative errors of the speeds, shape (n, outputs); infinite if no digit is certain."""
     formulas: Formulas
     """Exact formulas of the outputs; the method `exact` evaluates them."""
 

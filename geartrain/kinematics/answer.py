@@ -17,7 +17,7 @@ _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Join names with `mark`; if there are more than 13 names, replace those after the 12th by their number.
+    """Join names with `mark`; if there are more than 13, replace all after the 12th by the number of omitted names.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -42,7 +42,7 @@ class Loop(Result):
     carrier: str
     """Link relative to which the ratios of all pairs of the loop are measured."""
     links: tuple[str, ...]
-    """Links in the order of the loop."""
+    """Names of the links in their order around the loop."""
     pairs: tuple[str, ...]
     """Ids of the pairs in the order of the loop; the last pair closes the loop."""
     product: Fraction
@@ -120,8 +120,8 @@ class SpeedAccuracy:
     estimate: float
     true_error: float | None
     condition: float | None = None
-    """Component-wise condition number [1], (25) of docs/theory.md; infinite for a link at rest, None in trains of more
-    than 400 links.
+    """Component-wise condition number of the speed [1], (25) of docs/theory.md; infinite for a link at rest, None in
+    trains of more than 400 links.
     """
 
 
@@ -129,7 +129,9 @@ class RowResiduals(TypedDict, total=False):
     """Keys that the JSON output has only for float speeds: residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
-    """Row label -> magnitude of the residual divided by the sum of the magnitudes of the terms of the row [1]."""
+    """Relative residual of each row, by row label: magnitude of the residual divided by the sum of the magnitudes of
+    the terms of the row [1].
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,26 +176,26 @@ class Answer(FrozenFields, Tabular, TrainResult):
     verdict: Verdict
     """Verdict on the speeds: determined, or the reason why they are not determined."""
     speeds: Mapping[str, SpeedValue]
-    """Link -> determined speed [`unit`]. Speeds are Fractions or floats, depending on `method`."""
+    """Speeds of the links whose speed is determined, by link [`unit`]: Fractions or floats, depending on `method`."""
     outputs: Mapping[str, OutputResult]
     """Declared outputs by name, evaluated at the first access."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Link -> input -> speed of the link per unit speed of the input, with all other inputs at rest. Computed at the
-    first access; empty for float speeds.
+    """Speed of each link per unit speed of each input, with all other inputs at rest, as `ratios[link][input]`.
+    Computed at the first access; empty for float speeds.
     """
     method: str
     """Method of solution: "exact", or "floats" for float64 speeds, found by sparse LU factorisation or by rounding
     exact speeds.
     """
     accuracy: Mapping[str, SpeedAccuracy]
-    """Link -> error estimate [`unit`] and condition number of its speed. Computed at the first access; empty for exact
-    speeds.
+    """Error estimate [`unit`] and condition number of the speed of each link. Computed at the first access; empty for
+    exact speeds.
     """
     work: int
     """Number of circuits whose equations were solved."""
     residual: Mapping[str, float] = field(default_factory=dict)
-    """Row label of `WillisSystem.matrix` -> relative residual |b - A w| / (|A| |w|) [1]. Computed at the first access;
-    empty if the matrix was not used.
+    """Relative residual |b - A w| / (|A| |w|) [1] of each row of `WillisSystem.matrix`, by row label. Computed at the
+    first access; empty if the matrix was not used.
     """
     expected: str = "determined"
     """Kind of verdict that the state or the train declares as `expect`; by default `determined`."""
@@ -210,8 +212,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links of the requested or declared outputs; without outputs, all links that are neither inputs nor
-        fixed.
+        """Return the links of the requested or declared outputs; if there are none, all links that are neither inputs
+        nor fixed.
         """
         if case is None or self._output is not None:
             return self.speeds
@@ -221,7 +223,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """Return a speed as text; as a ratio to the input if exactly one input turns and both speeds are exact."""
+        """Return a speed as text; as a multiple of the input speed if exactly one input turns and both speeds are
+        exact.
+        """
         speed = self.speeds[link]
         own = inputs.get(turning[0]) if len(turning) == 1 else None
         if own is None or not isinstance(speed, Fraction) or not isinstance(own, Fraction) or link == turning[0]:

@@ -1,4 +1,4 @@
-"""Ordinary trains in the frame of each carrier: exact relative ratios, and loops with their certificates.
+"""Ordinary trains in the frame of each carrier: exact relative ratios, and loops with their ratio products.
 
 Relative to one carrier, the links that mesh form an ordinary train whose relative speeds are rational multiples of one
 unknown. Breadth-first search finds all of them. A mesh that closes a loop is either consistent, and then redundant, or
@@ -46,13 +46,13 @@ class Components:
     group_carrier: Sequence[int]
     """Carrier of each component, as an index into `links`."""
     nodes_of: Mapping[int, Sequence[int]]
-    """Link -> its nodes, one for each carrier relative to which it meshes."""
+    """Nodes of each link, one for each carrier relative to which the link meshes."""
     closing: Sequence[int]
     """Indices of the circuits that close a loop with ratio product 1; each of these circuits is redundant."""
     breaking: Sequence[int]
     """Indices of the circuits that close a loop with another ratio product and lock their component to its carrier."""
     holding: Sequence[int]
-    """Couplings with winding number 0, which lock the component of the slot to its carrier."""
+    """Indices of the couplings with winding number 0, which lock the component of the slot to its carrier."""
 
     @property
     def node_parent(self) -> Sequence[int]:
@@ -217,7 +217,7 @@ class ReducedSystem:
     Unknowns 0..g-1 belong to the components. They are followed by one unknown for each carrier other than the frame,
     and one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a
     link that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1)
-    for a follower.
+    for a coupling with winding number 0.
     """
 
     components: Components
@@ -308,7 +308,8 @@ class SolvedPart:
 
 
 def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
-    """Return the circuits that can affect the links in `keep`, by repeated removal of leaves (docs/theory.md, 10).
+    """Return the circuits that can affect the speeds of the links in `keep`, by repeated removal of leaves
+    (docs/theory.md, 10).
 
     A circuit with a link that is not wanted and occurs in no other circuit only determines the speed of that link and
     is removed. This is repeated until no such circuit remains. Loops have no leaves, so a locked train stays locked.

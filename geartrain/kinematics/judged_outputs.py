@@ -45,8 +45,8 @@ class RatioGoal:
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return speed / wanted - 1, or the same for the magnitude of the speed if `signed` is False; the speed if
-    `wanted` is 0.
+    """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared; if `wanted` is 0,
+    the speed is returned.
     """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
@@ -83,12 +83,12 @@ class TargetResult(Result):
     the target is 0, the value is the speed of the output.
     """
     days_per_century: float | None
-    """Gain of the pointer in time [days per 36525 days]. None if the unit of speeds does not contain a time, if the
-    target is 0, or if the value exceeds the range of float64.
+    """Time that the pointer gains on the target [days per 36525 days]. None if the unit of speeds does not contain a
+    time, if the target is 0, or if the value exceeds the range of float64.
     """
     degrees_per_unit: float | None
-    """Gain of the pointer in angle during one unit of the train, such as a year [deg]; None if the value exceeds the
-    range of float64.
+    """Angle that the pointer gains on the target during one unit of the train, such as a year [deg]; None if the value
+    exceeds the range of float64.
     """
     met: bool | None
     """True if `error` is within the declared tolerance; None if no tolerance is declared."""
@@ -276,7 +276,7 @@ def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
 def judge_outputs(
     train: Train, case: StateCase, relative: Relative, is_rotation: Callable[[str, str], bool]
 ) -> Iterator[OutputResult]:
-    """Yield the evaluation of every output of a case.
+    """Yield the comparison of every output of a state with its declared expectations.
 
     relative      function that returns the speed of one link relative to another, about the axis of the first
     is_rotation   function that returns whether all axes between two links are parallel
@@ -385,9 +385,9 @@ class Sensitivity(Result):
     wheel: str
     """Wheel with an uncertain tooth count."""
     teeth: int
-    """Tooth count of the wheel that the train uses."""
+    """Tooth count that the train uses for the wheel."""
     allowed: tuple[int, ...]
-    """Tooth counts that the evidence allows."""
+    """Tooth counts that the evidence allows for the wheel."""
     output: str
     """Name of the output."""
     less: float | None

@@ -1,4 +1,4 @@
-"""Equal planets declared by `copies`, and the expanded train in which each planet is declared separately.
+"""Equal planets declared by the key `copies`, and the expanded train in which each planet is declared separately.
 
 One planet determines all speeds, because equal planets have equal speeds. Assembly, loads, drawings and part lists need
 all planets: docs/theory.md, 6.
@@ -123,7 +123,7 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
         bearer = tree.top.get(link)
         if part.copies == 1:
             if bearer in train.links and train.links[bearer].copies > 1:
-                what = f"'{link}' turns on '{bearer}', which has `copies: {train.links[bearer].copies}`"
+                what = f"'{link}' is declared once, but turns on '{bearer}' with `copies: {train.links[bearer].copies}`"
                 fix = (
                     f"declare `copies: {train.links[bearer].copies}` for this link too; or, if all copies share "
                     f"one '{link}', add a link coaxial with the carrier on which it turns, with the coupling "
@@ -177,7 +177,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
     for at, coupling in enumerate(train.couplings):
         for link in (coupling.pin, coupling.slot):
             if train.links[link].copies > 1 and not _allows_copies(train, coupling):
-                what = f"'{coupling.name}' joins one of {train.links[link].copies} links '{link}'"
+                what = f"coupling '{coupling.name}' cannot join {train.links[link].copies} equal links '{link}'"
                 fix = "declare these links one by one, each with its coupling"
                 why = "copies have equal motions, and a pin would drive each of them at a different angle"
                 yield Problem(what, why, fix, train.place("couplings", at))
@@ -241,7 +241,7 @@ class _Expansion:
     # ------------------------------------------------------------------------------------------------------- one part
 
     def _further_copies(self, *links: str) -> range:
-        """Return the numbers of the further copies, from 2, of a joint or pair between some links."""
+        """Return the numbers, from 2, of the further copies of a joint or pair between the given links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
 
     def _all_copies(

@@ -131,7 +131,9 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
+        """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
+        Links with the sign 1 are omitted.
+        """
         return self._axes.link_signs
 
     @cached_property
@@ -155,8 +157,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """Inputs, brakes and locks of each state (key None for a train without states); locks are expressed joint by
-        joint.
+        """Prescriptions (inputs, brakes and locks) of each state, by name, None for a train without states; locks are
+        expressed joint by joint.
         """
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
@@ -188,7 +190,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def whole(self) -> SolvedPart:
-        """Willis system of all links and circuits, prepared for the solution."""
+        """All links and circuits of the train, with components and reduced system computed on first use."""
         return self._solved_part(self.circuits, tuple(self.declaration.links))
 
     @cached_property
@@ -219,7 +221,7 @@ class TrainKinematics(Shown):
         return tuple(lint_train(self.declaration, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
-        """Return exact speeds and the verdict of one case, without a limit on the computing time.
+        """Return exact speeds and the verdict of one state, without a limit on the computing time.
 
         Parameters
         ----------
@@ -316,8 +318,8 @@ class TrainKinematics(Shown):
         return solve_floats(system, inputs)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """Return the case with a single output, the link whose speed is the output, and the link relative to which it
-        is measured.
+        """Return the prescriptions of a state with a single output, the link whose speed is the output, and the link
+        relative to which it is measured.
 
         Parameters
         ----------
@@ -515,7 +517,7 @@ def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> 
 
 
 def _nearest(speed: Fraction) -> float:
-    """Return the nearest float64. Raises `RangeError` beyond its range."""
+    """Return the float64 nearest to a speed. Raises `RangeError` if the speed is beyond the range of float64."""
     value = as_float(speed)
     if value is None:
         why = "in float64 it would become 0 or infinite"
@@ -525,7 +527,7 @@ def _nearest(speed: Fraction) -> float:
 
 
 def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
-    """Raise `QuestionError` unless exactly the inputs are given, each with one finite speed for each case."""
+    """Raise `QuestionError` unless exactly the inputs of a state are given, each with one finite speed per case."""
     for link in inputs:
         check_choice("input", link, declared)
     for link in declared:

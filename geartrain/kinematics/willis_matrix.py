@@ -51,8 +51,8 @@ class PaddedRows:
         return csc_array(entries, shape=(size, len(self.at)))
 
     def factorise(self) -> Any:
-        """Return the sparse LU factors of the matrix, computed by SuperLU; only the ordering COLAMD never takes
-        quadratic time.
+        """Return the sparse LU factors of the matrix, computed by SuperLU with the ordering COLAMD, the only one that
+        never takes quadratic time.
         """
         from scipy.sparse import linalg
 
@@ -61,7 +61,8 @@ class PaddedRows:
 
     def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
         """Return right + remainder - A x in twice the working precision, by compensated dot products (Dot2; Ogita, Rump
-        and Oishi 2005).
+        and Oishi 2005). `remainder` contains the digits of the right-hand side that float64 cannot represent in
+        `right`.
         """
         total, low = right.copy(), remainder.copy()
         for position in range(self.columns.shape[1]):
@@ -79,7 +80,7 @@ class PaddedRows:
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """Return |A| |x|, one value for each row and case."""
+        """Return |A| |x|, the sum of the magnitudes of the terms, for each row and case."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 

@@ -61,7 +61,7 @@ def relative_speed(
 
 @dataclass(frozen=True, slots=True)
 class WillisSystem(Shown):
-    """Willis system of a train in one case, with links as columns and labelled equations as rows.
+    """Willis system of a train in one state, with links as columns and labelled equations as rows.
 
     There is one row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of
     docs/theory.md, one row for the frame, and one for each input, brake and lock.
@@ -135,8 +135,8 @@ def assemble_willis_system(
     signs: Mapping[str, int],
     redundant: Sequence[str] = (),
 ) -> WillisSystem:
-    """Assemble the equations of all circuits, of the frame, and of the inputs, brakes and locks of `case`, if one is
-    given.
+    """Assemble the equations of all circuits, of the frame, and of the inputs, brakes and locks of one state (`case`),
+    if it is given.
 
     signs       -1 for links whose axis is opposite to the reference direction of its parallel axes
     redundant   names of pairs known to follow from others

@@ -27,14 +27,16 @@ NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
 
 
 def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
-    """Return a named tuple of arrays with the entries selected by index or by mask along the last axis."""
+    """Return a named tuple of arrays with the entries that an index or a mask selects along the last axis of each
+    array.
+    """
     kind: Any = type(columns)
     found: NamedArrays = kind(*(each[..., which] for each in columns))
     return found
 
 
 def joined(sets: Sequence[NamedArrays]) -> NamedArrays:
-    """Return one named tuple of arrays, joined along the last axis."""
+    """Join several named tuples of arrays, field by field, along the last axis."""
     kind: Any = type(sets[0])
     found: NamedArrays = kind(*(np.concatenate(each, axis=-1) for each in zip(*sets, strict=True)))
     return found

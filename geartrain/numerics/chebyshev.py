@@ -24,7 +24,7 @@ class ChebyshevSeries:
 
     @classmethod
     def of(cls, f: Callable[[Floats], Floats], start: float, end: float, nodes: int) -> ChebyshevSeries:
-        """Return the series that interpolates f at `nodes` Chebyshev points of the interval."""
+        """Return the series that interpolates the function f at `nodes` Chebyshev points of the interval."""
         d = np.asarray(start + (end - start) * (points(nodes)[0] + 1) / 2, dtype=np.float64)
         return cls.through(f(d), start, end)
 
@@ -60,7 +60,9 @@ class ChebyshevSeries:
 
     @property
     def tail(self) -> float:
-        """Maximum magnitude of the last four coefficients divided by the maximum of all, which measures convergence."""
+        """Maximum magnitude of the last four coefficients divided by the maximum magnitude of all coefficients, a
+        measure of convergence.
+        """
         size = np.abs(self.coefficients)
         return float(size[-4:].max() / max(size.max(), 1e-300))  # the last coefficient only may be 0 by symmetry
 

@@ -21,7 +21,7 @@ PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)  # 95 % range, quartiles and median
 
 
 def deviations(confidence: float = CONFIDENCE) -> float:
-    """Return the z for which a standard normal variable is within +-z with the probability `confidence`."""
+    """Return the number of standard deviations within which a normal variable lies with probability `confidence`."""
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 

@@ -20,7 +20,8 @@ PRIME = (1 << 61) - 1
 """
 
 LinearForm = dict[int, Fraction]
-"""Linear form: column -> coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are treated as known.
+"""Linear form as a mapping from column to coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are
+treated as known.
 """
 
 
@@ -33,7 +34,7 @@ class Echelon:
     conditions: tuple[LinearForm, ...]
     """Rows without unknowns, each of which must be 0 for a consistent system."""
     redundant: tuple[int, ...]
-    """Indices of the rows that became 0 = 0."""
+    """Indices of redundant rows, which elimination reduces to 0 = 0."""
 
     @property
     def rank(self) -> int:

@@ -16,7 +16,7 @@ _SHORT = 256
 """Maximum number of bits of numerator and denominator for which a number is multiplied out immediately."""
 
 _KEPT = 64
-"""Number of long numbers that are kept, because numbers that are read one after another are usually near each other."""
+"""Maximum number of long numbers that are kept; numbers that are read one after another are usually near each other."""
 
 
 class FactoredRatios:

@@ -34,7 +34,9 @@ _GAUSS = np.polynomial.legendre.leggauss(20)  # exact to degree 39; squares of p
 
 
 class PolynomialPiece(NamedTuple):
-    """Piece of a curve: ends, coefficients of powers of u in [-1, 1], shape (COUNT, k), maximum errors, shape (k,)."""
+    """Piece of a curve with k coordinates: parameter at both ends, coefficients of the powers of u in [-1, 1], shape
+    (COUNT, k), and maximum error of each coordinate, shape (k,).
+    """
 
     start: float
     end: float
@@ -43,8 +45,8 @@ class PolynomialPiece(NamedTuple):
 
 
 def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: int = 0) -> list[PolynomialPiece]:
-    """Return the pieces of a curve with k coordinates, t (n,) -> (k, n), by adaptive Chebyshev interpolation to
-    rounding.
+    """Return the pieces of a curve with k coordinates by adaptive Chebyshev interpolation to rounding error; `curve`
+    maps parameters of shape (n,) to points of shape (k, n).
 
     Pieces are bisected until their last coefficients are negligible. Raises `RangeError` if the curve is not smooth.
     """
@@ -100,7 +102,9 @@ def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
 
 
 def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
-    """Return mean and standard deviation over all pieces, whose half lengths are `halves`, by Gauss quadrature."""
+    """Return mean and standard deviation of a piecewise polynomial by Gauss quadrature; `halves` contains half the
+    length of each piece.
+    """
     nodes, weights = _GAUSS
     values = np.polynomial.polynomial.polyval(nodes, coefficients)
     share = halves / halves.sum() / 2
@@ -110,7 +114,7 @@ def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
 
 
 def extremes(coefficients: Floats) -> tuple[float, float]:
-    """Return minimum and maximum over all pieces; pieces that contain NaN are ignored."""
+    """Return minimum and maximum of a piecewise polynomial; pieces that contain NaN are ignored."""
     held = coefficients[:, ~np.isnan(coefficients[0])]
     values = np.concatenate([ends(held).ravel(), *(_polynomial(column, _turns(column)) for column in held.T)])
     return float(values.min()), float(values.max())
@@ -128,7 +132,9 @@ def ends(coefficients: Floats) -> Floats:
 
 
 def _turns(column: Floats) -> Floats:
-    """Return approximate stationary points u of a polynomial; their errors have second-order effects on its value."""
+    """Return approximate stationary points u of a polynomial; their errors change its extreme values only in second
+    order.
+    """
     slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
     u = np.linspace(-1, 1, 257)
     at = _polynomial(slope, u)

@@ -126,7 +126,9 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm or no unit."""
+    """Return the angle [turn] per unit of time at a speed of 1 in the given unit: 1/360 for deg/s, 1 for rpm or no
+    unit.
+    """
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
 
@@ -137,7 +139,7 @@ def same_kind(first: str | None, second: str | None) -> bool:
 
 
 def nearest_unit(unit: str, dimension: str) -> str:
-    """Return advice on an unknown unit: the most similar unit, such as `rpm` for RPM, or all of the dimension."""
+    """Return advice on an unknown unit: the most similar unit, such as `rpm` for RPM, or all units of the dimension."""
     known = units_of(dimension)
     if re.search(r"\b(year|yr|month)s?\b", unit):
         return (
@@ -396,7 +398,9 @@ class Quantity:
 
 
 def _in_range(quantity: Quantity, dimension: str) -> Quantity:
-    """Return the quantity; raise an error outside of the range in which products and squares of its kind are floats."""
+    """Return the quantity; raise an error if it is outside the range of its dimension, in which products and squares
+    can be represented in float64.
+    """
     low, high = _BOUNDS.get(dimension, _EXACT)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity
@@ -490,7 +494,10 @@ def not_below_zero(fix: str) -> AfterValidator:
 
 
 PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, such as 20 N/um")]
-"""Stiffness: torque on the driven wheel per angle, or force along the line of action per displacement."""
+"""Stiffness of a tooth pair: torque on the driven wheel per angle, or force along the line of action per displacement.
+"""
 
 PairDamping = Annotated[MeshDamping, not_below_zero("give a damping of 0 or more")]
-"""Damping: torque on the driven wheel per angular velocity, or force along the line of action per velocity."""
+"""Damping of a tooth pair: torque on the driven wheel per angular velocity, or force along the line of action per
+velocity.
+"""

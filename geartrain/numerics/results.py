@@ -41,7 +41,7 @@ class Shown:
     PAGE: ClassVar[str] = ""
     """Function `package.module:function` that describes the result as a document; it may return None.
 
-    The constant is "" if no command prints such a result.
+    The string is empty if no command prints such a result.
     """
     TEXT: ClassVar[str] = ""
     """Function that returns the text of the command, if this is not the text of the document; otherwise ""."""
@@ -83,7 +83,9 @@ class Shown:
 
 
 def _described(result: object, name: str) -> Any:
-    """Return the result of the function `package.module:function` for an object; None if the name is empty."""
+    """Call the function named `package.module:function` with an object and return its result; None if the name is
+    empty.
+    """
     if not name:
         return None
     module, _, function = name.partition(":")
@@ -96,7 +98,7 @@ def _text_of(document: Any) -> str:
 
 
 _LONGEST_LINE = 160
-"""Maximum number of characters of a summary."""
+"""Maximum number of characters of the summary line of a result."""
 _LONGEST_VALUE = 40
 """Maximum number of characters of one value in a summary."""
 
@@ -345,7 +347,7 @@ class Pictured:
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Key of a result's plain data that differs from the attribute with the same name."""
+    """Key of a result's plain data, if it differs from the name of the attribute or needs a conversion."""
 
     name: str
     """Name in the data; "" to merge the keys of a part into the keys of the result."""
@@ -457,7 +459,7 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
 
 
 def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
-    """Return keys and names as keys only; a name becomes the key of the attribute with the same name."""
+    """Convert a sequence of keys and names to keys; a name becomes the key of the attribute with the same name."""
     return tuple(each if isinstance(each, Key) else Key(each) for each in keys)
 
 

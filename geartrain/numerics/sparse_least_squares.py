@@ -23,7 +23,7 @@ class SparseRows:
     width: int
 
     def small(self, height: int) -> bool:
-        """Return True if the solution for a matrix with `height` rows is fast."""
+        """Return True if a matrix with `height` rows is small enough for a fast solution."""
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:

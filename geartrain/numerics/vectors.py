@@ -86,7 +86,9 @@ def frame(n: Vector) -> tuple[Vector, Vector]:
 
 
 def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector, Vector]:
-    """Return the nearest points of two lines that are not parallel: a line is given by a point and a unit vector."""
+    """Return the two nearest points of two lines that are not parallel; each line is given by a point and a unit
+    vector.
+    """
     apart, turn = minus(other, point), dot(way, cut)
     # squared sine of the angle between the lines; 0 only for parallel lines
     square = 1.0 - turn * turn

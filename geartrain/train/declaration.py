@@ -1,6 +1,6 @@
 """Complete declaration of a train as one model.
 
-Also the epoch (a date, and the turns of the input at that date) and the friction in force at a pair or coupling
+Also the epoch (a date, and the turns of the input at that date) and the effective friction of a pair or coupling
 (sliding, static, and its standard deviation).
 """
 
@@ -137,7 +137,7 @@ class FrictionInForce:
 
 
 def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> FrictionInForce | None:
-    """Convert declared friction to numbers; None stays None."""
+    """Convert declared friction to its effective coefficients; None stays None."""
     if declared is None:
         return None
     if not isinstance(declared, CoulombFriction):
@@ -331,7 +331,7 @@ class Train(Declared):
 
     @property
     def cases(self) -> tuple[StateCase, ...]:
-        """Prescriptions in each state; a single case for a train without states."""
+        """Inputs, brakes, locks, loads and drive of each state; a single entry for a train without states."""
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
     def case(self, state: str | None) -> StateCase:
@@ -450,7 +450,7 @@ class Train(Declared):
         return bool(torques) and all(torque.unit is not None for torque in torques)
 
     def is_loaded(self, state: str | None) -> bool:
-        """Return True if torques are declared, by loads or by friction of bearings.
+        """Return True if torques are declared in a state, by loads or by friction of bearings.
 
         Parameters
         ----------
@@ -496,7 +496,7 @@ class Train(Declared):
 
     @cached_property
     def unit_days(self) -> Fraction | None:
-        """Length of the unit [d]; None if the unit is not a time."""
+        """Length of the train's unit of time [d]; None if the unit is not a time."""
         if self.unit is None:
             return None
         row = period_table().get(self.unit.per)
@@ -507,7 +507,7 @@ class Train(Declared):
 
     @property
     def unit_base(self) -> Fraction | None:
-        """Unit of the train in seconds or metres; None if no unit is declared."""
+        """Size of the train's unit [s or m]; None if no unit is declared."""
         quantity = self.unit_quantity
         if quantity is not None:
             return quantity.base

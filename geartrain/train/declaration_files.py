@@ -1,4 +1,5 @@
-"""Loading of declarations from a path, a shipped name, text or plain data, with everything that they inherit.
+"""Loading of declarations from a path, the name of a train shipped with geartrain, text or plain data, with everything
+that they inherit.
 
 A JSON file is read by the YAML parser, because JSON is a subset of YAML 1.2.
 """
@@ -23,7 +24,7 @@ _MOST_PARENTS = 2000
 
 
 EVIDENCE = "evidence"
-"""Folder of `trains` with evidence for reconstructions, which are not complete trains."""
+"""Subfolder of `trains` that contains the evidence for reconstructions; these declarations are not complete trains."""
 
 
 @cache
@@ -46,7 +47,8 @@ def _shipped_files(chosen: Callable[[Path], bool]) -> Mapping[str, Path]:
 
 
 def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
-    """Read a train from a YAML file, the name of a shipped train, YAML text of several lines, or plain data.
+    """Read a train from a YAML file, the name of a train shipped with geartrain, YAML text of several lines, or plain
+    data.
 
     Tooth counts may still be undetermined (`search`). Raises `DeclarationError`, also for evidence.
     """
@@ -91,7 +93,7 @@ def check_is_train(train: Train) -> None:
     if train.reconstruct is not None:
         what = f"'{train.name}' is evidence, not a train"
         why = "its key `reconstruct` leaves gear pairs undetermined"
-        fix = "run `geartrain reconstruct`, which finds the trains that explain it"
+        fix = "run `geartrain reconstruct`, which finds the trains that are consistent with it"
         raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
 
 
@@ -260,11 +262,11 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
 
 
 def _suggestion(name: str, evidence: bool) -> str:
-    """Suggest a correction for a name that is not shipped as evidence or as a train."""
+    """Suggest a correction for a name that is neither evidence nor a train shipped with geartrain."""
     if evidence and name in shipped():
         return f"it is a shipped train: name lost arbors by `--lost ARBOR`, or give evidence: {_evidence_names()}"
     if not evidence and name in shipped_evidence():
-        return f"it is evidence: `geartrain reconstruct {name}` finds the trains that explain it"
+        return f"it is evidence: `geartrain reconstruct {name}` finds the trains that are consistent with it"
     if evidence:
         return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence_names()}", wide=True)
     return suggest(name, shipped(), otherwise="check the path; `geartrain list` shows the shipped trains", wide=True)

@@ -17,15 +17,15 @@ from geartrain.train.yaml_nodes import on_one_line, parse_yaml
 
 @cache
 def examples() -> Mapping[str, tuple[str, ...]]:
-    """Return the examples as YAML texts by part, or by key if a key has several kinds of parts; the first text is
-    printed.
+    """Return the examples as YAML texts, by the part that they declare, or by the key if several kinds of parts have
+    that key. The reference prints the first text of each.
     """
     text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
     return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
 
 
 def example_data() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield the part and the plain data of each example."""
+    """Yield the name of the declared part and the plain data of each example."""
     for part, each in examples().items():
         for text in each:
             yield part, _plain(parse_yaml(text, part).plain())
@@ -49,13 +49,14 @@ def one_line(key: str, value: Any) -> str:
 
 
 _OF_NAMES = ("links", "wheels", "axes", "outputs", "states", "dials", "clutches", "sources", "materials")
-"""Keys, such as `links`, of mappings from names that a user chooses."""
+"""Keys, such as `links`, whose values are mappings from names that the user chooses."""
 
 
 def example_line(loc: Loc, kind: type) -> str:
     """Return a line with an example of the value at `loc`, a mapping or a list; empty if there is none.
 
-    A key is found by its name at any level. An example of `links.a` is any link.
+    The examples are searched for the last key of `loc` at any level. For a name that users choose, such as the link `a`
+    in `links.a`, any entry of that mapping is an example.
     """
     keys = [step for step in loc if isinstance(step, str)]
     if not keys:

@@ -95,7 +95,7 @@ def exactly_one(part: DeclaredPart, what: str, keys: Sequence[str], noun: str = 
 
 
 def _replacement_problem(error: Mapping[str, Any]) -> Problem:
-    """Return the problem of a replacement value that was not valid."""
+    """Return the problem to report for an invalid replacement value of a field."""
     if error["type"] == "missing":
         *parent, key = error["loc"]
         return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")
@@ -159,7 +159,7 @@ def _empty_for_nothing(raw: object) -> object:
 
 
 def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
-    """Return a JSON schema that accepts a short form as well."""
+    """Return a JSON schema that accepts a short form in addition to the given schema."""
     return {"anyOf": [kind, schema]}
 
 
@@ -170,7 +170,7 @@ class AlsoShort:
     schema: Mapping[str, Any]
 
     def __get_pydantic_json_schema__(self, kind: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Return the JSON schema of both forms."""
+        """Return the JSON schema of the field in its long and its short form."""
         return also(handler(kind), dict(self.schema))
 
 
@@ -186,7 +186,7 @@ Nothing = BeforeValidator(_empty_for_nothing)
 
 @cache
 def _form_reader(*names: str) -> TypeAdapter[Any]:
-    """Return the validator of the union of these tooth forms; no other tooth form is imported."""
+    """Return the validator of the union of the given tooth forms; no other tooth form is imported."""
 
     class Forms:
         @classmethod

@@ -119,7 +119,7 @@ def _expanded(node: YamlNode, kind: str) -> YamlNode:
 
 
 def _identity(kind: str) -> Callable[[YamlNode], object]:
-    """Return the function whose value identifies an entry of a list."""
+    """Return the function that computes a key by which the entries of a list are matched with those of the parent."""
     return {"revolutes": _joined_links, "gears": _pair_name, "couplings": _coupling_name}[kind]
 
 
@@ -195,7 +195,7 @@ def _drop(node: YamlNode, names: Iterable[object]) -> YamlNode:
 
 
 def _without_wheels(link: YamlNode, wheels: set[object]) -> YamlNode:
-    """Return a link without the wheels named in `wheels`; the link itself if it has none of them."""
+    """Return a link without the wheels named in `wheels`; the unchanged link if it has none of them."""
     if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
         return link
     return YamlNode({**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}, link.place, link.keys)

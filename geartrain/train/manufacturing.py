@@ -2,7 +2,8 @@
 
 Materials are a shipped table and the materials that a train declares. Errors are fixed, drawn from a distribution, or
 measured tooth by tooth. A number without a unit or a percentage is a fraction of the nominal value: a pitch deviation
-refers to the pitch, an aperture deviation to the aperture of the tooth, and a length to the tooth depth.
+refers to the pitch, an aperture deviation to the aperture (the angle between the flanks of a tooth), and a length to
+the tooth depth.
 """
 
 from __future__ import annotations

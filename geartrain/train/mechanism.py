@@ -66,7 +66,7 @@ _JOINT_SCHEMA = {
     "type": "object",
     "additionalProperties": {"type": "array", "items": {"type": ["string", "number"]}, "minItems": 2},
 }
-"""JSON Schema of the short form of `revolutes`: axis label -> links on the axis."""
+"""JSON Schema of the short form of `revolutes`, a mapping from axis label to the links on the axis."""
 
 
 FrictionTorque = Annotated[
@@ -210,7 +210,7 @@ class Teeth(Declared):
     )
 
     def _brief(self) -> str:
-        """Return the count as it is printed in the line of a wheel."""
+        """Return the tooth count as it is printed in the one-line summary of a wheel."""
         return str(self.value)
 
     note: str | None = Field(None, description="Remark for readers")
@@ -388,7 +388,7 @@ class Wheel(Declared):
 
     @property
     def uncertainty(self) -> Teeth | None:
-        """Declared range or choices of an uncertain tooth count; None for a certain count."""
+        """Uncertain tooth count with its range or choices; None for a certain count."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
     @model_validator(mode="after")
@@ -409,7 +409,7 @@ class Wheel(Declared):
                 "a {kind} cannot be flexible",
                 {
                     "kind": "ring" if self.internal else f"{self.kind} wheel",
-                    "fix": "write `flexible: true` at the spur wheel that is bent into its ring",
+                    "fix": "write `flexible: true` for the spur wheel (flexspline) that meshes with the ring",
                 },
             )
         return self
@@ -421,7 +421,7 @@ class Wheel(Declared):
 
     @property
     def helix(self) -> float:
-        """Helix angle [rad], positive for a right hand; 0 for straight teeth, or if no angle is declared."""
+        """Helix angle [rad], positive for right-hand teeth; 0 for straight teeth, or if no angle is declared."""
         angle = 0.0 if self.helix_angle is None else self.helix_angle.si
         return -angle if self.hand == "left" else angle
 

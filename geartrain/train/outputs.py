@@ -20,7 +20,7 @@ NAMED_SCALES: Mapping[str, tuple[str, tuple[tuple[str, int], ...]]] = {
     "zodiac": ("degree", tuple((name, 30) for name in _SIGNS.split())),
     "egyptian_months": ("day", (*((name, 30) for name in _MONTHS.split()), ("Epagomenal", 5))),
 }
-"""Predefined scales: the name of one division, and the labels with the number of divisions that each spans."""
+"""Predefined scales by name: the name of one division, and the labels with the number of divisions that each spans."""
 
 _MOST = 10**6
 
@@ -215,7 +215,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if a dial faces away from an observer; sides as declared by `Dial.face` and `View.from_`.
+    """Return True if a dial faces away from an observer; the sides are given as in `Dial.face` and `View.from_`.
 
     A dial with face None faces the observer.
     """

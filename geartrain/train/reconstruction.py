@@ -64,7 +64,9 @@ class AddedParts(Declared):
 
 
 class GivenCoupling(Declared):
-    """Known coupling of two surviving links: their mean speeds are equal, with the same sense of rotation."""
+    """Coupling of two surviving links that is known from the evidence: their mean speeds are equal, with the same
+    sense of rotation.
+    """
 
     pair: tuple[Id, Id] = Field(description="Two links, beginning with the link of the pin")
     kind: Literal["pin_and_slot"] = Field(

@@ -72,7 +72,7 @@ def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
 
 
 def rates(train: Train) -> Iterator[Problem]:
-    """Yield a problem if the rate is declared twice."""
+    """Yield a problem if the rate of the train is declared twice: by `rate` and by `drive`."""
     if train.rate is not None and train.drive is not None and train.drive.rate is not None:
         why = f"`rate` is {train.rate}, and the rate of `drive` is {train.drive.rate}"
         yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
@@ -96,9 +96,9 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             return
         if row.kind == "count":
             yield Problem(
-                f"'{target.name}' is a count, not a speed or period",
-                "the target of a pointer is a speed or a period",
-                "choose a row of kind period or speed",
+                f"'{target.name}' is a count and cannot be a target",
+                "a target is a speed or a period",
+                "choose a period or a speed listed by `geartrain periods`",
                 place,
             )
             return
@@ -151,7 +151,9 @@ def _suggested_unit(train: Train, per: str) -> str:
 
 
 def declared_units(train: Train) -> Iterator[Problem]:
-    """Yield problems of an invalid unit, an epoch without a unit of time, and lengths with and without units."""
+    """Yield problems of an invalid unit, an epoch without a unit of time, and a mixture of lengths with and without
+    units.
+    """
     yield from _epoch_units(train)
     if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
         yield Problem(
@@ -310,7 +312,7 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
     for name, column in cutting.measured.columns.items():
         if len(column) != count:
             yield Problem(
-                f"{len(column)} measured values of '{name}' for the {count} teeth of wheel '{wheel}'",
+                f"'{name}' has {len(column)} measured values, but wheel '{wheel}' has {count} teeth",
                 "a table has one value for each tooth, in the order of rotation",
                 "complete the table, or correct the tooth count",
                 train.place("links", link, "wheels", wheel, "cutting", "measured", name),
@@ -500,7 +502,7 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
         return
     if NEW_ARBOR in train.links:
         yield Problem(
-            f"a surviving link is called '{NEW_ARBOR}'",
+            f"'{NEW_ARBOR}' is not allowed as the name of a surviving link",
             f"in evidence `of: {NEW_ARBOR}` means that the arbor of a pointer does not survive",
             "rename the link",
             train.place("links", NEW_ARBOR),
@@ -520,7 +522,7 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
         if wheel in train.wheels and train.wheels[wheel][1].module is not None:
             why = "one follows from the other and the tooth count"
             yield Problem(
-                f"'{wheel}' has a module and a pitch radius",
+                f"both a module and a pitch radius are given for '{wheel}'",
                 why,
                 "give only the one that was measured",
                 train.place("reconstruct", "geometry", "radii", wheel),

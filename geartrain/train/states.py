@@ -196,7 +196,9 @@ class Escapement(Declared):
 
     @model_validator(mode="after")
     def _check_pendulum(self) -> Escapement:
-        """Check the length of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes it slightly faster."""
+        """Check the length l of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes the beat slightly
+        shorter.
+        """
         if self.pendulum is not None:
             # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
@@ -314,7 +316,7 @@ class StateCase(Shown):
     state: str | None
     """Name of the state; None for a train without states."""
     inputs: Mapping[str, Fraction]
-    """Link -> prescribed speed [`Train.unit_name`]."""
+    """Prescribed speed of each input link, in the unit `Train.unit_name`."""
     fixed: tuple[str, ...]
     """Links fixed to the frame."""
     locks: tuple[tuple[str, str], ...]
@@ -326,7 +328,7 @@ class StateCase(Shown):
     engaged: tuple[str, ...]
     """Names of engaged clutches and brakes."""
     clutches: Mapping[tuple[str, ...], str]
-    """Fixed link, or pair of locked links -> name of the brake or clutch that fixes or locks them."""
+    """Name of the brake or clutch for each fixed link and each pair of locked links."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
     """Torques on links; positive if they supply power to the train."""
     solve_for: str | None = None
@@ -340,9 +342,11 @@ class StateCase(Shown):
     rate: Quantity | None = None
     """Speed of the input in real time, from the drive or the train's `rate`; None if it is not given."""
     expect: ExpectedVerdict = "determined"
-    """Expected kind of verdict, which is not reported as a failure."""
+    """Expected kind of verdict; a verdict of this kind is not reported as a failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
-    """Links that are fixed or locked indirectly -> links of the declared brake or lock that causes this."""
+    """Links of the declared brake or lock that causes an indirect one, by the links that are fixed or locked
+    indirectly.
+    """
     problems: tuple[Problem, ...] = ()
     """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
 

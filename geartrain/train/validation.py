@@ -183,7 +183,9 @@ def _wheel_pair(raw: Any) -> str:
 
 
 def _without_space(loc: Loc, value: Any) -> str:
-    """Return the key in a path that contains a colon and has no value, or begins with a known key; empty if none."""
+    """Return the first key in a path that was probably written without a space after its colon: it contains a colon,
+    and has no value or begins with a known key. Empty if there is none.
+    """
     for at, step in enumerate(loc):
         start, colon, _ = str(step).partition(":")
         if colon and (value is None or isinstance(value, dict) or start in _keys_at(loc[:at])):
@@ -295,7 +297,7 @@ def _check_short_forms(
 
 
 def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
-    """Yield one problem for all pairs that are written as bare lists."""
+    """Yield one problem for all entries of a section that are written as bare lists."""
     listed = [part for part in parts.items if isinstance(part.value, list)] if parts is not None else []
     if listed:
         names = [*texts(listed[0]), "a", "b"][:2]

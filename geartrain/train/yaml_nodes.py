@@ -64,7 +64,7 @@ class YamlNode:
         return self.value
 
     def place_of(self, loc: Loc) -> str:
-        """Return the place of the value at `loc`. Steps that are not in the file are skipped."""
+        """Return the place of the value at the path `loc`. Steps of the path that are not in the file are skipped."""
         node, place = self, self.place
         for step in loc:
             if isinstance(node.value, dict) and str(step) in node.value:
@@ -131,7 +131,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     lines = text.splitlines()
     if "single document" in why:
         why, fix = "a file declares one train", "declare each train in its own file"
-        return Problem("a second document begins", why, fix, place)
+        return Problem("the file contains a second document", why, fix, place)
     if "undefined alias" in why:
         alias = re.split(r"[\s,\]}]", lines[mark.line][mark.column :])[0] if mark else "*"
         fix = f"write the value out, or put the anchor '&{alias[1:]}' on an earlier value"
@@ -162,7 +162,7 @@ class _Reader:
         self._found: dict[yaml.Node, YamlNode | None] = {}
 
     def node(self, composed: yaml.Node) -> YamlNode:
-        """Return a composed node with everything in it; an alias has the node that it repeats.
+        """Convert a composed YAML node with all nodes in it; an alias becomes the node to which it refers.
 
         Raises `DeclarationError` for content that exceeds a limit, and for an alias within its own value.
         """
@@ -247,7 +247,7 @@ def as_yaml(data: Mapping[str, Any]) -> str:
 
 
 def _section(key: str, value: Any) -> str:
-    """Return the text of one top-level key, with one entry per line."""
+    """Return the YAML text of one top-level key, with one entry per line."""
     if isinstance(value, Mapping) and value:
         lines = [f"  {on_one_line(name)}: {on_one_line(part)}\n" for name, part in value.items()]
     elif isinstance(value, list | tuple) and value:

@@ -274,7 +274,7 @@ def test_planets_that_mesh_clear_those_of_the_next_set() -> None:
             ),
         )
         seen.add(gap < 0)
-        assert (f"of the next of {number} equal sets collide" in words(load(text))) == (gap < 0), (
+        assert (f"of neighbouring planet sets collide ({number} sets)" in words(load(text))) == (gap < 0), (
             number,
             sun,
             p,

@@ -213,7 +213,7 @@ def test_a_crown_held_with_its_spider_takes_the_torque_about_both_axes() -> None
     "given", ["inputs: {left: 1, spider: 0}", "inputs: {left: 1}\nstates: {s: {inputs: {spider: 1}}}"]
 )
 def test_an_input_on_a_link_whose_axis_moves_is_refused(given: str) -> None:
-    with pytest.raises(GearTrainError, match="the input 'spider' has no speed about one axis") as refused:
+    with pytest.raises(GearTrainError, match="the input 'spider' does not turn about a single axis") as refused:
         load(DIFFERENTIAL + given + "\n")
     assert refused.value.problems[0].place.startswith("text:")
 
@@ -263,7 +263,7 @@ def test_an_input_without_an_axis_of_its_own_refuses_its_state_alone() -> None:
     train = load(DIFFERENTIAL + "states: {a: {inputs: {left: 1, right: 3}}, b: {inputs: {spider: 1}}}\n")
     assert train.solve("a")["crown"] == 2
     assert train.solve("b").verdict.kind == "refused"
-    assert "no speed about one axis" in train.solve("b").verdict.text
+    assert "does not turn about a single axis" in train.solve("b").verdict.text
 
 
 @pytest.mark.parametrize(

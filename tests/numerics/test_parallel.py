@@ -441,7 +441,7 @@ def test_work_cut_into_other_pieces_is_refused(tmp_path: Path) -> None:
         list(run(str, [[1, 2], [3, Fraction(1, 3)]], None, journal))
     with Journal(tmp_path / "journal", {}) as journal:
         assert list(run(str, [(1, 2), (3, Fraction(1, 3))], None, journal)) == ["[1, 2]", "[3, Fraction(1, 3)]"]
-        with pytest.raises(QuestionError, match="task 1 of the journal is now another task"):
+        with pytest.raises(QuestionError, match="task 1 of the journal differs from the task of this run"):
             list(run(str, [[1, 2], [3, Fraction(2, 3)]], None, journal))
 
 

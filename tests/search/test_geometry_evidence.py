@@ -459,7 +459,10 @@ def test_places_of_axes_would_single_it_out() -> None:
 
 MISTAKES = {
     "a radius of no wheel": (EVIDENCE.replace("{x: 31 mm}", "{y: 31 mm}"), "'y'"),
-    "a radius and a module": (EVIDENCE.replace("{x: 31 mm}", "{v: 15 mm}"), "'v' has a module and a pitch radius"),
+    "a radius and a module": (
+        EVIDENCE.replace("{x: 31 mm}", "{v: 15 mm}"),
+        "both a module and a pitch radius are given for 'v'",
+    ),
     "no reach": (EVIDENCE.replace("reach: 1 mm", "reach: 0 mm"), "must be greater than 0"),
     "a spread of nothing": (EVIDENCE.replace("5 %", "0 %"), "must be greater than 0"),
     "a module of nothing": (

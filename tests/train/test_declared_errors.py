@@ -51,7 +51,7 @@ def test_errors_change_no_mean_speed() -> None:
 @pytest.mark.parametrize(
     ("wheel", "rest", "said"),
     [
-        ("cutting: {measured: {tip: [0.1 mm, 0, 0]}}", "", "3 measured values of 'tip' for the 4 teeth"),
+        ("cutting: {measured: {tip: [0.1 mm, 0, 0]}}", "", "'tip' has 3 measured values, but wheel"),
         ("cutting: {pitch_deviation: {normal: 1 deg, uniform: 2 deg}}", "", "found: normal and uniform"),
         ("cutting: {pitch_deviation: {}}", "", "found: nothing"),
         ("cutting: {tip: {normal: -0.1 mm}}", "", "is negative"),

@@ -200,7 +200,7 @@ MISTAKES = {
         ["and not"],
     ),
     "no such arbor": (changed("{expect", "{of: bb, expect"), 10, ["no link 'bb'", "did you mean 'b'?"]),
-    "a link called new": (changed("  b:\n", "  new:\n"), 4, ["a surviving link is called 'new'"]),
+    "a link called new": (changed("  b:\n", "  new:\n"), 4, ["'new' is not allowed as the name of a surviving link"]),
     "no such factor": (
         changed("  add:", "  cost: {wheel: 0}\n  add:"),
         12,

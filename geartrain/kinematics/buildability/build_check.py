@@ -49,8 +49,8 @@ _NEEDS = {
 def check_kinds(
     train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rules K1, K2 and K5: kinds of wheels that do not suit their axes, their mates, or their
-    sides.
+    """Yield findings of rules K1, K2 and K5: wheels whose kind does not suit their axes or their mates, and bevel
+    wheels that mesh with a third bevel wheel from the same side.
     """
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
@@ -249,8 +249,8 @@ _SAME = 1e-6  # relative tolerance of distances: declared lengths and radii have
 def check_shared_wheels(
     pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rule P2 for non-conjugate teeth, such as triangular teeth: a wheel needs the same size in both
-    of its pairs.
+    """Yield findings of rule P2 for non-conjugate teeth, such as triangular teeth: a wheel with two mates must have the
+    same pitch radius in both pairs.
     """
     free = [
         pair for pair in pairs if pair.parallel and pair.form and pair.form.any_distance and not pair.form.conjugate

@@ -10,8 +10,8 @@ from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result
 
 BuildLevel = Literal["error", "note"]
-"""Severity: `error` if the train cannot be built, `note` if it can be built but is inadvisable or the rule is
-undecided.
+"""Severity: `error` if the train cannot be built, `note` if it can be built but is inadvisable, or if the declaration
+does not determine whether the rule is violated.
 """
 
 
@@ -40,8 +40,8 @@ class BuildFinding(Result):
     rule: str
     """Identifier of the rule in docs/buildability.md, such as `M1` or `P2`."""
     level: BuildLevel
-    """Severity. `error`: the train cannot be built as declared. `note`: it can be built but is inadvisable, or the rule
-    is undecided.
+    """Severity. `error`: the train cannot be built as declared. `note`: it can be built but is inadvisable, or the
+    declaration does not determine whether the rule is violated.
     """
     problem: Problem
     """Description of the problem: location, problem, reason and fix."""

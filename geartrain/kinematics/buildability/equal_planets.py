@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of a rule: the id of a wheel with a variable count, or a fixed count."""
+"""Tooth count as a term of an assembly rule: the id of a wheel with a variable count, or a fixed count."""
 
 Measure = Literal["", "plain", "m"]
 """Unit of a declared module: "" if no module is declared, "plain" for a number without unit, "m" for a length."""
@@ -31,16 +31,18 @@ Measure = Literal["", "plain", "m"]
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMesh:
-    """Gear pair relative to its carrier. Fields with two elements refer to the first and the second wheel."""
+    """Gear pair in the frame of its carrier, with the data that the assembly rules need. Fields with two elements
+    refer to the first and the second wheel.
+    """
 
     name: str
     """Name of the pair."""
     carrier: str
     """Link that carries both axes of the pair, and so keeps their centre distance."""
     wheels: tuple[str, str]
-    """Ids of the wheels."""
+    """Ids of the two wheels in mesh."""
     links: tuple[str, str]
-    """Names of the links of the wheels."""
+    """Names of the links to which the two wheels belong."""
     axes: tuple[str, str]
     """Labels of the axes about which the two links turn relative to the carrier."""
     parts: tuple[CountRef, CountRef]
@@ -60,7 +62,7 @@ class AssemblyMesh:
 
     @property
     def is_free(self) -> bool:
-        """True if at least one tooth count of the pair is variable."""
+        """True if the tooth count of at least one wheel of the pair is variable."""
         return any(isinstance(part, str) for part in self.parts)
 
     @property
@@ -89,15 +91,15 @@ class Planet:
             yield from planet.walk()
 
     def side(self, mesh: AssemblyMesh) -> int:
-        """Return the index (0 or 1) of this planet's wheel in one of its meshes."""
+        """Return the index (0 or 1) of this planet's wheel in a given mesh."""
         return mesh.links.index(self.link)
 
     def own(self, mesh: AssemblyMesh) -> str:
-        """Return the id of this planet's wheel in one of its meshes."""
+        """Return the id of this planet's wheel in a given mesh."""
         return mesh.wheels[self.side(mesh)]
 
     def mate(self, mesh: AssemblyMesh) -> str:
-        """Return the id of the wheel that meshes with this planet in one of its meshes."""
+        """Return the id of the wheel that meshes with this planet in a given mesh."""
         return mesh.wheels[1 - self.side(mesh)]
 
     @property
@@ -107,7 +109,9 @@ class Planet:
 
     @property
     def mesh_of(self) -> dict[str, AssemblyMesh]:
-        """Wheel of the planet that meshes in the set -> one of its meshes, the last in the order of the fields."""
+        """One mesh for each wheel of the planet that meshes in the set: the last of its inward, central and outward
+        meshes.
+        """
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
         return {self.own(mesh): mesh for mesh in meshes}
@@ -125,9 +129,7 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other, usually one planet; the unit in which equal planets are
-    compared.
-    """
+    """Planets of one carrier that mesh with each other, usually only one. Equal planets are compared set by set."""
 
     carrier: str
     planets: Planet | None
@@ -168,7 +170,9 @@ class TrainAssembly:
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of a rule: its id if the count is variable, else the count."""
+        """Return the tooth count of a wheel as a term of an assembly rule: its id if the count is variable, else the
+        count.
+        """
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
@@ -312,8 +316,8 @@ def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None)
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each
-    candidate.
+    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each candidate
+    set of tooth counts.
     """
 
     count: Callable[[CountRef], Any]
@@ -356,8 +360,8 @@ def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
 
 
 def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
-    """Return D and b of the conditions D phi = b t on a planet's angle; append the integers E of its descendants to
-    `found`.
+    """Return (D, b) of each condition D phi = b t on a planet's angle phi, where t is the rotation of its set [turn];
+    append the integers E of its descendants to `found`.
     """
     left = []
     for mesh in planet.central:
@@ -376,7 +380,9 @@ def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -
 
 
 def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
-    """Combine all conditions D phi = b t into one; append the integers E of their compatibility to `found`."""
+    """Combine all conditions D phi = b t on a planet's angle phi into one and return its (D, b); append the integers E
+    of the conditions under which they are compatible to `found`.
+    """
     (D, b), *others = left
     for D2, b2 in others:
         common, u, v = kind.bezout(D, D2)
@@ -414,7 +420,7 @@ def assembly_number(planet: Planet) -> int:
 
 
 def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
-    """Return the terms of the clearance between neighbouring equal planets, 2 a sin(pi/n) - `tips` [unit of `reach`].
+    """Return the terms of the tip clearance of n evenly spaced equal planets, 2 a sin(pi/n) - `tips` [unit of `reach`].
 
     reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p)
     tips    m (z_p + 2 h) plus the required clearance
@@ -424,7 +430,8 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
 
 
 def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    """Return the terms of (2 distance)^2 - tips^2, which is positive if a planet clears the mate of its neighbour.
+    """Return the terms of (2 distance)^2 - tips^2, where the distance is between the axes of a planet and of its
+    neighbour's mate; it is positive if these two planets clear each other.
 
     A, B   twice the distances of the two planets' axes from the central axis
     D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
@@ -582,7 +589,7 @@ class _EqualPlanets:
                 gap = self._passing_clearance(planet, other, mesh)
                 if gap is not None and gap < 0:
                     wheels = planet.own(mesh), other.own(mesh)
-                    what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets collide"
+                    what = f"'{wheels[0]}' and '{wheels[1]}' of neighbouring planet sets collide ({self.number} sets)"
                     why = f"their tip circles overlap by {-gap:.4g} modules"
                     yield self._clearance_finding(
                         wheels, gap, what, why, "use fewer planets, or change their tooth counts"
@@ -595,18 +602,21 @@ class _EqualPlanets:
         what = f"the tips of {self.number} planets '{wheel}' " + (
             f"overlap by {far}" if grave else f"have a clearance of only {far}"
         )
-        why = "neighbours are 2 a sin(pi/n) apart, less than their tip diameter" + (
+        why = "the axes of neighbours are 2 a sin(pi/n) apart, less than their tip diameter" + (
             "" if grave else f" plus {_CLEAR:g} modules"
         )
         if self.points is not None:
-            why = why.replace("2 a sin(pi/n) apart, less", "placed at a distance less")
+            why = why.replace(
+                "the axes of neighbours are 2 a sin(pi/n) apart, less",
+                "neighbours are placed at a distance less",
+            )
         # evenly spaced planets of the declared number are too close, so fewer are suggested
         most = self._maximum_number() if self.points is not None else min(self._maximum_number(), self.number - 1)
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
     def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
-        """Return a finding on tip clearance `gap` [modules]: an error if tips overlap even with the shortest undeclared
-        teeth, else a note.
+        """Return a finding on tip clearance `gap` [modules]: an error if the tips overlap even with the smallest
+        addendum that is assumed for undeclared teeth, else a note.
         """
         free = sum(wheel not in self.tips for wheel in wheels)
         # addendum at which the tips just touch if all undeclared teeth are shortened equally
@@ -691,7 +701,7 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle between neighbouring planets whose tips do not overlap [turn]; see
+        """Return the smallest angle between neighbouring planets at which their tips do not overlap [turn]; see
         `_tip_diameter`.
         """
         found = 0.0

@@ -1,4 +1,4 @@
-"""Checks of modules and centre distances: wheels in mesh must have the same module, and two axes one centre distance.
+"""Checks of modules and centre distances: wheels in mesh have the same module, and two axes have only one distance.
 
 Modules and distances are stored as multiples of each other. Wheels in mesh share a module (1). The distance between two
 axes is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions
@@ -151,7 +151,9 @@ _LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their 
 
 
 class PairOutline(NamedTuple):
-    """Pair with declared teeth as cut: centre distance, and tip radius of each wheel [transverse modules]."""
+    """Actual dimensions of a pair with declared teeth: centre distance, and tip radius of each wheel [transverse
+    modules].
+    """
 
     distance: float
     tips: Mapping[str, float]
@@ -159,7 +161,7 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """Gear pair with its declared sizes. Fields with two elements refer to the first and the second wheel."""
+    """Gear pair with its declared dimensions. Fields with two elements refer to the first and the second wheel."""
 
     name: str
     place: str
@@ -181,7 +183,7 @@ class PitchPair:
 
     @property
     def kinds(self) -> tuple[str, str]:
-        """Kinds of the two wheels."""
+        """Kinds of the two wheels, such as `spur` or `bevel`."""
         return self.declared[0].kind, self.declared[1].kind
 
     @property
@@ -202,8 +204,8 @@ class PitchPair:
 
     @property
     def has_distance(self) -> bool:
-        """True if the centre distance follows from module and tooth counts: spur wheels on parallel axes, any ring
-        being larger than its mate.
+        """True if the centre distance follows from module and tooth counts: the axes are parallel, both wheels are spur
+        wheels, and a ring is larger than its mate.
         """
         return self.parallel and self.kinds == ("spur", "spur") and self.touching > 0
 
@@ -306,7 +308,7 @@ Node = tuple[str, ...]
 
 
 class PitchDistances:
-    """Modules and centre distances of one train, as far as its declaration determines them."""
+    """Modules and centre distances of one train, as far as they follow from its declaration."""
 
     def __init__(self, train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]) -> None:
         self.train, self.pairs = train, pairs
@@ -320,14 +322,14 @@ class PitchDistances:
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return the distance between two axes as a root quantity and a factor; distances with the same root are
-        comparable.
+        """Return the distance between two axes as a factor of a root quantity (a module or a distance), and this
+        quantity; distances with the same root quantity can be compared.
         """
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats a multiple of the root quantity of a pair's distance, in mm if known, else in
-        modules.
+        """Return a function that formats a multiple of the root quantity to which a pair's distance is related: in mm
+        if the quantity is known in mm, else in modules.
         """
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
@@ -356,7 +358,7 @@ class PitchDistances:
             "M1",
             "error",
             Problem(
-                f"pair '{pair.name}' has two modules",
+                f"the wheels of pair '{pair.name}' have different modules",
                 f"{sides[0]} and {sides[1]}, and teeth of different pitches cannot mesh",
                 "give both wheels the same `module`",
                 pair.place,
@@ -383,7 +385,7 @@ class PitchDistances:
             self._record_positions(axes)
             apart = self.sizes.ratio(node, _MM)
             if apart is not None and abs(apart - offset) > _EQUAL * max(apart, offset):
-                what = f"axes {_named(axes)} are {_mm(apart)} apart, and the offset of '{circuit.id}' is {_mm(offset)}"
+                what = f"axes {_named(axes)} are {_mm(apart)} apart, but the offset of '{circuit.id}' is {_mm(offset)}"
                 why = "the offset of a pin is the distance between the two axes"
                 place = self.train.place("couplings", at[circuit.id])
                 yield BuildFinding("P1", "error", Problem(what, why, "move an axis, or correct the offset", place))
@@ -518,7 +520,7 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     """Return the profile shifts that give involutes no backlash at a distance [modules], as the text of a fix; "" if
-    the sum of the shifts would exceed `_SHIFTS`, or no involute pair fits.
+    the sum of the shifts would be outside `_SHIFTS`, or no involute pair has this distance.
 
     inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
     cos(helix). With a ring, z and x of its mate are negative. The rack angle is the tooth form's, else 20 degrees.

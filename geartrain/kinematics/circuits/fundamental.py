@@ -47,9 +47,9 @@ class Circuit(NamedTuple):
     carrier: str
     """Carrier k: the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
-    """Coefficient of the relative speed of link i, above 0."""
+    """Coefficient a of the speed of link i relative to the carrier in the Willis equation, above 0."""
     b: int
-    """Coefficient of the relative speed of link j."""
+    """Coefficient b of the speed of link j relative to the carrier in the Willis equation."""
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""
@@ -109,7 +109,7 @@ class WillisEquation(NamedTuple):
     kind: str
     """Kind of the equation: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
     terms: tuple[tuple[str, int], ...]
-    """Pairs of a link and its non-zero coefficient."""
+    """Terms of the left-hand side, as pairs of a link and its non-zero coefficient."""
     right: Fraction = Fraction(0)
     """Right-hand side of the equation [unit of the train]."""
 
@@ -239,7 +239,7 @@ _MEET = 1e-3  # relative to the distance between two declared points: closer axe
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     """Return the shaft angle of a gear pair [rad], between 0 and pi; None if its axes are parallel.
 
-    It is the sum of both cone angles, measured between the directions in which the wheels lie from the apex, which
+    It is the sum of both pitch cone angles: the angle between the directions from the apex to the two wheels, which
     follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
     """
     axes = Axes(train, tree)

@@ -35,9 +35,9 @@ class Tree(FrozenFields):
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
-    """Link -> parent link (its neighbour towards the frame) and label of the axis between them, as declared."""
+    """Parent of each link (its neighbour towards the frame), and the label of the axis between them, as declared."""
     top: Mapping[str, str]
-    """Link -> link that carries its axis: the first link on the path to the frame that is not on the same axis."""
+    """Link that carries the axis of each link: the first link on the path to the frame that is not on the same axis."""
 
     def axis(self, link: str) -> str | None:
         """Return the axis label of the joint between a link and its parent; None for the frame."""
@@ -175,9 +175,9 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note,
     which is empty unless the sense is only a convention.
 
-    With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about
-    the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
-    -z2 w2, or z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
+    With the helix angles b of both wheels (positive for right-hand helices) and the angle S from the first axis to the
+    second, about the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn.
+    Then z1 w1 = -z2 w2, or z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
 
     angle   angle between the directions of the axes [rad], 0 to pi
     side    1 if it is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown
@@ -205,7 +205,8 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
 
 
 def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
-    """Return the helix angles of two wheels on skew axes [rad], positive for right hands; None if none is declared.
+    """Return the helix angles of two wheels on skew axes [rad], positive for right-hand helices; None if none is
+    declared.
 
     The helix angle of a worm and the shaft angle determine the helix angle of its wheel by (12a); it may also be
     declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`. Raises
@@ -234,7 +235,7 @@ def _not_aligned(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Proble
     seen = ", measured about the line from the second axis to the first" if side else ""
     return Problem(
         f"teeth with helix angles of {hands[0]} and {hands[1]} are not aligned in mesh",
-        f"the sum of the helix angles, positive for right hands, must be the shaft angle of "
+        f"the sum of the helix angles, positive for right-hand helices, must be the shaft angle of "
         f"{degrees(angle) * (side or 1):.6g} deg{seen}",
         "change a `helix_angle` or a `hand`, or the axes",
     )
@@ -280,8 +281,8 @@ class Axes:
 
     @property
     def link_signs(self) -> Mapping[str, int]:
-        """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it.
-        Other links have the sign 1 and are omitted.
+        """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
+        Links with the sign 1 are omitted.
         """
         if self.plain:
             return {}
@@ -397,7 +398,7 @@ class Axes:
         if turn:
             return z_i, (-1 if turn > 0 else 1) * flip * z_j, ""
         note = (
-            "sense of rotation by convention (a right-hand worm reverses): "
+            "sense of rotation by convention (a right-hand worm is assumed to reverse it): "
             "axes and positions of worm and wheel do not determine it"
         )
         return z_i, hand * flip * z_j, note
@@ -435,8 +436,8 @@ class Rigid:
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """Return the cases with each brake and lock expressed for single joints: brakes on links that turn on the
-    frame, locks between coaxial links.
+    """Return the prescriptions of each state with brakes and locks expressed joint by joint: brakes on links that turn
+    on the frame, and locks between coaxial links.
 
     A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. A case gets
     `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`
@@ -472,9 +473,8 @@ def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rig
 
 
 class _Bodies:
-    """Rigid bodies of a case as disjoint sets of links, with its brakes and locks; closing a joint merges two bodies.
-
-    Axes of the joints are lines: collinear axes are one.
+    """Rigid bodies of a train in one state, as disjoint sets of links, with its brakes and locks; closing a joint
+    merges two bodies. Axes of the joints are lines: collinear axes are one.
     """
 
     def __init__(self, axes: Axes, case: StateCase) -> None:
@@ -525,7 +525,7 @@ class _Bodies:
         return one == other or self._axes.are_one_line(one, other)
 
     def _is_immobile(self, joints: Sequence[JointOnLine]) -> bool:
-        """Return True if a closed chain of these joints has no mobility, False if it may move."""
+        """Return True if a closed chain of the given joints has no mobility, False if it may move."""
         labels = [labels[0] for _, _, labels in joints]
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
@@ -537,7 +537,9 @@ class _Bodies:
 def _joint_by_joint(
     frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
 ) -> StateCase:
-    """Return the case with brakes and locks across several axes replaced by the joints that they close."""
+    """Return the prescriptions of a state with brakes and locks across several axes replaced by the joints that they
+    close.
+    """
     spread = {rigid.links for rigid in across}
     fixed = [link for link in case.fixed if (link,) not in spread]
     locks = [lock for lock in case.locks if lock not in spread]
@@ -558,7 +560,7 @@ def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterato
     """Yield problems of inputs whose speed is a sum of joint speeds over non-parallel axes."""
     for link in sums.intersection(case.inputs):
         yield Problem(
-            f"the input '{link}' has no speed about one axis",
+            f"the input '{link}' does not turn about a single axis",
             "the axes between it and the frame are not parallel, and the sum of its joint speeds is not a rotation",
             "drive a link whose axes up to the frame are parallel",
             train.place(*case.loc, link),

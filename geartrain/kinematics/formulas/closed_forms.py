@@ -105,7 +105,7 @@ def _are_separable(p: Laurent, i: int, j: int) -> bool:
 
 
 def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
-    """Return the polynomial with the variables `others` replaced by primes at which it does not vanish."""
+    """Return a polynomial in which the variables `others` are replaced by primes at which it does not vanish."""
     for at in others:
         p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
     return p
@@ -163,11 +163,13 @@ class ClosedForm(Result):
     KEYS = ("text", "latex", "value", Key("wheels", "formula.wheels"))
 
     formula: Formula
-    """Exact numerator and denominator."""
+    """Formula as exact numerator and denominator."""
     counts: Mapping[str, int] = field(repr=False)
-    """Wheel -> declared tooth count, at least for all wheels in the formula."""
+    """Declared tooth counts by wheel, at least for all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
-    """Candidates for factors: wheels, and the terms whose exponents refer to them."""
+    """Candidates for factors, which are tried first: each is a list of wheels, and terms whose exponents refer to these
+    wheels.
+    """
 
     def __str__(self) -> str:
         """Return the formula as text."""
@@ -227,8 +229,8 @@ class ClosedForm(Result):
         return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)
 
     def elasticity(self, wheel: str) -> ClosedForm:
-        """Return the elasticity of f in the tooth count z of one wheel, (z/f) df/dz: relative change of f per relative
-        change of z.
+        """Return the elasticity (z/f) df/dz of this function f in the tooth count z of one wheel: relative change of f
+        per relative change of z.
 
         Parameters
         ----------

@@ -44,7 +44,7 @@ class Laurent:
 
     width: int
     terms: Mapping[Exponents, Fraction]
-    """Exponents -> non-zero coefficient."""
+    """Non-zero coefficient of each term, by the tuple of its exponents."""
 
     @classmethod
     def constant(cls, value: Fraction | int, width: int) -> Laurent:
@@ -90,7 +90,7 @@ class Laurent:
 
     @property
     def is_unit(self) -> bool:
-        """True if it has one term, and division by it is exact."""
+        """True if the polynomial has exactly one term, so that division by it is exact."""
         return len(self.terms) == 1
 
     @property

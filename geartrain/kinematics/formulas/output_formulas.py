@@ -27,7 +27,8 @@ from geartrain.train import StateCase, Teeth, Train, Wheel
 from geartrain.train.fields import MOST_TEETH
 
 Row = dict[int, Laurent]
-"""Linear form: column -> coefficient. Columns >= 0 are unknowns; column -1 is the constant term from prescribed speeds.
+"""Linear form as a mapping from column to coefficient. Columns >= 0 are unknowns; column -1 is the constant term from
+prescribed speeds.
 """
 
 GIVEN = -1  # column of prescribed speeds; unknowns have columns from 0
@@ -200,7 +201,7 @@ class Chord:
 
 
 class SymbolicEquations:
-    """Equations of one case, as rows that must be 0, with the unknowns of `reduce_components`.
+    """Equations of a train in one state, as rows that must be 0, with the unknowns of `reduce_components`.
 
     circuits   fundamental circuits, with different tooth counts for all wheels in `free`
     free       wheel -> index of its variable
@@ -552,7 +553,7 @@ def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
 
 def _too_coupled(train: Train) -> Problem:
     return Problem(
-        f"'{train.name}' has formulas that are too long",
+        f"the formulas of '{train.name}' are too long",
         "they would have millions of terms, because many speeds depend on each other",
         "vary fewer wheels, or request fewer outputs",
     )

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MonomialGrouping:
-    """Polynomials rewritten in the smallest possible number of monomials, up to a common monomial factor."""
+    """Polynomials rewritten with monomials of groups of variables as new variables, as few as possible, up to a common
+    monomial factor.
+    """
 
     members: tuple[Mapping[int, int], ...]
     """Exponents of the variables in the monomial of each group, by variable index."""
@@ -141,7 +143,7 @@ class Formula:
     with the coefficients of the denominator.
     """
     denominator: tuple[Term, ...]
-    """Terms of the denominator in the same form; the first coefficient is positive."""
+    """Terms of the denominator in the form of `numerator`; the first coefficient is positive."""
 
     @property
     def constant(self) -> Fraction | None:
@@ -163,8 +165,8 @@ class Formula:
         return Fraction(whole(self.numerator, point), bottom) if bottom else None
 
     def values(self, columns: Mapping[str, Ints]) -> Floats:
-        """Return the values for many combinations of tooth counts in float64; NaN or infinite at poles. `accuracy`
-        bounds their error.
+        """Return the values of the function for many combinations of tooth counts in float64; NaN or infinite at poles.
+        `accuracy` bounds their error.
 
         columns   wheel -> array of tooth counts; the arrays are broadcast
         """
@@ -185,7 +187,9 @@ class Formula:
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """Return the function of the remaining wheels with some tooth counts substituted; other names are ignored."""
+        """Return the function of the remaining wheels after tooth counts are substituted; counts of wheels that do not
+        occur in the function are ignored.
+        """
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
             return self
@@ -209,7 +213,7 @@ class Formula:
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
     def _bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Return values in float64, and bounds on their absolute errors."""
+        """Return the values of the function in float64, and bounds on their absolute errors."""
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of

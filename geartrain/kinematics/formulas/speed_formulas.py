@@ -46,7 +46,7 @@ class OutputFormula(Result):
     KEYS = ("output", "state", "text", "latex", "value", "shares", "conditions", "poles")
 
     output: str
-    """Name of the output."""
+    """Name of the output whose speed the formula gives."""
     state: str | None
     """Name of the state; None for a train without states."""
     shares: tuple[InputShare, ...]

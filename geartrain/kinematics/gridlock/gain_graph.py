@@ -16,7 +16,7 @@ from geartrain.numerics.graphs import ways_to_common_ancestor
 
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
-"""Closed walk in the graph: pairs of the node where a step starts, and the mesh of the step."""
+"""Closed walk in the graph, as pairs of the node at which a step starts and the mesh of the step."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class GainGraph:
     ends: Sequence[tuple[int, int]]
     """Two nodes of each mesh; several meshes may connect the same nodes."""
     gains: Mapping[int, Gain]
-    """Mesh -> gain, if it is not 1: speed of its second node divided by speed of its first."""
+    """Gain of each mesh whose gain is not 1: speed of its second node divided by speed of its first."""
     firm: frozenset[int] = frozenset()
     """Meshes that cannot be disengaged, such as pins in slots."""
 
@@ -60,14 +60,18 @@ class GainGraph:
 
 
 class GainWalk(NamedTuple):
-    """Result of a search: speeds that are consistent with a spanning forest, and the meshes that contradict them."""
+    """Result of a search: speed of each node, consistent with a spanning forest, and the meshes (`breaking`) that
+    contradict these speeds.
+    """
 
     speed: list[Gain]
     breaking: list[int]
 
 
 def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWalk:
-    """Search all nodes breadth first without the meshes `without`; `breaking` may contain these meshes too."""
+    """Search all nodes breadth first without the meshes `without`, which may nevertheless be listed in `breaking` of
+    the result.
+    """
     gone = bytearray(len(network.ends))
     for mesh in without:
         gone[mesh] = 1

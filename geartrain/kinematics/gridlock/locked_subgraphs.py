@@ -19,7 +19,9 @@ from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000
-"""Maximum number of meshes for the removal search over several carriers, because each trial solves the train."""
+"""Maximum number of meshes up to which a removal over several carriers is searched for, because each trial solves the
+train.
+"""
 _ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
 _TRIALS = 3000  # maximum number of sets that are tried
 
@@ -95,7 +97,7 @@ def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
 
 
 def _gain(parts: Components, chord: int) -> Gain:
-    """Return the ratio product of the loop that a circuit closes, with -1 as an integer."""
+    """Return the ratio product of the loop that a circuit closes; a product of -1 is returned as an int."""
     gain = parts.closing_product(chord)
     return -1 if gain == -1 else gain
 

@@ -64,7 +64,7 @@ class MeshRemoval(Result):
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """Alternatives to `meshes`, if a single mesh is enough."""
+    """Pairs of which the removal of any one is enough, including the pair in `meshes`; empty if there are none."""
     proofs: tuple[RemovalBound, ...] = ()
     """Loops that prove the lower bound; empty if only the method proves it."""
 

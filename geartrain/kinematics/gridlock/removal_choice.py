@@ -31,14 +31,14 @@ _STARTS = 300  # nodes from which the shortest loop is searched; in larger netwo
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes whose removal frees a locked network, with the loops that prove how few meshes are sufficient."""
+    """Meshes whose removal frees a locked network, with the loops that prove a lower bound on the number of meshes."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
     """Proved lower bound on the number of meshes; a set with this number of meshes is a smallest set."""
     choices: list[int]
-    """Alternatives to `meshes`, if a single mesh is enough."""
+    """Meshes of which the removal of any one is enough, including the mesh in `meshes`; empty if there are none."""
     example: GainLoop
     """Short inconsistent loop, which shows a reader the cause of the lock."""
     proof: list[GainLoop]

@@ -29,12 +29,12 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling that the check of phases omits because its position is unknown, with the reason."""
+    """Gear pair or coupling that is omitted from the phase closure because its position is unknown, with the reason."""
 
     name: str
     """Name of the pair or coupling."""
     why: str
-    """Reason why the position is unknown."""
+    """Reason why the position of the pair or coupling is unknown."""
 
 
 @dataclass(frozen=True)
@@ -52,13 +52,13 @@ class PitchPoints:
     slack: Floats
     """Maximum error of the azimuth [turn]."""
     family: Sequence[tuple[int, int]]
-    """Number of each contact's family. Contacts of one family are known rational fractions of a turn apart."""
+    """Family number of each contact. Contacts of one family are known rational fractions of a turn apart."""
     part: Sequence[tuple[Fraction, Fraction]]
-    """Angle from the first contact of the family [turn], exact."""
+    """Exact angle of each contact from the first contact of its family [turn]."""
     guessed: frozenset[int] = frozenset()
     """Families with an angle that was recognised as a fraction from rounded positions."""
     omitted: tuple[UnplacedPair, ...] = ()
-    """Pairs and couplings whose positions are unknown."""
+    """Pairs and couplings that are omitted because their positions are unknown."""
 
     @cached_property
     def teeth(self) -> Floats:
@@ -106,8 +106,8 @@ def mesh_nodes(parts: Components, circuits: Sequence[Circuit]) -> list[tuple[int
 
 
 def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[int, int]], Mapping[object, int]]:
-    """Return the family numbers of the two contacts of every pair, and the number of each key; equal keys form a
-    family.
+    """Return the family numbers of the two contacts of every pair, and the family number of each key. Contacts with
+    equal keys form a family.
     """
     number: dict[object, int] = {}
     for pair in keys:
@@ -130,7 +130,7 @@ class _Axis:
     way: IntegerVector
     """Declared direction as an integer vector."""
     unsure: float
-    """Maximum error of the direction [rad]."""
+    """Maximum error of the declared direction [rad]."""
     sense: IntegerVector
     """Direction about which speeds are positive, common to all parallel axes."""
     place: IntegerVector | None

@@ -44,7 +44,7 @@ class DivisibilityCondition(NamedTuple):
     modulus: int
     """Divisor of the weighted sum of the tooth counts."""
     factors: Mapping[str, int]
-    """Wheel or kind of wheel -> weight of its tooth count."""
+    """Weight of the tooth count of each wheel or kind of wheel."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a condition; merge it with a condition on a coprime modulus if one sum expresses both."""
+    """Add a divisibility condition; merge it with a condition on a coprime modulus if one sum expresses both."""
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -210,7 +210,9 @@ def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
 
 
 def _simplicity(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
-    """Return the sort key of a row: small factors first, then few minus signs, then a positive first factor."""
+    """Return a key that sorts rows by simplicity: small factors first, then few minus signs, then a positive first
+    factor.
+    """
     first = next((value for value in row if value), 0)
     return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
 
@@ -259,12 +261,12 @@ class LoopPhase(Result):
     "numeric".
     """
     inside: Mapping[str, Fraction | float] | None
-    """Wheel -> signed angle inside the loop [turn], the coefficient of its tooth count in the sum; None for compound
-    wheels.
+    """Signed angle inside the loop at each wheel [turn], the coefficient of its tooth count in the sum of the phase
+    equations; None for compound wheels.
     """
     retime: Mapping[str, float]
-    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; one of the listed rotations is
-    enough.
+    """Rotation of each wheel on its arbor that closes the loop, counterclockwise [pitch]; one of the listed rotations
+    is enough.
     """
     together: bool = False
     """True for a condition on several loops that does not follow from the conditions of the single loops."""
@@ -339,13 +341,15 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of a loop's sum [pitch] if one wheel is rotated on its arbor by one pitch."""
+    """Return the change of the sum of a loop's phase equations [pitch] if one wheel is rotated on its arbor by one
+    pitch.
+    """
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return for each gear the angle between its two contacts in the loop, signed and weighted [turn]."""
+    """Return, for each gear of a loop, the angle between its two contacts in the loop, signed and weighted [turn]."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -413,11 +417,11 @@ class MeshPhasing(Result):
     problem: PhaseSystem = field(repr=False)
     """Phase equations of all meshes."""
     backlashes: Mapping[str, float] = field(default_factory=dict)
-    """Pair -> circumferential backlash [pitch], for pairs whose tooth form determines it."""
+    """Circumferential backlash of each pair whose tooth form determines it [pitch]."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
     """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have the same name."""
     unjudged: int = 0
-    """Number of loops that cannot be checked, because the position of one of their pairs or pins is unknown."""
+    """Number of loops that cannot be checked because the position of a pair or pin in them is unknown."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):
@@ -462,7 +466,7 @@ class MeshPhasing(Result):
 
     @property
     def omitted(self) -> tuple[UnplacedPair, ...]:
-        """Pairs and couplings whose positions are unknown."""
+        """Pairs and couplings that are not checked because their positions are unknown."""
         return self.problem.contacts.omitted
 
     @cached_property

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Row = Mapping[int, int]
-"""Integer combination of the equations of meshes: mesh -> weight."""
+"""Integer combination of the equations of meshes, as a mapping from mesh to weight."""
 
 
 class PhaseCycle(NamedTuple):
@@ -40,7 +40,7 @@ class PhaseCycle(NamedTuple):
 
     @property
     def row(self) -> dict[int, int]:
-        """Weight of each mesh."""
+        """Weight of the equation of each mesh of the loop."""
         return dict(zip(self.meshes, self.weights, strict=True))
 
 
@@ -51,8 +51,8 @@ _Edges = dict[int, list[tuple[int, int]]]
 
 
 def find_cycle_basis(parts: Components, ends: Sequence[tuple[int, int]]) -> Iterator[tuple[list[int], list[int]]]:
-    """Yield nodes and meshes of a cycle basis: for each chord the shortest loop through it, the search tree, and chords
-    that were used before.
+    """Yield nodes and meshes of each loop of a cycle basis. A loop consists of one chord (a mesh outside the search
+    tree) and a shortest path between its ends through the search tree and the chords used before.
 
     Each loop contains its own chord and no later chord, so the loops are independent and generate all loops.
     """
@@ -148,7 +148,7 @@ class PhaseCondition:
     cycle: PhaseCycle | None
     """Loop of the condition; None for a condition on several loops together."""
     row: Mapping[int, int]
-    """Mesh -> integer weight of its equation in the sum."""
+    """Integer weight of the equation of each mesh in the sum."""
     residue: Fraction | float
     """Weighted sum of the constants minus the nearest integer [pitch]; a Fraction if it is exact."""
     slack: float
@@ -197,7 +197,7 @@ class PhaseSystem:
 
     @property
     def circuits(self) -> Sequence[Circuit]:
-        """Circuits of the meshes."""
+        """Fundamental circuits of the meshes."""
         return self.contacts.circuits
 
     @cached_property
@@ -267,8 +267,8 @@ class PhaseSystem:
         return rows
 
     def _add_contributions(self, node: int, factor: Fraction, total: dict[int, Fraction]) -> None:
-        """Add the weight of each mesh constant on the path from the root to a node in the node's angle, times
-        `factor`.
+        """Add to `total`, for each mesh on the path from the root to a node, the coefficient of the mesh constant in
+        the node's angle, multiplied by `factor`.
         """
         parts = self.parts
         speed = parts.relative(node) * factor
@@ -280,7 +280,7 @@ class PhaseSystem:
 
     @cached_property
     def carriers(self) -> frozenset[int]:
-        """Carriers of meshes, except the frame."""
+        """Carriers of all meshes, except the frame."""
         return frozenset(self.parts.group_carrier) - {self.parts.frame}
 
     # ------------------------------------------------------------------------------------------------------ conditions
@@ -441,8 +441,8 @@ class PhaseSystem:
         return [float(angle % 1) for angle in found]
 
     def _angle_difference(self, kind: str, first: int, node: int, nodes: Sequence[Number]) -> Number:
-        """Return the difference of a link's angles relative to two carriers, or the angle that a loop that cannot turn
-        requires [turn].
+        """Return the difference of a link's angles relative to two carriers [turn]; for a loop that cannot turn, the
+        angle of its component that satisfies the equation of the closing mesh.
         """
         parts = self.parts
         if kind == "share":

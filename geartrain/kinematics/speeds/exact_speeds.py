@@ -39,7 +39,7 @@ _ZERO = Fraction(0)
 
 
 class PrescriptionStatement(NamedTuple):
-    """Input, brake or lock of a case: its kind (input, fixed or lock), a sentence that describes it, a sentence on the
+    """Input, brake or lock of a state: its kind (input, fixed or lock), a sentence that describes it, a sentence on the
     declaration that causes it, and its speed.
     """
 
@@ -50,7 +50,7 @@ class PrescriptionStatement(NamedTuple):
 
 
 def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], budget: int | None = None) -> Verdict:
-    """Return the verdict on a case without a solution, locked or contradictory, with its certificate.
+    """Return the verdict on a state without a solution, locked or contradictory, with its certificate.
 
     An input is locked if its link cannot move whatever the other inputs are. Inputs that can move separately but not
     together are contradictory. The certificate needs much memory for a long coupled train; beyond `budget` operations
@@ -79,7 +79,9 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return a mapping from equation number to factor, from a row of symbols with the columns -1 - number."""
+    """Return the factor of each equation by its number, from a row whose column -1 - number is the symbol of the
+    equation.
+    """
     return {-1 - column: value for column, value in row.items()}
 
 
@@ -103,7 +105,7 @@ def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
 
 
 def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Return the verdict on a case without a solution, without certificate: locked if an input cannot move, else
+    """Return the verdict on a state without a solution, without a certificate: locked if an input cannot move, else
     contradictory.
     """
     given = tuple(map(case.given, case.inputs))
@@ -136,8 +138,8 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then brakes, locks and
-    inputs; and the statements of the last three.
+    """Return all equations, each with its own symbol -1 - t, where t counts the structural equations first, then
+    brakes, locks and inputs; and the statements of the brakes, locks and inputs.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -159,7 +161,9 @@ def _tagged(
 def _describe_contradiction(
     reduced: ReducedSystem, case: StateCase, given: Mapping[int, Fraction], statements: Sequence[PrescriptionStatement]
 ) -> Verdict:
-    """Return the verdict on one contradiction; `given` has the factor of each equation in it."""
+    """Return the verdict on one contradiction; `given` contains the factor of each equation in the linear combination
+    that is contradictory.
+    """
     parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
     inputs = [(stated.text, value, stated.speed) for stated, value in used if stated.kind == "input"]
@@ -213,7 +217,7 @@ def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: in
 
 
 def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Return the verdict on a case in which no input moves, and loops or brakes lock every link."""
+    """Return the verdict on a state in which no input moves, and loops or brakes lock every link."""
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
     holding = [case.declares(link) for link in case.fixed] + [case.declares(a, b) for a, b in case.locks]
@@ -365,15 +369,17 @@ _FEW = 100  # for fewer equations the prediction costs as much as it saves
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Exact speeds of the determined links of a train in one case, with the verdict and the speed ratios."""
+    """Exact speeds of the determined links of a train in one state, with the verdict and the speed ratios."""
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
-    """Link -> speed, only for determined links, in the order of the declaration."""
+    """Speeds of the determined links, by link, in the order of the declaration."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Link -> input -> speed of the link per unit speed of the input, with the other inputs at rest."""
+    """Speed of each link per unit speed of each input, with the other inputs at rest, as `ratios[link][input]`."""
     signs: Mapping[str, int]
-    """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
+    """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
+    Links with the sign 1 are omitted.
+    """
     difference: Callable[[str, str], Fraction | None] | None = None
     """Function that returns the difference of two links' speeds before axis signs are applied, or None if it depends on
     free unknowns; given only if the train is free.
@@ -399,7 +405,7 @@ class Solution:
 
 
 def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> Mapping[str, Mapping[str, Fraction]]:
-    """Return the exact ratios as a mapping link -> input -> ratio; the equations are solved at the first access."""
+    """Return the exact ratios as `ratios[link][input]`; the equations are solved at the first access."""
 
     @cache
     def forms() -> dict[int, LinearForm]:
@@ -420,7 +426,7 @@ def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -
 
 @collector_paused()
 def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
-    """Solve one case exactly, by propagation if it reaches every link, else by reduction and elimination.
+    """Solve the train in one state exactly, by propagation if it reaches every link, else by reduction and elimination.
 
     signs    -1 for links whose axis is opposite to the reference direction; results refer to the declared directions
     budget   maximum number of operations beyond linear work; `TooDenseError` if exceeded, None for no limit

@@ -66,7 +66,7 @@ class FloatSpeeds(FrozenFields, Shown):
     """
 
     speeds: LabelledArray
-    """Speeds, axes (link, case) [unit of the train]."""
+    """Speeds with axes (link, case) [unit of the train]; a case is one set of input speeds."""
     estimate: LabelledArray
     """Estimated absolute error of each speed, with axes and unit of `speeds`."""
     residual: LabelledArray
@@ -74,8 +74,8 @@ class FloatSpeeds(FrozenFields, Shown):
     working precision [1].
     """
     condition: Mapping[str, float]
-    """Link -> component-wise condition number cond(A, x) of the first case, equation (25). It is at least 1, and
-    infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400 links.
+    """Component-wise condition number cond(A, x) of the speed of each link in the first case, equation (25). It is 1 or
+    more, and infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400 links.
     """
 
     def _summary(self) -> str:
@@ -121,7 +121,9 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
 
 
 def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spread: Floats) -> dict[str, float]:
-    """Return |A^-1| |A| |x| / |x| of each link; `spread` is its numerator, exact if the inverse was computed."""
+    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link; `spread` is its numerator, exact if
+    the inverse was computed.
+    """
     if len(x) > _INVERTED:
         return {}
     numbers = np.divide(spread, np.abs(x), out=np.full_like(x, np.inf), where=x != 0).tolist()
@@ -199,7 +201,7 @@ def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) 
 def _right_hand_sides(
     rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None
 ) -> list[list[Fraction]]:
-    """Return the right-hand side of every row, one number for each case [unit of the train]."""
+    """Return the right-hand side of every row, one number for each set of input speeds [unit of the train]."""
     cases = len(next(iter(inputs.values()))) if inputs else 1
     return [
         [Fraction(value) for value in inputs[row.terms[0][0]]]

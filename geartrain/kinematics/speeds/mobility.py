@@ -53,11 +53,11 @@ class Mobility(Result):
     by_rank: int
     """Mobility by rank, links - 1 - rank of all circuits; it is correct for every train."""
     redundant: int
-    """Number of circuits that follow from other circuits."""
+    """Number of redundant circuits, whose equations follow from the equations of other circuits."""
     loops: tuple[Loop, ...]
     """Loops with ratio product 1, each of which has one redundant pair; the first 1000."""
     shared: tuple[str, ...]
-    """Links through which redundant equations couple components."""
+    """Links whose speeds in two components are equated by a redundant equation."""
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; the first 1000."""
     still: tuple[str, ...]
@@ -74,7 +74,9 @@ class Mobility(Result):
 
     @property
     def by_count(self) -> int:
-        """Mobility by count, j_R - j_G, where j_G includes couplings; it is correct only without redundant pairs."""
+        """Mobility by count: number of turning pairs minus number of gear pairs and couplings, j_R - j_G. It is correct
+        only if no pair is redundant.
+        """
         return self.turning_pairs - self.gear_pairs - self.couplings
 
     @property

@@ -150,7 +150,7 @@ def _unwritable(folder: Path) -> Problem:
 
 
 def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return the problem that an existing file must not be overwritten; None if it may be."""
+    """Return the problem to report if an existing file must not be overwritten; None if it may be."""
     if not force:
         return _exists(path)
     if not mode & 0o222 or not os.access(real, os.W_OK):

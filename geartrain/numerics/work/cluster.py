@@ -72,7 +72,7 @@ class DaskPool(WorkerPool):
     def deaths(self, error: Exception) -> int:
         """Return the number of workers that died when a task failed with this error.
 
-        Exceptions of the work itself are returned as results, so any error of a future is one of the cluster.
+        Exceptions of the work itself are returned as results, so any other error of a future is caused by the cluster.
         """
         return _DEATHS if isinstance(error, distributed.scheduler.KilledWorker) else 1
 

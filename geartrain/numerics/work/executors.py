@@ -92,6 +92,6 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
 
 
 def _default_count() -> int:
-    """Return the number of cores, or 1 in a worker of `multiprocessing.Pool`, which may not start processes."""
+    """Return the number of available cores; 1 in a worker of `multiprocessing.Pool`, which may not start processes."""
     started = sys.modules.get("multiprocessing.process")
     return 1 if started is not None and started.current_process().daemon else cores()

@@ -160,9 +160,12 @@ class Journal:
                 self.path,
             )
         if found[4].decode() != mark:
-            why = "the work was divided into other tasks when this journal was begun"
+            why = "the work was divided into different tasks when this journal was begun"
             raise _refused(
-                f"task {task} of the journal is now another task", why, "remove the journal to begin again", self.path
+                f"task {task} of the journal differs from the task of this run",
+                why,
+                "remove the journal to begin again",
+                self.path,
             )
         return found[5].decode()
 

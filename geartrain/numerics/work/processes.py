@@ -25,7 +25,8 @@ _MOST = 61 if sys.platform == "win32" else 10_000  # processes: Windows cannot w
 
 
 class ProcessPool(WorkerPool):
-    """Up to `workers` processes, started when they are needed and replaced when one dies; `waits` as in `WorkerPool`.
+    """Up to `workers` processes, started when they are needed and replaced when one dies; `waits` has the same meaning
+    as in `WorkerPool`.
 
     The processes end with this process, also if it is killed. Each process has one end of a pipe (`leash`), and exits
     when the other end is closed.

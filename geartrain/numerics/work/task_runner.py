@@ -401,7 +401,7 @@ def raised(error: Exception) -> RemoteFailure:
 
 
 def mark_of(task: Any) -> str:
-    """Return a checksum by which a journal identifies a task; empty if the task cannot be written as JSON."""
+    """Return a checksum of a task, by which a journal identifies it; empty if the task cannot be written as JSON."""
     try:
         text = json.dumps(task, separators=(",", ":"), default=_fraction)
     except (TypeError, ValueError):

@@ -12,7 +12,8 @@ Announcement = Callable[[int, int], None]
 
 
 class WorkerPool(Executor, ABC):
-    """Executor that survives the death of workers: futures fail with an error of `deaths`, and the next submit works.
+    """Executor that survives the death of workers: the futures of a dead worker fail with an error for which `deaths`
+    is above 0, and the next submit works.
 
     announce   function called before the first task is submitted; None afterwards
     waits      True to do the first second of work in this process, which may be sufficient

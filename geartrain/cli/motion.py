@@ -94,7 +94,9 @@ def run(
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
     if resume and (to.suffix != ".csv" or to.path is None):
-        raise option_error("--resume", "only a CSV file can be resumed", "give -o x.csv too")
+        raise option_error(
+            "--resume", "the output is not a CSV file", "give -o x.csv too", "only CSV tables can be resumed"
+        )
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     # an output that is also a link is reported once

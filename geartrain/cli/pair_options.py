@@ -42,8 +42,8 @@ PAIR = ("friction", "z1", "z2")
 def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
     """Return the parameters of a form that describe one pair, by name.
 
-    Forms that keep their design at any centre distance have no parameter for it. Parameters for the time domain are
-    omitted.
+    Forms whose teeth run only at the design centre distance have no parameter `centre_distance`. Parameters for the
+    time domain are omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden}
@@ -133,7 +133,7 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
     """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError` for a ring gear."""
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
-        raise option_error("--shaft-angle", "a ring is not a bevel wheel", fix, why)
+        raise option_error("--shaft-angle", "a ring gear is given with a shaft angle", fix, why)
     return None if angle is None else quantity("--shaft-angle", angle, "angle")
 
 
@@ -145,7 +145,7 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
-        raise option_error("--helix", "bevel wheels have no helix angle", "omit --shaft-angle or --helix", why)
+        raise option_error("--helix", "a helix angle is given for bevel wheels", "omit --shaft-angle or --helix", why)
     if not 0 <= angle < pi / 2:
         what = f"a helix angle of {helix} is out of range"
         why = "it is measured from the axis, and must be at least 0 and less than 90 deg"
@@ -307,8 +307,8 @@ class PairFrictionOption:
         if radius is None or rate is None:
             missing = {"--rate": ("the speed of the driver", rate), "--module": ("the module", radius)}
             lacking = {option: word for option, (word, value) in missing.items() if value is None}
-            what = f"the friction law '{self.law.law}' depends on the sliding speed"
-            why = f"it cannot be computed without {' and '.join(lacking.values())}"
+            what = f"the friction law '{self.law.law}' needs the sliding speed, which is unknown"
+            why = f"the sliding speed follows from {' and '.join(lacking.values())}"
             raise option_error("--friction", what, f"give {' and '.join(lacking)}", why)
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts

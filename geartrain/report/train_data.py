@@ -122,9 +122,9 @@ class TrainReport(TrainAnswers):
     sensitivity: tuple[StateSensitivity, ...]
     """Changes of the outputs if a wheel with an uncertain tooth count has one tooth fewer or one tooth more."""
     teeth: tuple[DrivenPair, ...]
-    """Pairs with real teeth, one entry for each driving wheel that occurs in at least one state."""
+    """Pairs with a declared tooth form, one entry for each driving wheel that occurs in at least one state."""
     pins: tuple[DrivenPin, ...]
-    """Couplings whose dimensions are declared."""
+    """Pin-and-slot couplings whose dimensions are declared."""
     torques: tuple[TorqueFigures, ...]
     """Torques in every state with loads or bearing friction."""
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
@@ -132,7 +132,7 @@ class TrainReport(TrainAnswers):
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
     """Motion in every state of a train with real teeth or pins; an entry with `error` if it cannot be computed."""
     errata: tuple[Erratum, ...]
-    """Declared errors in the sources."""
+    """Errors in the published sources, as declared."""
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:

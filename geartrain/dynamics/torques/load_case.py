@@ -127,12 +127,12 @@ class LoadCase:
     tree: Tree
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
-    """Link -> -1 if its axis is opposite to the reference direction of its parallel axes; other links have 1."""
+    """-1 for each link whose axis is opposite to the reference direction of its parallel axes; other links have 1."""
     case: StateCase
     speeds: Mapping[str, Fraction]
-    """Link -> speed, for links whose speed is determined [unit of the train]."""
+    """Speed of each link whose speed is determined [unit of the train]."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
-    """Pairs with real teeth by name."""
+    """Gear pairs with a declared tooth form, by name."""
     pins: Sequence[PinMesh] = ()
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
     """Speeds of all links as linear forms of the free speeds if the train is underdetermined; otherwise empty."""

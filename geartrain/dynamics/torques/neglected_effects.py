@@ -41,8 +41,8 @@ _MEAN = "the reported torques are means over a turn"
 
 @dataclass(frozen=True)
 class _NonuniformPair:
-    """Pair with a variable speed ratio tau. It adds a factor times (tau - m) times the speed of its driver to its
-    equation.
+    """Pair with a variable speed ratio tau and mean ratio m. Its Willis equation contains a factor times (tau - m)
+    times the speed of its driver.
     """
 
     id: str
@@ -77,7 +77,9 @@ def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[
     gains = _gains(setting, nonuniform)
 
     def bounds(link: str, carrier: str, added: Floats) -> Floats:
-        """Return the bounds of a relative speed; `added` has those of (tau - m) w of each pair, shape (2, pairs)."""
+        """Return the bounds of a relative speed; `added` has the bounds of each pair's speed deviation, shape (2,
+        pairs).
+        """
         mean = setting.relative(link, carrier)
         if mean is None:
             return np.array([-inf, inf])

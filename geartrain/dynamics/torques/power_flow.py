@@ -43,12 +43,7 @@ class PowerNode(NamedTuple):
 
 @dataclass(frozen=True)
 class PowerStream(Result):
-    """Power that flows from one node to the next.
-
-    See Also
-    --------
-    PowerFlow.streams : all streams
-    """
+    """Power that flows from one node of the power flow to another."""
 
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
@@ -140,7 +135,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle in the selected streams; empty without a cycle."""
+    """Return one cycle of the power flow in the selected streams; empty without a cycle."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:
@@ -232,7 +227,7 @@ class PowerFlow(Result):
     streams: tuple[PowerStream, ...] = ()
     """Power streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Pair or bearing -> lost power, in the same unit; parts without losses are omitted."""
+    """Power lost in each pair or bearing, in the same unit; parts without losses are omitted."""
     loops: tuple[RecirculatingPower, ...] = ()
     """Power loops, in descending order of power."""
 
@@ -319,8 +314,8 @@ def watts_per_unit(train: Train, case: StateCase) -> float | None:
     """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are numbers
     without a unit.
 
-    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
-    have units.
+    Speeds have a unit if the train declares a `rate`, which is the speed of the first input that turns, or if its
+    inputs have units.
     """
     if not train.has_torque_units(case.state):
         return None

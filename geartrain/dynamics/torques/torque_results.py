@@ -59,7 +59,7 @@ class HoldingTorque(Result):
 
     @property
     def by_link(self) -> Mapping[str, Fraction] | None:
-        """Link -> torque [N m, or number without a unit]; None if undetermined."""
+        """Torque on each held link [N m, or number without a unit]; None if undetermined."""
         return None if self.torques is None else dict(zip(self.links, self.torques, strict=True))
 
 
@@ -67,11 +67,11 @@ class MemberTorques(NamedTuple):
     """Torques on the members of a gear pair or coupling [N m, or number without a unit]."""
 
     first: Fraction
-    """Torque on the first link of the pair."""
+    """Torque on the first link of the pair [N m, or number without a unit]."""
     second: Fraction
-    """Torque on the second link of the pair."""
+    """Torque on the second link of the pair [N m, or number without a unit]."""
     carrier: Fraction
-    """Torque on the carrier."""
+    """Torque on the carrier of the pair [N m, or number without a unit]."""
 
 
 class BearingTorque(NamedTuple):
@@ -122,9 +122,10 @@ class PairTorque(Result):
     torques: tuple[Fraction, Fraction, Fraction]
     """Torques on the three links, each about its own axis [N m, or number without a unit]."""
     multiplier: Fraction
-    """Multiplier x of the pair's Willis equation."""
+    """Multiplier x of the pair's Willis equation; without losses the torque on the first link is a x."""
     rolling: Fraction | None
-    """Rolling speed a (w_i - w_k); None if undetermined.
+    """Rolling speed: coefficient a of the Willis equation times the speed of the first link relative to the carrier;
+    None if undetermined.
 
     The power from the first link to the second is -x times this speed.
     """
@@ -316,9 +317,9 @@ class Torques(FrozenFields, Tabular, TrainResult):
     requested: tuple[str, ...] = ()
     """Links whose torque was computed from the balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
-    """Link -> external torque [N m, or number without a unit]: loads, requested torques, brakes."""
+    """External torque on each link [N m, or number without a unit]: loads, requested torques, brakes."""
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
-    """Link -> speed, for links whose speed is determined [unit of the train]."""
+    """Speed of each link whose speed is determined [unit of the train]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
     """Gear pairs and couplings by name."""
     bearings: tuple[BearingTorque, ...] = ()
@@ -350,12 +351,12 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def powers(self) -> Mapping[str, Fraction]:
-        """Link -> external power, positive if it flows into the train, for links whose speed is determined."""
+        """External power of each link whose speed is determined, positive if it flows into the train."""
         return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
 
     @property
     def link_torques(self) -> Mapping[str, LinkTorque]:
-        """Link -> external torque on the link and its power."""
+        """External torque on each link, and its power."""
         powers = self.powers
         return {
             link: LinkTorque(torque, powers.get(link), link in self.requested) for link, torque in self.external.items()

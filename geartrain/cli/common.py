@@ -127,7 +127,7 @@ class Sink:
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result: to standard output, or atomically to the file, and report its name with `said`."""
+        """Write a complete result: to standard output, or atomically to the file, then report its name and `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()

@@ -59,12 +59,12 @@ if TYPE_CHECKING:
 FORMS = tuple(name for name in TOOTH_FORMS if name != "ideal")
 DEFAULT = "involute"
 _TRIANGULAR = ("backwards", "inertia", "load", "vary", "objective", "free", "within", "cutting", "at")
-"""Options that apply only to triangular teeth."""
+"""Options of `geartrain mesh` that apply only to triangular teeth."""
 _COMPARED = (
     *("z1", "z2", "form", "parameter", "compare", "internal", "shaft_angle"),
     *("plot", "json", "theme", "out", "force"),
 )
-"""Options that apply to a comparison of tooth forms."""
+"""Options of `geartrain mesh` that apply to a comparison of tooth forms."""
 _teeth = partial(typer.Option, rich_help_panel="Triangular teeth")
 _outline = partial(typer.Option, rich_help_panel="Outline of one wheel")
 _output = partial(typer.Option, rich_help_panel="Output")
@@ -116,7 +116,7 @@ def run(
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,
     rate: Annotated[str | None, typer.Option("--rate", help="Speed of the driving wheel, such as '1 turn/s'.")] = None,
     backwards: Annotated[
-        bool, _teeth("--backwards", help="Turn the driving wheel backwards, with contact on the back flanks.")
+        bool, _teeth("--backwards", help="Turn the driving wheel backwards, with contact on the coast flanks.")
     ] = False,
     inertia: Annotated[
         str | None, _teeth("--inertia", help="Moment of inertia of the driven wheel, such as '1 kg mm2'.")

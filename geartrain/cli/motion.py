@@ -1,4 +1,4 @@
-"""`geartrain motion`: transmission errors and speeds of the outputs with real teeth and pins."""
+"""`geartrain motion`: transmission errors and speeds of the outputs, from declared tooth forms and pins."""
 
 from __future__ import annotations
 
@@ -81,7 +81,8 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute transmission error and speed of outputs with real teeth and pins; -o x.csv writes every position.
+    """Compute transmission errors and speeds of outputs from declared tooth forms and pins; -o x.csv writes every
+    position.
 
     Example: `geartrain motion moon-triangular --of moon --turns 20`.
     """

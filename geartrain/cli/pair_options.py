@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 COUNTS = "Z1 Z2"
 """Location at which errors in the tooth counts are reported."""
 PAIR = ("friction", "z1", "z2")
-"""Quantities that can be varied in addition to the parameters of the form."""
+"""Quantities that can be varied in addition to the parameters of the tooth form."""
 
 
 # ------------------------------------------------------------------------------------------------- parameters of a form
@@ -177,9 +177,9 @@ class PairRequest:
     model: type[ToothForm]
     teeth: tuple[int, int]
     own: Mapping[str, str]
-    """Parameters of the tooth form by key."""
+    """Parameters of the tooth form, by key."""
     module: float | None = None
-    """Module [m]; None if not given."""
+    """Module of the pair [m]; None if not given."""
     friction: str = "0"
     driver: int = 1
     rate: str | None = None
@@ -187,7 +187,7 @@ class PairRequest:
     shaft_angle: float | None = None
     """Shaft angle of bevel wheels [rad]."""
     helix: float = 0.0
-    """Helix angle [rad]."""
+    """Helix angle of the first wheel [rad]."""
 
     def mesh(self, **varied: str) -> GearMesh:
         """Create the pair in mesh, with some parameters replaced by the values in `varied`.
@@ -276,7 +276,7 @@ def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
 
 
 FINE = "0.001mm"
-"""Default chord tolerance of outlines."""
+"""Default chord tolerance of the outline of a wheel, as a length with its unit."""
 
 
 # ------------------------------------------------------------------------------------------------------------- friction

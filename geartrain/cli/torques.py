@@ -150,7 +150,7 @@ def _friction_trials(
     out: Path | None,
     options: RunOptions,
 ) -> Any:
-    """Repeat the run in trials with random friction.
+    """Repeat the torque run in trials with random friction.
 
     run     number of samples, and link
     drawn   number of trials, and random seed

@@ -167,7 +167,7 @@ class EndingGroup(TyperGroup):
             return super().make_context(*given, **more)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command that was requested."""
+        """Run the requested command."""
         with _translated_exits():
             return super().invoke(ctx)
 

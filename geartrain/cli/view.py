@@ -122,7 +122,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """Return the layout of a page.
+    """Return the layout of a page: `embed`, `kiosk`, or `page` by default.
 
     Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
     """

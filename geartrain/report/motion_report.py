@@ -27,9 +27,9 @@ class PhaseRange(NamedTuple):
     """Range of one output's deviation over runs with random tooth phases."""
 
     peak_to_peak: tuple[float, float]
-    """Minimum and maximum peak-to-peak deviation [rad]."""
+    """Minimum and maximum peak-to-peak deviation of the output over the runs [rad]."""
     rms: tuple[float, float]
-    """Minimum and maximum root mean square deviation [rad]."""
+    """Minimum and maximum root mean square deviation of the output over the runs [rad]."""
 
 
 class PhaseSets(NamedTuple):
@@ -105,7 +105,7 @@ class MotionFigures(Result):
     reversing_drivers: Sequence[str]
     """Pairs whose driving wheel temporarily turns against its mean sense of rotation."""
     rigid: Sequence[str]
-    """Pairs with real teeth whose speed ratio is constant, so that they contribute no transmission error."""
+    """Pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no transmission error."""
     outputs: Mapping[str, OutputMotion]
     """Deviation, speed and further requested results, by name of the output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
@@ -130,7 +130,7 @@ class UnfollowedMotion:
     state: str | None
     """Name of the state; None for a train without states."""
     why: GearTrainError
-    """Error that prevents the computation."""
+    """Error that prevents the computation of the motion."""
 
     @property
     def error(self) -> str:
@@ -414,7 +414,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """Return a table of the peak-to-peak contribution of each pair to some outputs [deg]."""
+    """Return a table of the peak-to-peak contribution [deg] of each pair to the deviation of some outputs."""
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]

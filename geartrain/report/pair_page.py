@@ -45,7 +45,7 @@ class FormedPair(Result):
     )
 
     mesh: GearMesh
-    """Mesh with its driving wheel."""
+    """Gear mesh of the pair, with its driving wheel."""
     outlines: tuple[WheelOutline, ...] = ()
     """Outlines of the wheels that were constructed."""
 

@@ -110,7 +110,7 @@ class TrainReport(TrainAnswers):
     positions.
     """
     sources: Mapping[str, str]
-    """Citations by source key."""
+    """Full citation of each source, by its key."""
     circuits: tuple[Circuit, ...]
     """Fundamental circuit of each gear pair and coupling."""
     adjacency: AdjacencyLetters | None

@@ -103,9 +103,9 @@ class ComposedSources(NamedTuple):
     high: Floats
     """High half of `factor` in Dekker's split, with at most 26 bits."""
     low: Floats
-    """Low half of `factor` in Dekker's split."""
+    """Low half of `factor` in Dekker's split: `factor` minus `high`."""
     rest: Floats
-    """Exact number of periods minus `factor`."""
+    """Exact number of periods per revolution of the input minus `factor`."""
     start: Floats
     """Forward angle of the driver at position 0 of the input [rad]."""
     mean: Floats
@@ -138,7 +138,7 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
     """
     tables: list[TransmissionTable] = []
     for step in composition.steps:
-        # coupled pairs need Newton's method, which the kernel has not
+        # coupled pairs need Newton's method, which the kernel does not contain
         if len(step.sources) > 1:
             return None
         source, gain = composition.sources[step.sources[0]], float(step.own[0, 0])

@@ -1,4 +1,4 @@
-"""Motion with real teeth and pins: the error of every pair propagates to the links and to the driver angles of other
+"""Motion with tooth and pin errors: the error of every pair propagates to the links and to the driver angles of other
 pairs.
 
 `ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's

@@ -202,7 +202,7 @@ class KinkSearch:
             yield InputSteps(ends[:-1], ends[1:])
 
     def between(self, steps: InputSteps) -> KinkPositions:
-        """Return the kinks within the given narrow steps."""
+        """Return the kinks within the given narrow steps of the input."""
         return self._joined([[pair.between(steps)] for pair in self.pairs])
 
     def over(self, start: float, end: float) -> KinkPositions:

@@ -104,7 +104,7 @@ _MAIN = 3  # outputs in a summary
 
 
 class Motion(Shown):
-    """Motion of a train with real teeth and pins, as a function of the revolutions of its input.
+    """Motion of a train including the errors of its teeth and pins, as a function of the revolutions of its input.
 
     Transmission functions are composed in the order in which the train is solved: equations (2) and (3) of
     docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link the position that it
@@ -277,7 +277,8 @@ class Motion(Shown):
             )
 
     def with_random_phases(self, random: Generator) -> Motion:
-        """Return the motion in which each pair with real teeth but without a declared phase has a random phase.
+        """Return the motion in which each pair with a declared tooth form but without a declared phase has a random
+        phase.
 
         Parameters
         ----------
@@ -333,7 +334,7 @@ class Motion(Shown):
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
-            # division first: the last position is exactly `turns`, wherever stretches begin
+            # division first: the last position is exactly `turns`, wherever chunks begin
             yield composition.at(turns * (at / (samples - 1)))
 
     def _sampler(self, turns: float, samples: int) -> ErrorSampler:

@@ -28,7 +28,7 @@ class MotionProblem:
     """Data from which the motion of a train in one state is computed, as collected by `find_motion_problem`."""
 
     system: WillisSystem
-    """Willis equations with labels, without redundant circuits."""
+    """Labelled Willis equations without those of redundant circuits."""
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]

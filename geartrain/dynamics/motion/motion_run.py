@@ -48,9 +48,9 @@ class HarmonicShare(NamedTuple):
     pair: str
     """Name of the pair whose error has this harmonic."""
     harmonic: int
-    """Number of the harmonic, relative to the pair's period."""
+    """Number of the harmonic: cycles per period of the pair's error."""
     amplitude: float
-    """First-order amplitude in the output [rad]."""
+    """First-order amplitude of the harmonic in the output's error [rad]."""
 
 
 @dataclass(frozen=True)

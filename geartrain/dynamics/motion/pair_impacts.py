@@ -47,7 +47,7 @@ class ToothImpact(Shown):
 
     @property
     def power(self) -> float:
-        """Power that the impacts dissipate [W]."""
+        """Power that the tooth impacts dissipate [W]."""
         return self.rate * sum(self.inertia * jump**2 / 2 for jump in self.jumps)
 
 

@@ -41,7 +41,7 @@ _NAMED = 3  # loads listed by name; the others are only counted
 
 
 LoadGroup = frozenset[str]
-"""Names of resisting outputs or links."""
+"""Names of outputs or links that resist their motion."""
 
 
 def group_text(group: LoadGroup) -> str:

@@ -191,7 +191,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
     Torques over a revolution include friction of pins and bearings, and their variation, if the data are declared.
 
-    at_means   pairs with real teeth that have their mean efficiency at all positions
+    at_means   pairs with a declared tooth form that have their mean efficiency at all positions
     """
     found = [
         *_pins_without_dimensions(setting, setting.circuits),

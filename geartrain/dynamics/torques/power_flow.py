@@ -82,12 +82,12 @@ class RecirculatingPower(Result):
 
     @property
     def pairs(self) -> tuple[str, ...]:
-        """Names of the pairs in the loops."""
+        """Names of the pairs through which the power recirculates."""
         return tuple(node.name for node in self.nodes if node.kind == "pair")
 
     @property
     def shafts(self) -> tuple[str, ...]:
-        """Names of the shafts in the loops."""
+        """Names of the shafts through which the power recirculates."""
         return tuple(node.name for node in self.nodes if node.kind == "shaft")
 
 
@@ -191,12 +191,12 @@ class PowerLoss(Result):
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Lost power divided by the power that enters the train; None if no power enters."""
+        """Power lost in this node divided by the power that enters the train; None if no power enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
     def of_loss(self) -> Fraction:
-        """Lost power divided by the total lost power."""
+        """Power lost in this node divided by the total power lost in the train."""
         return self.power / self.loss
 
 
@@ -229,7 +229,7 @@ class PowerFlow(Result):
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
     """Power lost in each pair or bearing, in the same unit; parts without losses are omitted."""
     loops: tuple[RecirculatingPower, ...] = ()
-    """Power loops, in descending order of power."""
+    """Loops in which power recirculates, in descending order of power."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:

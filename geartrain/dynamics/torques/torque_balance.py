@@ -111,7 +111,7 @@ class TorqueUnknown:
     """
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
-    """Driving sides to be tried."""
+    """Driving sides of the first lossy mesh to be tried."""
     turn: int = 0
     """Sign of the rolling speed of the first lossy mesh."""
     barred: bool = False
@@ -206,7 +206,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block; it is used if a block leaves open an unknown of a later block."""
+        """Whole balance as one block; it is used if a block leaves an unknown of a later block undetermined."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -297,7 +297,7 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
 
 
 def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
-    """Return the balance without the pairs `names`."""
+    """Return the torque balance without the pairs `names`."""
     return replace(
         balance,
         meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),

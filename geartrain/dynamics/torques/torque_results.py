@@ -118,7 +118,7 @@ class PairTorque(Result):
     driver: str
     """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
     links: tuple[str, str, str]
-    """First link, second link, carrier."""
+    """Names of first link, second link and carrier of the pair."""
     torques: tuple[Fraction, Fraction, Fraction]
     """Torques on the three links, each about its own axis [N m, or number without a unit]."""
     multiplier: Fraction
@@ -208,7 +208,7 @@ class TorqueVerdict(Result):
     kind: TorqueVerdictKind
     """Kind of the verdict, from the list in the description of the class."""
     text: str
-    """Verdict as a sentence."""
+    """Verdict and its reason in one sentence."""
     candidates: tuple[str, ...] = ()
     """Links whose torque may be requested (`solve_for`) or balances the loads, or pairs with undetermined torques."""
 
@@ -257,9 +257,9 @@ class DrivenWay(NamedTuple):
     torques: Torques
     """Torques of the driven train, with the `efficiency` in this direction."""
     source: str
-    """Link at which power enters."""
+    """Link at which power enters the train."""
     load: str
-    """Link at which power leaves."""
+    """Link at which power leaves the train."""
 
 
 @dataclass(frozen=True)
@@ -315,13 +315,13 @@ class Torques(FrozenFields, Tabular, TrainResult):
     `neglected` have values.
     """
     requested: tuple[str, ...] = ()
-    """Links whose torque was computed from the balance."""
+    """Links whose external torque was computed from the torque balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
     """External torque on each link [N m, or number without a unit]: loads, requested torques, brakes."""
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
     """Speed of each link whose speed is determined [unit of the train]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
-    """Gear pairs and couplings by name."""
+    """Torques and power of each gear pair and coupling, by name."""
     bearings: tuple[BearingTorque, ...] = ()
     """Friction torques of bearings; empty if no bearing declares friction."""
     held: tuple[HoldingTorque, ...] = ()

@@ -83,12 +83,14 @@ class CycleEnergy(Result):
 
     @property
     def net_in(self) -> float:
-        """Energy supplied minus energy absorbed by the unknown torques."""
+        """Energy supplied minus energy absorbed by the unknown torques [J, or rad if torques are numbers without a
+        unit].
+        """
         return self.put_in - self.returned
 
     @property
     def net_out(self) -> float:
-        """Energy absorbed minus energy supplied by the loads."""
+        """Energy absorbed minus energy supplied by the loads [J, or rad if torques are numbers without a unit]."""
         return self.taken_out - self.loads_put_in
 
     @property
@@ -105,7 +107,7 @@ class CycleEnergy(Result):
 
     @property
     def lost(self) -> float:
-        """Energy lost in pairs, pins and bearings."""
+        """Energy lost in pairs, pins and bearings [J, or rad if torques are numbers without a unit]."""
         return self.mesh + self.pin + self.bearing
 
 
@@ -230,9 +232,12 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     mean: float | None = None
     """Mean torque over the run [N m, or number without a unit]; None if the train locks at some position."""
     maximum: TorqueExtreme | None = None
-    """Maximum torque over all solutions at all positions; None if the train locks at some position."""
+    """Maximum torque over all solutions at all positions, with its position; None if the train locks at some position.
+    """
     minimum: TorqueExtreme | None = None
-    """Minimum torque in the solution with minimum loss; None if the train is locked at all positions."""
+    """Minimum torque in the solution with minimum loss, with its position; None if the train is locked at all
+    positions.
+    """
     starting: TorqueExtreme | None = None
     """Maximum breakaway torque, which starts the train from rest at any position; None if no torque starts it at some
     position.
@@ -308,7 +313,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def minimum_place(self) -> PlaceInRun | None:
-        """Position of the minimum torque."""
+        """Position of the minimum torque in the run; None if the train is locked at all positions."""
         return _place(self.minimum)
 
     @property

@@ -69,7 +69,7 @@ class ContactLosses:
     """Contact without losses. Subclasses describe the effect of friction on the torques of a contact."""
 
     has_friction: ClassVar[bool] = False
-    """True if the contact has losses."""
+    """True if the contact loses power."""
 
     @property
     def starts_harder(self) -> bool:
@@ -127,7 +127,7 @@ class SlidingFriction(ContactLosses):
     the input.
     """
     static: float
-    """Coefficient of static friction."""
+    """Coefficient of static friction of the contact."""
 
     @property
     def starts_harder(self) -> bool:
@@ -136,8 +136,10 @@ class SlidingFriction(ContactLosses):
 
 
 class ToothFriction(SlidingFriction):
-    """Friction of real teeth: each tooth pair in contact transmits (1 + f out)/(1 + f into), with f < 0 if flanks slide
-    back.
+    """Friction of teeth: each tooth pair in contact multiplies the torque by (1 + f out)/(1 + f into).
+
+    Here `into` and `out` are the friction terms of input and output power, and f is the coefficient of friction,
+    negative if the driven side of the transmission function drives.
     """
 
     def torques(
@@ -262,7 +264,7 @@ def find_contacts(
     """Return the contact of every pair and coupling, by name.
 
     positions   motion with the pairs that are evaluated at every position; other pairs have a constant ratio
-    teeth       meshes with real teeth; their driver is the driver of the transmission function
+    teeth       meshes with a declared tooth form; their driver is the driver of the transmission function
     """
     found = {}
     for circuit in setting.circuits:

@@ -60,7 +60,7 @@ class BalanceLayer:
     """Torques by column, shape (columns, n). `rows` is the sum of torques in each row, shape (rows, n)."""
     rows: Floats
     valid: Bools
-    """True at positions where all rows are balanced."""
+    """True at positions where the torques of all rows are balanced."""
 
     def copy(self) -> BalanceLayer:
         """Return a copy with its own arrays."""
@@ -528,7 +528,7 @@ class TurnBalance:
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
-        """Return the solution with minimum (`way` 1) or maximum power input (-1) at each position."""
+        """Return the solution with minimum (`way` 1) or maximum (-1) power input at each position."""
         if len(layers) == 1:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]
@@ -543,7 +543,7 @@ class TurnBalance:
 
     @cached_property
     def requested_columns(self) -> list[int]:
-        """Columns of the unknown external torques."""
+        """Columns of the balance matrix that belong to unknown external torques."""
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.requested)))
 

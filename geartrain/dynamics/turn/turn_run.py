@@ -83,7 +83,7 @@ class RunCells:
 
     @property
     def middles(self) -> Floats:
-        """Middles of the cells."""
+        """Middle position of each cell [revolutions]."""
         return np.asarray((self.low + self.high) / 2)
 
     def divided(self, cell: Indices, at: Floats) -> RunCells:
@@ -99,7 +99,7 @@ class RunCells:
         return RunCells(low, np.where(last, self.high[number], np.append(low[1:], 0.0)), self.aside)
 
     def some(self, which: Bools) -> RunCells:
-        """Return a selection of the cells."""
+        """Return the selected cells."""
         return RunCells(self.low[which], self.high[which], self.aside)
 
 
@@ -260,7 +260,7 @@ class TurnRun:
         ).astype(np.int64)
 
     def share(self, where: Bools) -> float:
-        """Return the fraction of the run that the selected positions represent."""
+        """Return the fraction of the run that is represented by the selected positions."""
         return float(self.cells.weights @ where) / self.span
 
     @cached_property

@@ -43,7 +43,11 @@ if TYPE_CHECKING:
 
 Plot = Annotated[Path | None, typer.Option("--plot", help="Write a plot to this file (.svg, .png or .pdf).")]
 Picture = Annotated[
-    str, typer.Option("--picture", help="Content of the plot: errors, course, convergence, sobol, pairs or map.")
+    str,
+    typer.Option(
+        "--picture",
+        help="Content of the plot: errors, course (errors along a revolution), convergence, sobol, pairs or map.",
+    ),
 ]
 
 

@@ -84,7 +84,7 @@ class MotionProblem:
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:
         """Return the pair that drives the driver of `pair` and so determines its phase, with its flag as in `shared`;
-        None if there is no such pair.
+        None without such a pair.
         """
         if pair not in self.drivers:
             return None

@@ -43,7 +43,12 @@ class PowerNode(NamedTuple):
 
 @dataclass(frozen=True)
 class PowerStream(Result):
-    """Power that flows from one node of the power flow to another."""
+    """Power that flows from one node of the power flow to another.
+
+    See Also
+    --------
+    PowerFlow.streams : all streams
+    """
 
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 

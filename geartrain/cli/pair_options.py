@@ -227,8 +227,8 @@ def two_wheels(
     shaft_angle: float | None = None,
     helix: float = 0.0,
 ) -> MeshingWheels:
-    """Create the wheels of a pair without a train; `module` is normal [m], `helix` is the angle of the first wheel
-    [rad].
+    """Create the wheels of a pair without a train; `module` is the normal module [m], `helix` is the helix angle of the
+    first wheel [rad].
     """
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
@@ -291,7 +291,9 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient of friction, which `option` needs. Raise `GearTrainError` for a friction law."""
+        """Return the coefficient of friction. For a friction law, raise `GearTrainError` with the name of the `option`
+        that needs a coefficient.
+        """
         if self.law is not None:
             what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")

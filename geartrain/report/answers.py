@@ -368,7 +368,9 @@ def answer_text(answer: Answer) -> str:
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return a document on the outputs, targets and speeds of one state; None if the answer's train is not known."""
+    """Return a document on the outputs, targets and speeds of one state; None if the result does not refer to its
+    train.
+    """
     if answer._declaration is None:
         return None
     train = GearTrain(answer._declaration)

@@ -101,7 +101,7 @@ def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
 
 
 def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tuple[str, str, Any]]:
-    """Yield the part, the key and the value of each entry of plain data of a declaration."""
+    """Yield the part, the key and the value of each entry in a declaration, given as plain data."""
     for option in _options(shape):
         if "$ref" in option:
             inner = option["$ref"].rsplit("/", 1)[-1]

@@ -93,8 +93,7 @@ def _speeds(states: Sequence[GearState], links: Sequence[str]) -> Table:
 
 
 def _by_state(states: Sequence[GearState], columns: Sequence[str], field: str) -> Table:
-    """Return a table of a field that maps elements to numbers, with a row for each state and a column for each element.
-    """
+    """Return a table of a field that maps elements to numbers, with a row for each state and a column per element."""
     rows = []
     for each in states:
         values = getattr(each, field)

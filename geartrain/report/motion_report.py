@@ -72,7 +72,8 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of the outputs of a train with real teeth or pins over a run in one state; angles in rad.
+    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state; angles
+    in rad.
 
     See Also
     --------
@@ -209,7 +210,9 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state. Yield nothing if the train has neither real teeth nor pins with dimensions."""
+    """Yield the motion in every state. Yield nothing if the train has neither declared tooth forms nor pins with
+    dimensions.
+    """
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -334,9 +337,9 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Yield a section on the motion in each state of a train with real teeth or pins.
+    """Yield a section on the motion in each state of a train with declared tooth forms or pins.
 
-    toothed   True if the train has real teeth
+    toothed   True if the train declares tooth forms
     """
     for each in found:
         head = titled(each.state, "motion")

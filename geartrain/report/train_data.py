@@ -35,11 +35,11 @@ class TrainAnswers(Result):
     KEYS: ClassVar[tuple[str | Key, ...]] = ("name", "title", "unit", "mobility", "states")
 
     train: GearTrain
-    """Train to which the answers belong; not part of the data."""
+    """Train that was solved; not included in the JSON data."""
     mobility: Mobility | None
     """Mobility of the train; None if only one output was requested, because mobility needs all circuits."""
     states: tuple[Answer, ...]
-    """Answer for each state. A train without states has one answer, whose `state` is None."""
+    """Speeds and outputs in each state. A train without states has one entry, whose `state` is None."""
 
     @property
     def name(self) -> str:
@@ -58,7 +58,7 @@ class TrainAnswers(Result):
 
 
 def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
-    """Return the data of `geartrain solve`: the answers of a train, and its mobility if it is solved as a whole."""
+    """Return the data of `geartrain solve`: speeds and outputs of a train, and its mobility if it is solved as a whole."""
     return TrainAnswers(train, train.mobility if whole else None, tuple(answers))
 
 
@@ -130,7 +130,9 @@ class TrainReport(TrainAnswers):
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Motion in every state of a train with real teeth or pins; an entry with `error` if it cannot be computed."""
+    """Motion in every state of a train with declared tooth forms or pins; an entry with `error` if it cannot be
+    computed.
+    """
     errata: tuple[Erratum, ...]
     """Errors in the published sources, as declared."""
 

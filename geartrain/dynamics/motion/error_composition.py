@@ -191,7 +191,7 @@ class ErrorComposition:
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """Order of solution of the sources on which an output depends."""
+        """Order of solution of the error sources on which an output depends."""
         gains = self.gains[:, [source.pair for source in self.sources]]
         drivers = [np.flatnonzero(row).tolist() for row in gains]
         needed: set[int] = set()
@@ -212,7 +212,7 @@ class ErrorComposition:
 
     @cached_property
     def used(self) -> tuple[PairErrorSource, ...]:
-        """Sources that affect an output, directly or through the driver angle of another source."""
+        """Error sources that affect an output, directly or through the driver angle of another source."""
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:

@@ -160,7 +160,7 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
 
 
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
-    """Return for each wheel with coaxial mates the other pairs that share its line of centres.
+    """Return, for each pair of a wheel with coaxial mates, the other pairs that share its line of centres.
 
     An example is a planet between sun and ring. The flag is True if the contacts are on opposite sides of the wheel,
     because one mate is a ring.

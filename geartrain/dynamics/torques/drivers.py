@@ -60,7 +60,7 @@ class FlowDirections(NamedTuple):
     ahead: LoadGroup = frozenset()
     back: LoadGroup = frozenset()
     shared: bool = False
-    """True if redundant pairs share the power, and the shares are undetermined."""
+    """True if redundant pairs share the power in undetermined proportions."""
     note: str = ""
     """Note on outputs that take no power through this pair."""
 

@@ -130,7 +130,7 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
 
 
 def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Floats]:
-    """Return the speed that a unit deviation of each pair adds to each link while the inputs turn uniformly."""
+    """Return the speed that a unit speed deviation of each pair adds to each link while the inputs turn uniformly."""
     import numpy as np
 
     number = {each.id: at for at, each in enumerate(nonuniform)}

@@ -59,7 +59,7 @@ class PowerStream(Result):
     power: Fraction
     """Power of the stream, above 0 [unit of torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)
-    """Part of `power` that recirculates in closed loops, in the same unit."""
+    """Part of `power` that recirculates in closed loops [unit of torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class RecirculatingPower(Result):
     power: Fraction
     """Recirculating power [unit of torque times the train's unit of speed]."""
     power_in: Fraction
-    """Power that enters the train, in the same unit."""
+    """Power that enters the train [unit of torque times the train's unit of speed]."""
 
     @property
     def of_power_in(self) -> Fraction | None:
@@ -190,9 +190,9 @@ class PowerLoss(Result):
     power: Fraction
     """Power loss of the pair or bearing [unit of torque times the train's unit of speed]."""
     power_in: Fraction
-    """Power that enters the train, in the same unit."""
+    """Power that enters the train [unit of torque times the train's unit of speed]."""
     loss: Fraction
-    """Total power loss of the train, in the same unit."""
+    """Total power loss of the train [unit of torque times the train's unit of speed]."""
 
     @property
     def of_power_in(self) -> Fraction | None:
@@ -232,7 +232,9 @@ class PowerFlow(Result):
     streams: tuple[PowerStream, ...] = ()
     """Power streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Power lost in each pair or bearing, in the same unit; parts without losses are omitted."""
+    """Power lost in each pair or bearing [unit of torque times the train's unit of speed]; parts without losses are
+    omitted.
+    """
     loops: tuple[RecirculatingPower, ...] = ()
     """Loops in which power recirculates, in descending order of power."""
 

@@ -42,8 +42,8 @@ class LoadedPair:
     """Rolling speed a (w_i - w_k) = -b (w_j - w_k), with the angular speeds w of the links; 0 without relative motion.
     """
     forward: Fraction = Fraction(1)
-    """Efficiency with link i driving, at most 1; 0 or less is self-locking. `backward` is the efficiency with j
-    driving.
+    """Efficiency with the first link driving, at most 1; 0 or less is self-locking. `backward` is the efficiency with
+    the second link driving.
     """
     backward: Fraction = Fraction(1)
 
@@ -62,7 +62,9 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed. Power flows from i to j if the multiplier has the opposite sign."""
+        """Sign of the rolling speed. Power flows from the first to the second link if the multiplier has the opposite
+        sign.
+        """
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property

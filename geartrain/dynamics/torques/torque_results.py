@@ -351,7 +351,9 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def powers(self) -> Mapping[str, Fraction]:
-        """External power of each link whose speed is determined, positive if it flows into the train."""
+        """External power of each link whose speed is determined [unit of torque times the train's unit of speed],
+        positive if it flows into the train.
+        """
         return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
 
     @property
@@ -401,19 +403,25 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in pairs and bearings; if torques of pairs are undetermined, the net external power."""
+        """Power lost in pairs and bearings [unit of torque times the train's unit of speed]; if torques of pairs are
+        undetermined, the net external power.
+        """
         if any(pair.loose for pair in self.pairs.values()):
             return self._missing
         return sum((pair.loss for pair in self.pairs.values()), self.bearing_loss)
 
     @property
     def known_power_in(self) -> Fraction | None:
-        """Power that enters the train; None if the speed of a loaded link is undetermined."""
+        """Power that enters the train [unit of torque times the train's unit of speed]; None if the speed of a loaded
+        link is undetermined.
+        """
         return None if self.open_speeds else self.power_in
 
     @property
     def known_loss(self) -> Fraction | None:
-        """Power lost in pairs and bearings; None if the speed of a loaded link is undetermined."""
+        """Power lost in pairs and bearings [unit of torque times the train's unit of speed]; None if the speed of a
+        loaded link is undetermined.
+        """
         return None if self.open_speeds else self.loss
 
     @property

@@ -68,12 +68,13 @@ class CycleEnergy(Result):
     if torques are numbers without a unit].
     """
     returned: float
-    """Energy absorbed by the unknown torques while their power is negative because the loads drive, in the same unit.
+    """Energy absorbed by the unknown torques while their power is negative because the loads drive [J, or rad if
+    torques are numbers without a unit].
     """
     taken_out: float
-    """Energy absorbed by the loads while their power is negative, in the same unit."""
+    """Energy absorbed by the loads while their power is negative [J, or rad if torques are numbers without a unit]."""
     loads_put_in: float
-    """Energy supplied by the loads while their power is positive, in the same unit."""
+    """Energy supplied by the loads while their power is positive [J, or rad if torques are numbers without a unit]."""
     mesh: float
     """Energy lost in gear pairs, 0 or more [J, or rad if torques are numbers without a unit]."""
     pin: float
@@ -123,7 +124,7 @@ class PairCycle(Result):
     KEYS = ("kind", "loss", "passed", "flank_changes", "maximum")
 
     kind: str
-    """Kind of the part: `mesh`, `pin` or `bearing`."""
+    """Kind of the part of the train: `mesh`, `pin` or `bearing`."""
     loss: float
     """Energy lost in the pair, coupling or bearing over the run [J, or rad if torques are numbers without a unit]."""
     passed: float
@@ -131,7 +132,7 @@ class PairCycle(Result):
     bearing it equals the loss.
     """
     flank_changes: int = 0
-    """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each sign change.
+    """Number of sign changes of the torque through the pair. Teeth cross their backlash at each sign change.
 
     If the run is an integer number of periods, a change between the end and the start of the run is included.
     """
@@ -208,13 +209,13 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     for each side.
     """
     torque: Floats | None = None
-    """Torque at the link in the solution with minimum loss [N m, or number without a unit], shape (n,).
+    """Torque at `link` in the solution with minimum loss [N m, or number without a unit], shape (n,).
 
     The torque is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean
     speed is 0.
     """
     highest: Floats | None = None
-    """Torque at the link in the solution with maximum loss [N m, or number without a unit], shape (n,)."""
+    """Torque at `link` in the solution with maximum loss [N m, or number without a unit], shape (n,)."""
     standing: Floats | None = None
     """Breakaway torque at each position, with static friction in every contact [N m, or number without a unit], shape
     (n,).
@@ -230,7 +231,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     array labelled by part and position.
     """
     mean: float | None = None
-    """Mean torque over the run [N m, or number without a unit]; None if the train locks at some position."""
+    """Mean torque at `link` over the run [N m, or number without a unit]; None if the train locks at some position."""
     maximum: TorqueExtreme | None = None
     """Maximum torque over all solutions at all positions, with its position; None if the train locks at some position.
     """
@@ -243,7 +244,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     position.
     """
     energy: CycleEnergy | None = None
-    """Energies over the run; None if the train locks at some position."""
+    """Energy balance of the run; None if the train locks at some position."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
     """Loss and torque of each gear pair and coupling by name, and of each bearing as `bearing LINK`."""
     locked_share: float = 0.0

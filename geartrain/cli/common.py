@@ -119,7 +119,7 @@ class Sink:
     form: str = ""
     """Suffix that sets the format of standard output, as in `-.csv`."""
     theme: ThemeName = "light"
-    """Colours of a picture."""
+    """Colour theme of a picture: light, dark or print."""
 
     @property
     def suffix(self) -> str:

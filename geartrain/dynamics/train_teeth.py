@@ -140,7 +140,7 @@ class _Toothing:
         return self.meshes.get(gear.name)
 
     def _is_wave(self, gear: GearPair) -> bool:
-        """Return True if a pair is a flexible wheel in its ring (strain wave gear)."""
+        """Return True if a pair is a strain wave gear: a flexible wheel in its ring gear."""
         first, second = (self._wheel(name) for name in gear.pair)
         return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
 

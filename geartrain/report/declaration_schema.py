@@ -17,7 +17,7 @@ from geartrain.train.examples import example_data, examples, one_line
 
 _URL = "https://json-schema.org/draft/2020-12/schema"
 _SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
-"""Regular expression of the sections of a numpydoc docstring, from the first section on."""
+"""Regular expression that matches the sections of a numpydoc docstring, from the first section to the end."""
 _DEFAULT = re.compile(r"[;.] [Dd]efault (?!of )")
 """Separator of the meaning of a key and its default value in a description."""
 

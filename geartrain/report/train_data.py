@@ -58,7 +58,7 @@ class TrainAnswers(Result):
 
 
 def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
-    """Return the data of `geartrain solve`: speeds and outputs of a train, and its mobility if it is solved as a whole."""
+    """Return the data of `geartrain solve`: speeds and outputs of a train, and its mobility if all of it is solved."""
     return TrainAnswers(train, train.mobility if whole else None, tuple(answers))
 
 

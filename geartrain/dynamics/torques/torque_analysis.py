@@ -58,7 +58,7 @@ class LoadedBalance:
         return any(self.loads.values()) and any(self.bearing_friction.values())
 
     def power(self, flow: FlowPattern) -> Fraction:
-        """Return the power that the unknown torques put into the train."""
+        """Return the power that the unknown torques put into the train [unit of torque times unit of speed]."""
         return self._power(flow.solved.external)
 
     def _power(self, torques: Mapping[str, Fraction]) -> Fraction:

@@ -33,7 +33,7 @@ class LoadedPair:
     links: tuple[str, str, str]
     """Links i, j and k: first link, second link, and carrier."""
     senses: tuple[int, int, int]
-    """Senses of the axes of links i, j and k, 1 or -1."""
+    """Senses of the axes of first link, second link and carrier, 1 or -1."""
     a: int
     """Coefficient of the first link in the pair's Willis equation."""
     b: int
@@ -126,7 +126,9 @@ class TorqueUnknown:
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one mesh of this unknown, whose links may be in another order; 0 without loss."""
+        """Return the driving side of one mesh with this unknown torque, whose links may be in another order; 0 without
+        loss.
+        """
         return side * mesh.turn * self.turn if mesh.loses else 0
 
 

@@ -286,7 +286,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each position: `turns`, `torque`, `highest` and `standing`."""
+        """Table with a row for each position: revolutions of the input, torque with minimum and with maximum loss, and
+        breakaway torque.
+        """
         names = ("turns", "torque", "highest", "standing")
         return {name: getattr(self, name).tolist() for name in names}
 

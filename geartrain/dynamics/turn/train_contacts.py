@@ -183,7 +183,9 @@ class PinFriction(SlidingFriction):
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
     def kinks(self, at: DriverState) -> Floats:
-        """Return sin S. It is 0 if the pin is on the line through both axes, where the sliding velocity reverses."""
+        """Return the sine of the driver angle. It is 0 if the pin is on the line through both axes, where the sliding
+        velocity reverses.
+        """
         return np.sin(at.S)
 
 

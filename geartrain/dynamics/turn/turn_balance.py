@@ -292,7 +292,7 @@ class _State(NamedTuple):
     contacts: Mapping[str, DriverState]
     forces: Mapping[str, Mapping[int, PairForce]]
     resting: Mapping[str, Bools]
-    """Link -> mask of positions at which it is at rest within the backlash of its pairs."""
+    """Mask of positions at which each link is at rest within the backlash of its pairs, by link."""
     static: bool
 
 

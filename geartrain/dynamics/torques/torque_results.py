@@ -122,7 +122,9 @@ class PairTorque(Result):
     torques: tuple[Fraction, Fraction, Fraction]
     """Torques on the three links, each about its own axis [N m, or number without a unit]."""
     multiplier: Fraction
-    """Multiplier x of the pair's Willis equation; without losses the torque on the first link is a x."""
+    """Multiplier x of the pair's Willis equation; without losses the torque on the first link is x times its
+    coefficient a.
+    """
     rolling: Fraction | None
     """Rolling speed: coefficient a of the Willis equation times the speed of the first link relative to the carrier;
     None if undetermined.

@@ -44,7 +44,10 @@ StateName = Annotated[str | None, typer.Option("--state", help="State to analyse
 FirstState = Annotated[str | None, typer.Option("--state", help="State to analyse; default: the first.")]
 Names = list[str] | None
 Without = Annotated[
-    Names, typer.Option("--without", help="Omit a gear pair, to open a closed loop of real teeth; may be repeated.")
+    Names,
+    typer.Option(
+        "--without", help="Omit a redundant gear pair, so that the teeth of a closed loop can turn; may be repeated."
+    ),
 ]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
@@ -116,7 +119,7 @@ class Sink:
     form: str = ""
     """Suffix that sets the format of standard output, as in `-.csv`."""
     theme: ThemeName = "light"
-    """Colours of a picture."""
+    """Colour theme of a picture: light, dark or print."""
 
     @property
     def suffix(self) -> str:
@@ -124,7 +127,7 @@ class Sink:
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result: to standard output, or atomically to the file, and report its name with `said`."""
+        """Write a complete result: to standard output, or atomically to the file, then report its name and `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -221,7 +224,9 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if requested by option or suffix, else as documents; only the format used is computed."""
+    """Write a result as JSON if requested by option or suffix, else as documents; only the requested format is
+    computed.
+    """
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:

@@ -69,7 +69,7 @@ def write_style(
     Example: `geartrain format --check train.yaml`.
     """
     if out is not None and check:
-        raise option_error("-o", "--check writes no file", "omit -o or --check")
+        raise option_error("-o", "-o and --check are given together", "omit one of them", "--check writes no file")
     if out is not None and len(files) > 1:
         raise option_error("-o", f"{len(files)} files are given", "give one FILE, or omit -o", "-o writes one file")
     to = None if out is None else sink(out, force)

@@ -40,7 +40,7 @@ def run(
         ),
     ] = None,
     state: Annotated[
-        str | None, typer.Option("--state", help="State to draw; default: the first, or all states for lever.")
+        str | None, typer.Option("--state", help="State to draw; default: the first (lever diagrams: all states).")
     ] = None,
     turns: Annotated[
         str,

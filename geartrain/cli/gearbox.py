@@ -18,10 +18,11 @@ def run(
         bool, typer.Option("--search", help="Try every combination of clutches and brakes that determines the speeds.")
     ] = False,
     gears: Annotated[
-        int, typer.Option("--gears", min=0, help="Search for series with this number of forward gears.")
+        int, typer.Option("--gears", min=0, help="Search for series of gears with this number of forward gears.")
     ] = 0,
     steps: Annotated[
-        tuple[float, float], typer.Option("--ratio-steps", help="Minimum and maximum ratio step of a series.")
+        tuple[float, float],
+        typer.Option("--ratio-steps", help="Minimum and maximum ratio step between successive gears of a series."),
     ] = (
         1.05,
         2.0,

@@ -59,12 +59,12 @@ if TYPE_CHECKING:
 FORMS = tuple(name for name in TOOTH_FORMS if name != "ideal")
 DEFAULT = "involute"
 _TRIANGULAR = ("backwards", "inertia", "load", "vary", "objective", "free", "within", "cutting", "at")
-"""Options that apply only to triangular teeth."""
+"""Options of `geartrain mesh` that apply only to triangular teeth."""
 _COMPARED = (
     *("z1", "z2", "form", "parameter", "compare", "internal", "shaft_angle"),
     *("plot", "json", "theme", "out", "force"),
 )
-"""Options that apply to a comparison of tooth forms."""
+"""Options of `geartrain mesh` that apply to a comparison of tooth forms."""
 _teeth = partial(typer.Option, rich_help_panel="Triangular teeth")
 _outline = partial(typer.Option, rich_help_panel="Outline of one wheel")
 _output = partial(typer.Option, rich_help_panel="Output")
@@ -116,7 +116,7 @@ def run(
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,
     rate: Annotated[str | None, typer.Option("--rate", help="Speed of the driving wheel, such as '1 turn/s'.")] = None,
     backwards: Annotated[
-        bool, _teeth("--backwards", help="Turn the driving wheel backwards, with contact on the back flanks.")
+        bool, _teeth("--backwards", help="Turn the driving wheel backwards, with contact on the coast flanks.")
     ] = False,
     inertia: Annotated[
         str | None, _teeth("--inertia", help="Moment of inertia of the driven wheel, such as '1 kg mm2'.")
@@ -143,7 +143,8 @@ def run(
         _teeth(
             "--free",
             metavar="NAME[=LOW:HIGH]",
-            help="With --objective: vary radii, window or half_angle; may be repeated; default: radii.",
+            help="With --objective: parameter to vary: radii (ratio of radii over ratio of tooth counts), window "
+            "(position in the clearance window, 0 to 1) or half_angle; may be repeated; default: radii.",
         ),
     ] = None,
     within: Annotated[
@@ -248,9 +249,9 @@ def run(
             if given is not None:
                 raise option_error(
                     option,
-                    "this option applies to a single pair",
+                    f"{option} and --vary are given together",
                     f"omit {option} or --vary",
-                    "--vary evaluates several pairs",
+                    f"--vary evaluates several pairs, but {option} applies to a single pair",
                 )
         sweep(pair, vary, picture, json, to)
         return
@@ -292,7 +293,8 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
 
 
 def _figure(mesh: GearMesh, at: str | None) -> Figure:
-    """Plot flanks, path of contact and losses; without a path of contact, transmission function and efficiency.
+    """Plot flanks, path of contact and losses. If the pair has no path of contact, plot its transmission function and
+    efficiency.
 
     With `at`, draw triangular teeth at that driver angle.
     """
@@ -320,7 +322,8 @@ def _compare(
     files: tuple[Sink, Path | None, ThemeName, bool],
     json: bool,
 ) -> NoReturn:
-    """Compare loss, stress, heat, flash temperature and depth of tooth forms with the 20 degree involute, and exit.
+    """Compare the loss, stress, heat, flash temperature and tooth depth of several tooth forms with those of the 20
+    degree involute, then exit.
 
     All forms have the same pair and the same arcs of approach and recess.
     """

@@ -1,4 +1,4 @@
-"""`geartrain motion`: transmission errors and speeds of the outputs with real teeth and pins."""
+"""`geartrain motion`: transmission errors and speeds of the outputs, from declared tooth forms and pins."""
 
 from __future__ import annotations
 
@@ -81,7 +81,8 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute transmission error and speed of outputs with real teeth and pins; -o x.csv writes every position.
+    """Compute transmission errors and speeds of outputs from declared tooth forms and pins; -o x.csv writes every
+    position.
 
     Example: `geartrain motion moon-triangular --of moon --turns 20`.
     """
@@ -94,7 +95,9 @@ def run(
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
     if resume and (to.suffix != ".csv" or to.path is None):
-        raise option_error("--resume", "only a CSV file can be resumed", "give -o x.csv too")
+        raise option_error(
+            "--resume", "the output is not a CSV file", "give -o x.csv too", "only CSV tables can be resumed"
+        )
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     # an output that is also a link is reported once

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 COUNTS = "Z1 Z2"
 """Location at which errors in the tooth counts are reported."""
 PAIR = ("friction", "z1", "z2")
-"""Quantities that can be varied in addition to the parameters of the form."""
+"""Quantities that can be varied in addition to the parameters of the tooth form."""
 
 
 # ------------------------------------------------------------------------------------------------- parameters of a form
@@ -42,8 +42,8 @@ PAIR = ("friction", "z1", "z2")
 def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
     """Return the parameters of a form that describe one pair, by name.
 
-    Forms that keep their design at any centre distance have no parameter for it. Parameters for the time domain are
-    omitted.
+    Forms whose teeth run only at the design centre distance have no parameter `centre_distance`. Parameters for the
+    time domain are omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden}
@@ -133,7 +133,7 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
     """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError` for a ring gear."""
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
-        raise option_error("--shaft-angle", "a ring is not a bevel wheel", fix, why)
+        raise option_error("--shaft-angle", "a ring gear is given with a shaft angle", fix, why)
     return None if angle is None else quantity("--shaft-angle", angle, "angle")
 
 
@@ -145,7 +145,7 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
-        raise option_error("--helix", "bevel wheels have no helix angle", "omit --shaft-angle or --helix", why)
+        raise option_error("--helix", "a helix angle is given for bevel wheels", "omit --shaft-angle or --helix", why)
     if not 0 <= angle < pi / 2:
         what = f"a helix angle of {helix} is out of range"
         why = "it is measured from the axis, and must be at least 0 and less than 90 deg"
@@ -177,9 +177,9 @@ class PairRequest:
     model: type[ToothForm]
     teeth: tuple[int, int]
     own: Mapping[str, str]
-    """Parameters of the tooth form by key."""
+    """Parameters of the tooth form, by key."""
     module: float | None = None
-    """Module [m]; None if not given."""
+    """Module of the pair [m]; None if not given."""
     friction: str = "0"
     driver: int = 1
     rate: str | None = None
@@ -187,7 +187,7 @@ class PairRequest:
     shaft_angle: float | None = None
     """Shaft angle of bevel wheels [rad]."""
     helix: float = 0.0
-    """Helix angle [rad]."""
+    """Helix angle of the first wheel [rad]."""
 
     def mesh(self, **varied: str) -> GearMesh:
         """Create the pair in mesh, with some parameters replaced by the values in `varied`.
@@ -227,8 +227,8 @@ def two_wheels(
     shaft_angle: float | None = None,
     helix: float = 0.0,
 ) -> MeshingWheels:
-    """Create the wheels of a pair without a train; `module` is normal [m], `helix` is the angle of the first wheel
-    [rad].
+    """Create the wheels of a pair without a train; `module` is the normal module [m], `helix` is the helix angle of the
+    first wheel [rad].
     """
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
@@ -276,7 +276,7 @@ def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
 
 
 FINE = "0.001mm"
-"""Default chord tolerance of outlines."""
+"""Default chord tolerance of the outline of a wheel, as a length with its unit."""
 
 
 # ------------------------------------------------------------------------------------------------------------- friction
@@ -291,7 +291,9 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient of friction, which `option` needs. Raise `GearTrainError` for a friction law."""
+        """Return the coefficient of friction. For a friction law, raise `GearTrainError` with the name of the `option`
+        that needs a coefficient.
+        """
         if self.law is not None:
             what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")
@@ -307,8 +309,8 @@ class PairFrictionOption:
         if radius is None or rate is None:
             missing = {"--rate": ("the speed of the driver", rate), "--module": ("the module", radius)}
             lacking = {option: word for option, (word, value) in missing.items() if value is None}
-            what = f"the friction law '{self.law.law}' depends on the sliding speed"
-            why = f"it cannot be computed without {' and '.join(lacking.values())}"
+            what = f"the friction law '{self.law.law}' needs the sliding speed, which is unknown"
+            why = f"the sliding speed follows from {' and '.join(lacking.values())}"
             raise option_error("--friction", what, f"give {' and '.join(lacking)}", why)
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts

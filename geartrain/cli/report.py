@@ -54,7 +54,9 @@ def report(
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":
-        raise option_error("--view", "the animation needs an HTML page", "give -o x.html too")
+        raise option_error(
+            "--view", "the output is not an HTML page", "give -o x.html too", "only a page can contain the animation"
+        )
     trains = load_all(files)
     # the exit code covers all states, also those that are not printed
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))

@@ -108,7 +108,9 @@ def run(
     if solid is None and graph is None:
         raise option_error("SOLID", "no gears are given", "give a solid, --graph or --survey")
     if solid is not None and graph is not None:
-        raise option_error("SOLID", "a solid and --graph are given", "omit one of them", "both place the gears")
+        raise option_error(
+            "SOLID", "a solid and --graph are given", "omit one of them", "both set the positions of the gears"
+        )
     made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:

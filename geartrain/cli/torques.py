@@ -98,7 +98,9 @@ def run(
         which = "-o" if tabled else "--of" if link is not None else "--trials"
         raise option_error(which, "the number of revolutions is missing", "give --turns too")
     if resume and trials is None:
-        raise option_error("--resume", "only friction trials can be resumed", "give --trials too")
+        raise option_error(
+            "--resume", "the number of trials is missing", "give --trials too", "only trials can be resumed"
+        )
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
@@ -148,7 +150,7 @@ def _friction_trials(
     out: Path | None,
     options: RunOptions,
 ) -> Any:
-    """Repeat the run in trials with random friction.
+    """Repeat the torque run in trials with random friction.
 
     run     number of samples, and link
     drawn   number of trials, and random seed
@@ -174,7 +176,9 @@ def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> To
     if len(loaded) > 1:
         names = ", ".join(train.states)
         done = {"--plot": "drawn", "--turns": "simulated"}[option]
-        raise option_error(option, f"only one state can be {done}", f"give --state with one of {names}")
+        raise option_error(
+            option, "several states have loads", f"give --state with one of {names}", f"only one state can be {done}"
+        )
     return loaded[0]
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 VARIED = (*parameters_of(Triangular), *PAIR)
-"""Quantities that can be varied: parameters of the form, friction and tooth counts."""
+"""Quantities that can be varied: parameters of the tooth form, friction and tooth counts."""
 
 
 def read_operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
@@ -108,7 +108,7 @@ def _number(text: str) -> tuple[float, str]:
 
 
 def _plain(row: tuple[object, ...]) -> list[object]:
-    """Replace NaN by None in a row."""
+    """Replace NaN by None in a row of the results table."""
     # only NaN differs from itself
     return [None if value != value else value for value in row]
 

@@ -167,7 +167,7 @@ class EndingGroup(TyperGroup):
             return super().make_context(*given, **more)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command that was requested."""
+        """Run the requested command."""
         with _translated_exits():
             return super().invoke(ctx)
 
@@ -199,7 +199,12 @@ def usage_problem(error: Any) -> Problem:
     what = str(error.message).rstrip(".").removeprefix("Value error, ")
     if (name := getattr(error, "option_name", None)) is not None:
         if not what.startswith("No such option"):
-            return Problem("its value is missing" if "requires" in what else "it takes no value", "", see, name)
+            return Problem(
+                "the value of this option is missing" if "requires" in what else "this option takes no value",
+                "",
+                see,
+                name,
+            )
         known = [each for one in context.command.params for each in one.opts if each.startswith("--")]
         close = nearest_names(name.lstrip("-"), [each.lstrip("-") for each in known])
         fix = f"did you mean --{' or --'.join(close)}?" if close else see

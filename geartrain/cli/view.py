@@ -122,7 +122,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """Return the layout of a page.
+    """Return the layout of a page: `embed`, `kiosk`, or `page` by default.
 
     Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
     """
@@ -148,7 +148,9 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation to be shown; every step of its coarser run is a sample, unless the data are too large."""
+    """Run the simulation in the time domain that the page shows; every step of the run with larger steps is a sample,
+    unless the data are too large.
+    """
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 
@@ -198,7 +200,7 @@ def watch(
     server.refresh()
     tell(server.error or f"{file} is shown at {server.address}; press Ctrl-C to stop")
     if server.error:
-        tell(f"it will be shown at {server.address} when the file is corrected; press Ctrl-C to stop")
+        tell(f"the page will be shown at {server.address} when the file is corrected; press Ctrl-C to stop")
     if open_it and not webbrowser.open(server.address):
         tell("no browser could be started; open the address manually")
     server.run(lambda error: tell(error or f"{file} is updated"))

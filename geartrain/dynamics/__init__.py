@@ -1,4 +1,4 @@
-"""Torques, losses and transmission errors: the effects of loads, friction and real teeth on a train.
+"""Torques, losses and transmission errors: the effects of loads, friction and declared tooth forms on a train.
 
 Input: circuits, exact speeds and loads of a state, and the known data of each gear pair. Output: torques, powers,
 efficiencies, the driving wheel of each pair, and the angle of every link at every position including transmission

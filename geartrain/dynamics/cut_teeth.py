@@ -22,7 +22,7 @@ class _Place(NamedTuple):
 
 
 def find_modules(declared: Train) -> Mapping[str, float]:
-    """Return transverse modules [m] of all wheels that declare one with a unit, or mesh directly or indirectly with
+    """Return the transverse module [m] of each wheel that declares a module with a unit or is connected by meshes to
     such a wheel.
     """
     found = {
@@ -46,9 +46,10 @@ def find_modules(declared: Train) -> Mapping[str, float]:
 
 
 def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
-    """Return the tooth outlines of all plane wheels [modules], and the reasons why other wheels have none.
+    """Return the tooth outlines [modules] of all wheels with straight, plane teeth, and the reasons why other wheels
+    have none.
 
-    If a tooth form is invalid, no wheel has teeth.
+    If a declared tooth form is invalid, the result has no outlines.
     """
     places = _places(train.declaration)
     try:
@@ -58,7 +59,7 @@ def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
 
 
 def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
-    """Yield a note under rule W3 for every wheel whose pairs require different teeth on it."""
+    """Yield a note for every wheel whose pairs require different teeth on it (rule W3 of docs/buildability.md)."""
     declared = train.declaration
     for name, problem in find_disagreements(train, _places(declared)).items():
         place = declared.place("links", declared.wheels[name][0], "wheels", name)
@@ -76,6 +77,6 @@ def _places(declared: Train) -> Mapping[str, _Place]:
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """Return 0 for a spur wheel that meshes with no bevel wheel, else 1."""
+    """Return a nominal half cone angle: 0 for a spur wheel without bevel mates, 1 for wheels without plane teeth."""
     mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
     return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

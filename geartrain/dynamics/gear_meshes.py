@@ -1,4 +1,5 @@
-"""Gear meshes with real teeth and pins with declared dimensions, built from the declaration of a train.
+"""Gear meshes with declared tooth forms, and pin-and-slot couplings with declared dimensions, built from the
+declaration of a train.
 
 The module also computes tooth sizes if only the tooth shape is declared. Triangular teeth are determined up to a scale
 factor, and a wheel has the same size in all its pairs. The sizes therefore follow from the first pair of every
@@ -47,7 +48,7 @@ class PinMesh:
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
-    """Return every gear pair with a real tooth form, by name.
+    """Return all gear pairs with a declared tooth form, by name.
 
     The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built when the
     pair is first read, which raises `GearTrainError` if they cannot be built.
@@ -139,7 +140,7 @@ def find_pins(train: Train) -> tuple[PinMesh, ...]:
 
 
 def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
-    """Return the sizes of all pairs with real teeth and parallel axes, by name of the pair."""
+    """Return the tooth sizes of all pairs with a declared tooth form and parallel axes, by name of the pair."""
     tips: dict[str, float] = {}
     found = {}
     for mesh in _in_order(meshes):
@@ -152,7 +153,9 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 
 
 def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
-    """Return the outlines of all pairs with real teeth and parallel axes as cut, by name of the pair."""
+    """Return the outlines of the cut teeth of all pairs with a declared tooth form and parallel axes, by name of the
+    pair.
+    """
     from geartrain.dynamics.wheel_teeth import CHORD
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
 

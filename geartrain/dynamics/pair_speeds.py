@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 def radians_per_second(train: Train, case: StateCase) -> float | None:
     """Return the train's unit of speed in rad/s; None if its speeds are numbers without a unit.
 
-    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
-    have units.
+    Speeds have a unit if the train declares a `rate`, which is the speed of the first input that turns, or if its
+    inputs have units.
     """
     driving_speed = next((speed for speed in case.inputs.values() if speed), None)
     if case.rate is not None and case.rate.unit is not None and driving_speed is not None:
@@ -65,7 +65,7 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> flo
 
 
 def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
-    """Return the mesh with its friction at a pitch-line speed [m/s], if the friction depends on speed."""
+    """Return the mesh with the friction coefficient at a pitch-line speed [m/s], if its friction depends on speed."""
     if mesh.wheels.friction_law is None:
         return mesh
     return replace(mesh, wheels=replace(mesh.wheels, pitch_line=speed))

@@ -1,4 +1,4 @@
-"""Mechanics of a train: real teeth and pins, driving wheels, and the loads of each state.
+"""Mechanics of a train: declared teeth and pins, driving wheels, and the loads of each state.
 
 Every property is computed at the first access and cached. Torques, motion, strength and dynamic simulation take this
 object as input.
@@ -25,14 +25,13 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
-"""Pair -> its driving directions, each with the names of the states in which it occurs."""
+"""Driving directions of each pair, each with the names of the states in which it occurs."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class TrainMechanics(Shown):
-    """Analysis of a declared train that depends on its teeth and loads: driving sides, transmission functions, load
-    cases.
+    """Tooth- and load-dependent analysis of a train: driver of each pair, transmission functions and load cases.
 
     See Also
     --------
@@ -66,7 +65,7 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
+        """-1 for each link whose axis points against the reference direction of the axes parallel to it, by link."""
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
@@ -96,8 +95,8 @@ class TrainMechanics(Shown):
 
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
-        """Gear pairs with real teeth by name, with the first wheel driving. The teeth of a pair are computed when the
-        pair is first read.
+        """Gear pairs with a declared tooth form by name, with the first wheel driving. The teeth of a pair are computed
+        when the pair is first read.
         """
         if not any(map(self.declaration.form_of, self.declaration.gears)):
             return {}  # avoids importing tooth forms for a train without any
@@ -110,7 +109,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def teeth(self) -> tuple[GearMesh, ...]:
-        """All gear pairs with real teeth, with the first wheel driving and with computed teeth.
+        """All gear pairs with a declared tooth form, first wheel driving, with their computed tooth geometry.
 
         Raises
         ------
@@ -125,13 +124,16 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with real teeth, each with its driving wheel in the first state that determines this wheel."""
+        """Gear pairs with a declared tooth form, each with its driving wheel in the first state that determines this
+        wheel.
+        """
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 
     @cached_property
     def driven_ways(self) -> DrivenWays:
-        """Driving directions of every pair with real teeth, with the names of the states in which they occur.
+        """Driving directions of every pair with a declared tooth form, with the names of the states in which they
+        occur.
 
         A pair with an undetermined driver has both directions.
         """
@@ -140,7 +142,9 @@ class TrainMechanics(Shown):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """Problems that prevent real teeth from turning in a driving direction that occurs in at least one state."""
+        """Problems that prevent the declared teeth from turning in a driving direction that occurs in at least one
+        state.
+        """
         if not self.teeth:
             return ()
         from geartrain.teeth.gear_mesh import find_faults
@@ -148,7 +152,7 @@ class TrainMechanics(Shown):
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
     def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
-        """Return the gear pairs with real teeth, with their drivers in one state.
+        """Return the gear pairs with a declared tooth form, with their drivers in one state.
 
         Parameters
         ----------

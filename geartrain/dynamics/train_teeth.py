@@ -74,10 +74,10 @@ class TrainTeeth:
     """Teeth of all wheels of a train, or the reasons why wheels have none."""
 
     wheels: Mapping[str, WheelTeeth]
-    """Wheel -> teeth. `problems` has the reasons for the wheels without teeth."""
+    """Teeth of each wheel. `problems` has the reasons for the wheels without teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
     approximations: Mapping[str, WheelTeeth]
-    """Wheel -> approximate teeth of a wheel whose pairs require different teeth, as its first pair requires them."""
+    """Approximate teeth of each wheel whose pairs require different teeth, cut as its first pair requires."""
     flat: frozenset[str]
     """Names of wheels whose teeth are straight and plane."""
     backlashes: tuple[PairBacklash, ...]
@@ -140,7 +140,7 @@ class _Toothing:
         return self.meshes.get(gear.name)
 
     def _is_wave(self, gear: GearPair) -> bool:
-        """Return True if a pair is a flexible wheel in its ring (strain wave gear)."""
+        """Return True if a pair is a strain wave gear: a flexible wheel in its ring gear."""
         first, second = (self._wheel(name) for name in gear.pair)
         return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
 
@@ -155,7 +155,7 @@ class _Toothing:
 
     @cached_property
     def standard(self) -> dict[str, StandardTeeth]:
-        """Wheel -> standard teeth, for wheels whose pairs declare no form."""
+        """Standard teeth of each wheel whose pairs declare no tooth form."""
         free = (name for name in self.pairs if name not in self.shaped and not self._wave_pairs(name))
         gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
@@ -180,8 +180,8 @@ class _Toothing:
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
     ) -> tuple[Involute, WheelPair, int]:
-        """Return the form of two standard wheels, their pair with a ring second, and the number (1 or 2) of the first
-        wheel in it.
+        """Return the standard tooth form of two wheels, their pair with a ring gear second, and the number (1 or 2) of
+        `first` in this pair.
         """
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
         form = standard_form(teeth, its, self._standard_backlash(name))
@@ -193,8 +193,8 @@ class _Toothing:
     # ------------------------------------------------------------------------------------------------ declared forms
 
     def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
-        """Yield the requirements of declared pairs on a wheel in one plane; crown wheels are used only without a spur
-        mate.
+        """Yield the tooth requirements of the pairs with a declared form on a wheel. Mates that are not spur wheels
+        count only if it has no spur mate.
         """
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
@@ -261,9 +261,7 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """Return, for each wheel whose pairs with a declared form require different teeth, the problem that describes
-        this.
-        """
+        """Return the problem of each wheel whose pairs with a declared form require different teeth, by wheel."""
         found = {}
         for name in self.pairs:
             try:
@@ -342,7 +340,7 @@ def _half_declared(name: str, gear: GearPair, mate: str, other: str) -> GearTrai
     return GearTrainError(
         Problem(
             f"the teeth that mesh with '{mate}' are not declared",
-            f"pair '{gear.name}' declares no form, and '{mate}' has the teeth of pair '{other}'",
+            f"pair '{gear.name}' declares no tooth form, and '{mate}' takes its teeth from pair '{other}'",
             f"declare a `tooth_form` for pair '{gear.name}' too",
         )
     )

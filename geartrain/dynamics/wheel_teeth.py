@@ -28,9 +28,9 @@ class WheelTeeth:
     """Name of the declared tooth form, or `standard`. `words` describes the form to a manufacturer."""
     words: str
     tip: float
-    """Tip radius [modules]."""
+    """Tip radius of the wheel [modules]."""
     root: float
-    """Root radius [modules]."""
+    """Root radius of the wheel [modules]."""
     tooth: tuple[Vertex, ...] = ()
     """Outline of the first tooth from root to root, symmetric about the x axis [modules]; empty for pins."""
     pins: LanternPins | None = None

@@ -27,7 +27,7 @@ class AccuracyReport(Result):
     title: str
     """Title of the train."""
     states: tuple[TrainAccuracy, ...]
-    """Results for each state."""
+    """Errors and run times of the solution methods in each state."""
 
 
 def describe_accuracy(found: AccuracyReport) -> Document:

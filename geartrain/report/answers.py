@@ -74,7 +74,7 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
 def _pointers(train: GearTrain, answer: Answer) -> Section:
     """Return a section with the speed, period, target and error of each pointer.
 
-    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the remaining outputs are
+    If no output has a dial, a target or a published figure, all outputs are shown. Otherwise the remaining outputs are
     only counted.
     """
     pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
@@ -89,7 +89,7 @@ def _pointers(train: GearTrain, answer: Answer) -> Section:
 
 
 def _is_pointer(result: OutputResult) -> bool:
-    """Return True if an output has a dial, a target or a printed figure, or fails an expectation."""
+    """Return True if an output has a dial, a target or a published figure, or fails an expectation."""
     output = result.output
     return bool(output.dial or output.published or result.targets or not result.holds)
 
@@ -132,7 +132,7 @@ def _error_text(error: float | None) -> str:
 
 
 def _fault(result: OutputResult) -> str:
-    """Return the expectations, printed figures and tolerances that an output fails, as a string."""
+    """Return the expectations, published figures and tolerances that an output fails, as a string."""
     expect, published = result.output.expect, result.output.published
     sign = "; only the sign differs" if result.differs_in_sign else ""
     parts = []
@@ -368,7 +368,9 @@ def answer_text(answer: Answer) -> str:
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return a document on the outputs, targets and speeds of one state; None if the answer's train is not known."""
+    """Return a document on the outputs, targets and speeds of one state; None if the result does not refer to its
+    train.
+    """
     if answer._declaration is None:
         return None
     train = GearTrain(answer._declaration)

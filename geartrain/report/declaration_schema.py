@@ -17,7 +17,7 @@ from geartrain.train.examples import example_data, examples, one_line
 
 _URL = "https://json-schema.org/draft/2020-12/schema"
 _SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
-"""Regular expression of the sections of a numpydoc docstring, from the first section on."""
+"""Regular expression that matches the sections of a numpydoc docstring, from the first section to the end."""
 _DEFAULT = re.compile(r"[;.] [Dd]efault (?!of )")
 """Separator of the meaning of a key and its default value in a description."""
 
@@ -32,7 +32,9 @@ _MERGED = (
     "Source",
     "Published",
 )
-"""Parts that a child of `extends` may declare incompletely, so that an editor must not require all their keys."""
+"""Parts of a declaration that a child of `extends` may declare incompletely, so that an editor must not require all
+their keys.
+"""
 
 
 def schema() -> Schema:
@@ -48,7 +50,7 @@ def schema() -> Schema:
 
 
 def _models() -> Schema:
-    """Return the JSON Schema of all parts, with an example of each key."""
+    """Return the JSON Schema of all parts of a declaration, with an example of each key."""
     found: Schema = _without_sections(Train.model_json_schema(schema_generator=DefaultsAsWritten))
     values = _example_values(found)
     parts = {"Train": found, **found["$defs"]}
@@ -78,7 +80,7 @@ def _options(shape: Schema) -> list[Schema]:
 
 
 def _body(part: Schema) -> Schema:
-    """Return the mapping of a part that may also have a short form."""
+    """Return the schema of a part in its long form, a mapping, if the part may also have a short form."""
     return next((option for option in _options(part) if "properties" in option), part)
 
 
@@ -86,7 +88,9 @@ def _body(part: Schema) -> Schema:
 
 
 def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
-    """Return an example by part and key: the shortest in the examples of the part itself, else in all examples."""
+    """Return an example value of each key of each part: the shortest in the examples of the part itself, else in all
+    examples.
+    """
     found: dict[tuple[str, str], tuple[bool, int, Any]] = {}
     for source, data in example_data():
         for part, key, value in _values(models, models, data, "Train"):
@@ -97,7 +101,7 @@ def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
 
 
 def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tuple[str, str, Any]]:
-    """Yield the part, the key and the value of each entry of plain data of a declaration."""
+    """Yield the part, the key and the value of each entry in a declaration, given as plain data."""
     for option in _options(shape):
         if "$ref" in option:
             inner = option["$ref"].rsplit("/", 1)[-1]
@@ -117,7 +121,7 @@ def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tup
 
 
 def _fits(body: Schema, data: Any) -> bool:
-    """Return True if all keys of a mapping belong to a part, and its kind, form or law is the same."""
+    """Return True if all keys of a mapping belong to a part of a declaration, and its kind, form or law is the same."""
     keys = body["properties"]
     return isinstance(data, dict) and all(
         key in keys and keys[key].get("const", value) == value for key, value in data.items()
@@ -158,7 +162,7 @@ class _Chapter:
 
     @property
     def shown(self) -> str:
-        """Title in Markdown."""
+        """Title of the section in Markdown."""
         return self.title if self.title == _TITLE else f"`{self.title}`"
 
 

@@ -49,7 +49,7 @@ class FormulaReport(Result):
     title: str
     """Title of the train."""
     formulas: tuple[OutputFormula, ...]
-    """Formulas of the outputs, state by state."""
+    """Formulas of the outputs in each requested state."""
     sensitivities: tuple[RatioElasticity, ...] = ()
     """Elasticities of each ratio with respect to each tooth count; empty unless requested."""
 

@@ -1,4 +1,4 @@
-"""Sections and data on the real teeth and pins of a train."""
+"""Sections and data on the declared tooth forms and pins of a train."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "m
 
 @dataclass(frozen=True)
 class DrivenPair(Result):
-    """Pair with real teeth, driven by one of its wheels."""
+    """Pair with a declared tooth form, driven by one of its wheels."""
 
     KEYS = (Key("pair", "mesh.name"), Key("", "mesh.who"), "states", *_OF_PAIR)
 
@@ -32,7 +32,7 @@ class DrivenPair(Result):
 
     @cached_property
     def account(self) -> PairAccount:
-        """Results on the mesh as figures, text and tables."""
+        """Results of the mesh as numbers, text and tables."""
         return self.mesh.account()
 
     @property
@@ -57,7 +57,7 @@ _MOST_PAIRS = 12  # with more, a report as text omits their tables
 
 
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
-    """Yield sections on the real teeth and on the pins of a train; nothing if it has neither."""
+    """Yield sections on the pairs with a declared tooth form and on the pins of a train; nothing if it has neither."""
     if pairs:
         yield _teeth(train, pairs)
     if pins:
@@ -112,10 +112,10 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Return the pairs with real teeth, with one entry for each wheel that drives in at least one state."""
+    """Return the pairs with a declared tooth form, with one entry for each wheel that drives in at least one state."""
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
-    """Return the pins of a train; empty if none has dimensions."""
+    """Return the pin-and-slot couplings of a train with declared dimensions, each with the pin driving."""
     return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.transmission)) for joint in train.mechanics.pins)

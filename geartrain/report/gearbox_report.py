@@ -93,7 +93,7 @@ def _speeds(states: Sequence[GearState], links: Sequence[str]) -> Table:
 
 
 def _by_state(states: Sequence[GearState], columns: Sequence[str], field: str) -> Table:
-    """Return a table with a row for each state, of a field that is a mapping from elements to numbers or None."""
+    """Return a table of a field that maps elements to numbers, with a row for each state and a column per element."""
     rows = []
     for each in states:
         values = getattr(each, field)

@@ -1,4 +1,4 @@
-"""JSON Schema (draft 2020-12) of the answers of all commands.
+"""JSON Schema (draft 2020-12) of the JSON output of all commands.
 
 The keys of an answer are those of its result class (`geartrain.numerics.results`), the kinds of values follow from
 annotations, and descriptions are the docstrings of fields. Keys that a command adds to a result are written by hand.
@@ -55,12 +55,12 @@ _RESULTS = {
     "pin": "teeth.pair_results:PinFigures",
     "mesh --compare": "teeth.form_comparison:FormComparison",
 }
-"""Result class of each answer that has the data of one class, as `package.module:class`."""
+"""Result class, as `package.module:class`, of each JSON output that has the data of a single class."""
 
 
 @cache
 def answers() -> dict[str, Schema]:
-    """Return the schema of each JSON answer, by the name of the command or of the use of a command."""
+    """Return the schema of the JSON output of each command, or of each use of a command, by name."""
     from geartrain.report.gear_pairs import DrivenPair
     from geartrain.report.pair_page import FormedPair
     from geartrain.report.train_data import TrainReport

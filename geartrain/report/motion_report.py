@@ -27,9 +27,9 @@ class PhaseRange(NamedTuple):
     """Range of one output's deviation over runs with random tooth phases."""
 
     peak_to_peak: tuple[float, float]
-    """Minimum and maximum peak-to-peak deviation [rad]."""
+    """Minimum and maximum peak-to-peak deviation of the output over the runs [rad]."""
     rms: tuple[float, float]
-    """Minimum and maximum root mean square deviation [rad]."""
+    """Minimum and maximum root mean square deviation of the output over the runs [rad]."""
 
 
 class PhaseSets(NamedTuple):
@@ -72,7 +72,8 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of the outputs of a train with real teeth or pins over a run in one state; angles in rad.
+    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state; angles
+    in rad.
 
     See Also
     --------
@@ -105,7 +106,7 @@ class MotionFigures(Result):
     reversing_drivers: Sequence[str]
     """Pairs whose driving wheel temporarily turns against its mean sense of rotation."""
     rigid: Sequence[str]
-    """Pairs with real teeth whose speed ratio is constant, so that they contribute no transmission error."""
+    """Pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no transmission error."""
     outputs: Mapping[str, OutputMotion]
     """Deviation, speed and further requested results, by name of the output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
@@ -130,7 +131,7 @@ class UnfollowedMotion:
     state: str | None
     """Name of the state; None for a train without states."""
     why: GearTrainError
-    """Error that prevents the computation."""
+    """Error that prevents the computation of the motion."""
 
     @property
     def error(self) -> str:
@@ -209,7 +210,9 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state. Yield nothing if the train has neither real teeth nor pins with dimensions."""
+    """Yield the motion in every state. Yield nothing if the train has neither declared tooth forms nor pins with
+    dimensions.
+    """
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -334,9 +337,9 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Yield a section on the motion in each state of a train with real teeth or pins.
+    """Yield a section on the motion in each state of a train with declared tooth forms or pins.
 
-    toothed   True if the train has real teeth
+    toothed   True if the train declares tooth forms
     """
     for each in found:
         head = titled(each.state, "motion")
@@ -414,7 +417,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """Return a table of the peak-to-peak contribution of each pair to some outputs [deg]."""
+    """Return a table of the peak-to-peak contribution [deg] of each pair to the deviation of some outputs."""
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]

@@ -45,9 +45,9 @@ class FormedPair(Result):
     )
 
     mesh: GearMesh
-    """Mesh with its driving wheel."""
+    """Gear mesh of the pair, with its driving wheel."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels that were constructed."""
+    """Outlines of the wheels, if they were constructed."""
 
     @property
     def figures(self) -> PairFigures:
@@ -69,7 +69,7 @@ class TriangularPair(Result):
     impacts: PairImpacts | None
     """Energies of the impacts and limits of speed; None unless operating conditions are given."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels that were constructed."""
+    """Outlines of the wheels, if they were constructed."""
 
 
 def collect_pair(

@@ -152,8 +152,8 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Return the unit of a train's speeds in turns per second; None if the speeds have no unit and the train has no
-    rate.
+    """Return the unit of speed of a train in turns per second; None if its speeds have no unit and no input rate is
+    declared.
     """
     if declared.unit_speed is not None:
         return declared.unit_speed

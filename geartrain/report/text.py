@@ -173,7 +173,7 @@ def _rich_tree(branch: Branch) -> Tree:
 
 
 def _rich_table(table: Table, width: int) -> RenderableType:
-    """Return a table without rules; failures are red."""
+    """Return a terminal table without rules; cells that report a failure are red."""
     from rich.table import Table as RichTable
 
     shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap_of(table), 0, 0))

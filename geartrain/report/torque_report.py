@@ -40,7 +40,7 @@ class LossFigures:
 
 @dataclass(frozen=True)
 class DrivenFigures:
-    """Efficiency of a train driven in one direction."""
+    """Efficiency of a train that is driven in one direction, with the verdict."""
 
     KEYS = (
         *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),

@@ -35,11 +35,11 @@ class TrainAnswers(Result):
     KEYS: ClassVar[tuple[str | Key, ...]] = ("name", "title", "unit", "mobility", "states")
 
     train: GearTrain
-    """Train to which the answers belong; not part of the data."""
+    """Train that was solved; not included in the JSON data."""
     mobility: Mobility | None
     """Mobility of the train; None if only one output was requested, because mobility needs all circuits."""
     states: tuple[Answer, ...]
-    """Answer for each state. A train without states has one answer, whose `state` is None."""
+    """Speeds and outputs in each state. A train without states has one entry, whose `state` is None."""
 
     @property
     def name(self) -> str:
@@ -58,7 +58,7 @@ class TrainAnswers(Result):
 
 
 def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
-    """Return the data of `geartrain solve`: the answers of a train, and its mobility if it is solved as a whole."""
+    """Return the data of `geartrain solve`: speeds and outputs of a train, and its mobility if all of it is solved."""
     return TrainAnswers(train, train.mobility if whole else None, tuple(answers))
 
 
@@ -110,7 +110,7 @@ class TrainReport(TrainAnswers):
     positions.
     """
     sources: Mapping[str, str]
-    """Citations by source key."""
+    """Full citation of each source, by its key."""
     circuits: tuple[Circuit, ...]
     """Fundamental circuit of each gear pair and coupling."""
     adjacency: AdjacencyLetters | None
@@ -122,17 +122,19 @@ class TrainReport(TrainAnswers):
     sensitivity: tuple[StateSensitivity, ...]
     """Changes of the outputs if a wheel with an uncertain tooth count has one tooth fewer or one tooth more."""
     teeth: tuple[DrivenPair, ...]
-    """Pairs with real teeth, one entry for each driving wheel that occurs in at least one state."""
+    """Pairs with a declared tooth form, one entry for each driving wheel that occurs in at least one state."""
     pins: tuple[DrivenPin, ...]
-    """Couplings whose dimensions are declared."""
+    """Pin-and-slot couplings whose dimensions are declared."""
     torques: tuple[TorqueFigures, ...]
     """Torques in every state with loads or bearing friction."""
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Motion in every state of a train with real teeth or pins; an entry with `error` if it cannot be computed."""
+    """Motion in every state of a train with declared tooth forms or pins; an entry with `error` if it cannot be
+    computed.
+    """
     errata: tuple[Erratum, ...]
-    """Declared errors in the sources."""
+    """Errors in the published sources, as declared."""
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:

@@ -55,7 +55,8 @@ _SIDES = ("above", "below", "behind")  # viewing sides that are written without 
 
 
 def describe_train(found: TrainReport) -> Document:
-    """Return the report on a train: outputs, speeds, torques, strength and motion, then structure, circuits and errata.
+    """Return the report on a train: outputs, speeds, torques, strength and motion; then structure, fundamental
+    circuits, and errata of the published sources.
 
     Parameters
     ----------
@@ -275,11 +276,13 @@ _ENDS = {
     "pins_in_holes": ("holes", "pins"),
     "parallel": ("1", "1"),
 }
-"""Names of the two sides of a coupling, which has no wheels."""
+"""Names of the two sides of a pin-and-slot coupling, which has no wheels."""
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return a table with one column for each circuit and rows for bodies, carrier, tooth counts and ratio."""
+    """Return a table with one column for each fundamental circuit, and rows for its links, carrier, tooth counts and
+    ratio.
+    """
     wheels = declared.wheels
 
     def teeth(circuit: Circuit, side: int) -> str:

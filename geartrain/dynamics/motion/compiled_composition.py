@@ -3,8 +3,9 @@
 This module contains the arrays that the kernel reads, the kernel, and the composition that calls it. `ErrorComposition`
 evaluates equations (2) to (4) of docs/motion.md with arrays of all positions, one transmission function after the
 other. The kernel evaluates blocks of about two thousand positions, whose angles and errors stay in the processor's
-cache. A pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair.
-Without dead centres, delta is a periodic function of S, which is tabulated like any transmission function.
+cache. A pair whose error turns its own driver has the error delta = sigma error(S + g delta), equation (5) for one
+pair, with the nominal driver angle S, the sense sigma of the driven side and the gain g. Without dead centres, delta is
+a periodic function of S, which is tabulated like any transmission function.
 """
 
 from __future__ import annotations
@@ -83,7 +84,9 @@ class FedBackTransmission:
 
 
 class SourceRows(NamedTuple):
-    """Sparse matrix with one column for each source, stored by rows: the entries of row m begin at `start[m]`."""
+    """Sparse matrix in compressed row format with one column for each error source; the entries of row m begin at
+    `start[m]`.
+    """
 
     start: Ints
     of: Ints
@@ -91,16 +94,18 @@ class SourceRows(NamedTuple):
 
 
 class ComposedSources(NamedTuple):
-    """Error sources in the order of the steps. A source and its transmission function have the same index."""
+    """Error sources (pairs with variable error) in the order of solution. A source and its transmission function have
+    the same index.
+    """
 
     factor: Floats
     """Periods of the transmission function per revolution of the input, rounded to float64."""
     high: Floats
     """High half of `factor` in Dekker's split, with at most 26 bits."""
     low: Floats
-    """Low half of `factor` in Dekker's split."""
+    """Low half of `factor` in Dekker's split: `factor` minus `high`."""
     rest: Floats
-    """Exact number of periods minus `factor`."""
+    """Exact number of periods per revolution of the input minus `factor`."""
     start: Floats
     """Forward angle of the driver at position 0 of the input [rad]."""
     mean: Floats
@@ -110,16 +115,17 @@ class ComposedSources(NamedTuple):
     ratio: Floats
     """Mean ratio of the transmission function."""
     gain: Floats
-    """Change of the source's driver angle per unit of its own error, if it has a `FedBackTransmission`, else 0."""
+    """Change of the source's driver angle per unit of its own error [rad/rad]; 0 unless it has a `FedBackTransmission`.
+    """
 
 
 class CompositionArrays(NamedTuple):
     """Arrays from which the compiled kernel computes the errors of the outputs."""
 
     drivers: SourceRows
-    """Change of each source's driver angle per unit of the error of earlier sources."""
+    """Change of each source's driver angle per unit of the error of each earlier source [rad/rad]."""
     outputs: SourceRows
-    """Error of each output per unit of the error of each source."""
+    """Error of each output per unit of the error of each source [rad/rad]."""
     offset: Floats
     """Constant added to the error of each output [rad]."""
     sources: ComposedSources
@@ -127,10 +133,12 @@ class CompositionArrays(NamedTuple):
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
-    """Return the arrays of a composition; None if a transmission function has no table, or if pairs are coupled."""
+    """Return the kernel's arrays for an error composition; None if a transmission function has no table, or if errors
+    of pairs are coupled.
+    """
     tables: list[TransmissionTable] = []
     for step in composition.steps:
-        # coupled pairs need Newton's method, which the kernel has not
+        # coupled pairs need Newton's method, which the kernel does not contain
         if len(step.sources) > 1:
             return None
         source, gain = composition.sources[step.sources[0]], float(step.own[0, 0])
@@ -150,7 +158,9 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
 
 
 def _fed_back(source: PairErrorSource, gain: float) -> TransmissionTable | None:
-    """Return the table of a pair that moves its own driver; None if it has no table or may reach a dead centre."""
+    """Return the table of the transmission function of a pair whose error turns its own driver; None if it has no table
+    or may reach a dead centre.
+    """
     transmission = FedBackTransmission(source.transmission, source.sense, gain)
     # a function that differs from position to position is not one table
     changing = type(source.transmission).picked is not TransmissionFunction.picked
@@ -191,8 +201,8 @@ def compose(
     rate: Floats,
     behind: Ints,
 ) -> None:
-    """Compute errors [rad] and rates [1] of the outputs, shape (outputs, n), at positions of the input [revolutions],
-    in place.
+    """Compute errors [rad] and rates (speed deviations divided by the input speed) [1] of the outputs at positions of
+    the input [revolutions], in place; both results have the shape (outputs, n).
 
     plain    periods per revolution up to which a product in float64 gives the phase of a driver to rounding
     behind   result: number of positions at which the driver of each source turns against its mean motion
@@ -227,7 +237,7 @@ def compose(
 
 @kernel
 def _add(rows: SourceRows, m: int, values: Floats, into: Floats) -> None:
-    """Add row m times the values of the sources, in place."""
+    """Add the product of row m of a sparse matrix and the values of the sources to an array, in place."""
     for x in range(rows.start[m], rows.start[m + 1]):
         factor, value = rows.c[x], values[rows.of[x]]
         for at in range(len(into)):
@@ -282,7 +292,7 @@ def _count_negative(speed: Floats) -> int:
 
 @dataclass(frozen=True)
 class CompiledComposition:
-    """Composition by the compiled kernel, with all transmission functions in tables and without coupled pairs.
+    """Error composition by the compiled kernel. All transmission functions are in tables, and no pairs are coupled.
 
     Coupled pairs are evaluated with numpy. A kernel for their Newton's method was 4 to 7 times faster in the
     composition (`planetary-24-18-60-triangular`, `pennestri-2002-teeth`), compared with 9 to 27 times for other trains,
@@ -313,6 +323,8 @@ class CompiledComposition:
 
 
 def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:
-    """Return the compiled form of a composition; None if pairs are coupled or a transmission function has no table."""
+    """Return the compiled form of an error composition; None if pairs are coupled or a transmission function has no
+    table.
+    """
     arrays = make_composition_arrays(composition)
     return None if arrays is None else CompiledComposition(composition, arrays)

@@ -1,4 +1,4 @@
-"""Motion with real teeth and pins: the error of every pair propagates to the links and to the driver angles of other
+"""Motion with tooth and pin errors: the error of every pair propagates to the links and to the driver angles of other
 pairs.
 
 `ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's
@@ -41,7 +41,7 @@ class PairErrorSource:
     transmission: TransmissionFunction
     """Transmission function of the pair; its argument is the driver's forward angle [rad]."""
     pair: int
-    """Index of the pair in the error propagation."""
+    """Index of the pair in `ErrorPropagation.pairs`."""
     driver_sense: int
     """Sign of the driver's axis: -1 if it is opposite to the reference direction of its parallel axes, else 1.
 
@@ -82,13 +82,15 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Indices of the sources whose errors are solved together. Their drivers depend on earlier sources and on each
-    other.
+    """Step in the order of solution: indices of the sources whose errors are solved together. Their drivers depend on
+    earlier sources and on each other.
     """
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Indices of earlier sources on which the drivers depend; `from_known` has coefficients, shape (sources, known)."""
+    """Indices of earlier sources on which the drivers depend; `from_known` has their coefficients, shape (sources,
+    known).
+    """
     from_known: Floats
     own: Floats
     """Change of each driver's angle per unit of the error of each source of the step, shape (sources, sources)."""
@@ -100,7 +102,9 @@ class CompositionStep(NamedTuple):
 
 
 class SeenLink(NamedTuple):
-    """Index of a link and of its reference link; `sense` is -1 if the axes of the two links are opposite, else 1."""
+    """Link whose motion is measured relative to a reference link, both by index; `sense` is -1 if the axes of the two
+    links are opposite, else 1.
+    """
 
     of: int
     base: int
@@ -140,7 +144,7 @@ class ErrorSamples(NamedTuple):
 
 
 class ErrorSampler(Protocol):
-    """Protocol of objects that compute errors of outputs, for at most `chunk` positions at once."""
+    """Protocol of objects that compute transmission errors of outputs, for at most `chunk` positions at once."""
 
     @property
     def chunk(self) -> int:
@@ -151,7 +155,9 @@ class ErrorSampler(Protocol):
 
 
 def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
-    """Return errors and rates at any number of positions of the input [revolutions], computed in chunks."""
+    """Return errors [rad] and rates [1] of the outputs at any number of positions of the input [revolutions], computed
+    in chunks.
+    """
     parts = [sampler.at(turns[start : start + sampler.chunk]) for start in range(0, len(turns), sampler.chunk)]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
     return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
@@ -185,7 +191,7 @@ class ErrorComposition:
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """Order of solution of the sources on which an output depends."""
+        """Order of solution of the error sources on which an output depends."""
         gains = self.gains[:, [source.pair for source in self.sources]]
         drivers = [np.flatnonzero(row).tolist() for row in gains]
         needed: set[int] = set()
@@ -206,7 +212,7 @@ class ErrorComposition:
 
     @cached_property
     def used(self) -> tuple[PairErrorSource, ...]:
-        """Sources that affect an output, directly or through the driver angle of another source."""
+        """Error sources that affect an output, directly or through the driver angle of another source."""
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
@@ -221,7 +227,9 @@ class ErrorComposition:
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the two links whose errors turn a source's driver, the driver and its carrier, with signs: (3)."""
+        """Return the driver of a source and its carrier, whose errors change the driver angle, with their signs in
+        equation (3).
+        """
         joint = self.spread.joints[source.pair]
         return (
             (joint.driver, source.forward * source.driver_sense),
@@ -258,8 +266,8 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, phase: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the errors and rates of the driven sides of a step in place. Yield the names of pairs whose driver
-        turns against its mean motion.
+        """Compute the errors and rates of the driven sides of a solution step in place. Yield the names of pairs whose
+        driver turns against its mean motion.
         """
         own, known = list(step.sources), list(step.known)
         sources = [self.sources[at] for at in own]
@@ -299,8 +307,8 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """Return position times an exact number of periods per revolution [periods], modulo 1 if `PLAIN` may be
-        exceeded.
+        """Return position times an exact number of periods per revolution [periods], modulo 1 if it may exceed `PLAIN`
+        periods.
 
         Dekker's product makes the result accurate to the rounding of one period, even after 1e12 revolutions.
         """

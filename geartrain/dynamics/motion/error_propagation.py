@@ -1,12 +1,14 @@
 """Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved exactly (its section 2).
 
-a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta the error of the pair's driven
-side. This is the Willis system without the mean speeds. One elimination gives every link as a sum over errors of pairs.
+For a pair of links i and j on carrier k, a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle
+and delta the error of the pair's driven side. This is the Willis system without the mean speeds. One elimination gives
+every link as a sum over errors of pairs.
 
 Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
-docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Transmission functions have
-kinks, so a step that does not reduce the residual is halved. If that fails, a single pair is solved by bisection,
-because Newton's method cannot leave a dwell, in which the driven wheel is at rest while its driver turns.
+docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Here S_m is the driver
+angle of pair m without these errors. Transmission functions have kinks, so a step that does not reduce the residual is
+halved. If that fails, a single pair is solved by bisection, because Newton's method cannot leave a dwell, in which the
+driven wheel is at rest while its driver turns.
 """
 
 from __future__ import annotations
@@ -39,7 +41,7 @@ _FORGIVEN = 1e-9  # rad: accepted residual if no step reduces it further, as at 
 _HALVINGS = 64  # bisections of four pitches, or of four turns for cut wheels, to rounding
 
 _NO_FIT = "no angles satisfy all transmission functions simultaneously"
-_DEAD_CENTRE = "the motion is past a dead centre: an error moves its own driver by more than the error itself"
+_DEAD_CENTRE = "the motion is past a dead centre: an error turns its own driver by more than the error itself"
 
 
 @dataclass(frozen=True)
@@ -123,7 +125,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Return the error [rad] and slope [1] of a single pair by bisection; delta - error increases until a dead centre.
+    """Return the error delta [rad] and slope [1] of a single pair by bisection; the residual of equation (5) increases
+    with delta up to a dead centre.
 
     If the transmission function jumps at the solution, as for cut teeth that clash, the position of the jump is
     returned with slope 0. Without contact the error is infinite, as in the transmission function.
@@ -154,14 +157,14 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Return the solutions of n small systems, shape (pairs, n)."""
+    """Return the solutions of n small linear systems, shape (pairs, n)."""
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
     names = ", ".join(pairs)
     if len(pairs) == 1:
-        what = f"the motion of pair {names}, which moves its own driver, has no unique solution"
+        what = f"the motion of pair {names}, whose error turns its own driver, has no unique solution"
         return GearTrainError(
             Problem(
                 what, why, "declare it without `tooth_form` (ideal teeth), or declare its driving wheel with `driver`"
@@ -184,14 +187,14 @@ class ErrorPath(NamedTuple):
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """Errors of links as sums over the errors of pairs, with indices into `links` and `pairs`."""
+    """Errors of links as linear combinations of the errors of pairs, with indices into `links` and `pairs`."""
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
     """Links of each pair, by index; they are determined when they are first read."""
     forms: Sequence[Mapping[int, Fraction]]
-    """Error of each link per unit of c delta of each pair, by index of the pair."""
+    """Error of each link per unit of the right-hand side c delta of each pair's equation (2), by index of the pair."""
     reached: frozenset[int]
     """Pairs whose error affects the requested links, directly or through the driver angle of another pair. The errors
     of other pairs are 0 here.
@@ -208,9 +211,7 @@ class ErrorPropagation:
         return found
 
     def errors(self, deltas: Floats) -> Floats:
-        """Return errors of all links [rad], shape (links, n), from the errors of all pairs [rad], shape (pairs, n),
-        without feedback.
-        """
+        """Return errors of all links [rad], shape (links, n), for given errors of all pairs [rad], shape (pairs, n)."""
         with np.errstate(invalid="ignore"):  # an infinite response times 0, which `sensitivity` refuses
             return np.asarray(self.response @ deltas)
 
@@ -233,7 +234,8 @@ class ErrorPropagation:
 def find_error_propagation(
     system: WillisSystem, ends: Mapping[str, Sequence[int]], path: Callable[[str], ErrorPath], wanted: Iterable[int]
 ) -> ErrorPropagation | None:
-    """Return the propagation of errors to some links in a square system; None if its equations do not determine them.
+    """Return the propagation of errors to some links in a square Willis system; None if its equations do not determine
+    them.
 
     ends     row label of each pair -> both sides and the carrier; other rows (inputs, locks) have no error
     path     function that returns the `ErrorPath` of a row label; it is called when it is needed

@@ -33,7 +33,9 @@ _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
 
 class _Candidates(NamedTuple):
-    """Pieces in which one of the quantities may exceed its maximum: index of the quantity, promise, and both ends."""
+    """Pieces of the run in which an error or rate may exceed its maximum so far: index of the quantity, estimated
+    maximum, and both ends of each piece.
+    """
 
     sought: Indices
     promise: Floats
@@ -41,11 +43,13 @@ class _Candidates(NamedTuple):
     high: Floats
 
     def chosen(self, which: Bools | Indices | slice) -> _Candidates:
-        """Return some of the candidates."""
+        """Return the selected candidates."""
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the candidates that may exceed the maxima; equal maxima in other pieces are not searched."""
+        """Return the candidates whose estimated maximum exceeds the maximum so far; equal maxima in other pieces are
+        omitted.
+        """
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
 
@@ -95,7 +99,7 @@ def count_extremes(
 
 
 def _pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -> Iterator[tuple[Floats, Floats]]:
-    """Yield the ends of smooth pieces of the run [revolutions], moved into each piece, at most `size` at once."""
+    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, at most `size` at once."""
     narrowest = min(searches, key=lambda each: each.step)
     for steps in narrowest.steps(low, high):
         kinks = [search.between(steps).turns for search in searches]
@@ -117,7 +121,9 @@ def _signed(found: ErrorSamples) -> Floats:
 
 
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return a value that a smooth maximum hardly exceeds, from values at both ends and in the middle of its piece."""
+    """Return an estimate of each piece's maximum from values at both ends and in the middle; smooth functions rarely
+    exceed it.
+    """
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
     # vertex of the parabola through the three values, if it is between the ends
@@ -130,7 +136,7 @@ def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
 
 
 def _tolerance(maxima: Floats) -> Floats:
-    """Return the tolerance of each maximum, from the range of the output's errors or rates."""
+    """Return the tolerance within which each maximum is located, from the range of the output's errors or rates."""
     # a maximum plus the maximum of the negatives is the range
     ranges = np.repeat(maxima[::2] + maxima[1::2], 2)
     return np.maximum(_SURE * ranges, _ROUNDING)

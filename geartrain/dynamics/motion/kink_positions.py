@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
 MOST_KINKS = 20_000_000
-"""Maximum number of kinks in one list."""
+"""Maximum number of kinks of transmission functions in one list."""
 
 _STEPS = 4  # steps per period of the fastest pair: the driver is monotonic in a step, or slow at one of its ends
 _FEWEST = 16  # minimum number of steps in a run
@@ -70,7 +70,9 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of the transmission function of `source`; `drivers` is the composition with only its driver as output."""
+    """Kinks of the transmission function of `source`; `drivers` is the error composition with only its driver as
+    output.
+    """
 
     source: PairErrorSource
     drivers: ErrorComposition
@@ -85,8 +87,8 @@ class PairKinks:
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
     def shift(self, turns: Floats) -> tuple[Floats, Floats]:
-        """Return the change of the driver's forward angle due to errors [rad], and its speed divided by the speed of
-        the input [1].
+        """Return the change of the driver's forward angle due to errors [rad], and the driver's speed divided by the
+        speed of the input [1].
         """
         if not len(turns):
             return np.zeros(0), np.zeros(0)
@@ -162,7 +164,7 @@ class PairKinks:
 
 
 class KinkSearch:
-    """Search for kinks of all pairs on which an output of a composition depends."""
+    """Search for kinks of all pairs on which an output of an error composition depends."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition = composition
@@ -200,7 +202,7 @@ class KinkSearch:
             yield InputSteps(ends[:-1], ends[1:])
 
     def between(self, steps: InputSteps) -> KinkPositions:
-        """Return the kinks within the given narrow steps."""
+        """Return the kinks within the given narrow steps of the input."""
         return self._joined([[pair.between(steps)] for pair in self.pairs])
 
     def over(self, start: float, end: float) -> KinkPositions:

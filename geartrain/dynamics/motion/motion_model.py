@@ -1,4 +1,4 @@
-"""Motion of a solved train: pairs with variable errors, driving sides, starting positions, and error propagation.
+"""Motion of a solved train: pairs with variable errors, their drivers, starting positions, and error propagation.
 
 At position 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The
 angles of drivers are counted from position 0, so that the errors of other pairs do not change the phase at which a pair
@@ -104,7 +104,7 @@ _MAIN = 3  # outputs in a summary
 
 
 class Motion(Shown):
-    """Motion of a train with real teeth and pins, as a function of the revolutions of its input.
+    """Motion of a train including the errors of its teeth and pins, as a function of the revolutions of its input.
 
     Transmission functions are composed in the order in which the train is solved: equations (2) and (3) of
     docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link the position that it
@@ -113,7 +113,7 @@ class Motion(Shown):
     Parameters
     ----------
     train : MotionProblem
-        Equations, mean speeds, transmission functions and driving sides, as collected by `GearTrain.motion`.
+        Equations, mean speeds, transmission functions and drivers of the pairs, as collected by `GearTrain.motion`.
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
     tolerance : float, optional
@@ -192,16 +192,16 @@ class Motion(Shown):
             "other pairs already determine the motion of its wheels, and backlash and errors decide how they share the "
             "load"
         )
-        fix = f"omit it with --without {pair}, or declare one of several equal planets, with `copies: 3`"
+        fix = f"omit it with --without {pair}, or declare equal planets as one link, with `copies: 3`"
         raise QuestionError(Problem(f"the dynamics of the redundant pair '{pair}' cannot be simulated", why, fix))
 
     @cached_property
     def _forward(self) -> ErrorComposition:
-        """Composition while the input turns in the declared sense."""
+        """Composition of the errors while the input turns in the declared sense."""
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the composition in the declared sense of the input, with the given pairs as additional sources.
+        """Return the error composition in the declared sense of the input, with the given pairs as additional sources.
 
         Pairs with constant ratio can thus be given other transmission functions.
         """
@@ -209,12 +209,14 @@ class Motion(Shown):
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """Composition before the pointers are set: every link has the position given by the transmission functions."""
+        """Error composition before the pointers are set: every link has the position given by the transmission
+        functions.
+        """
         return replace(self._forward, offsets=())
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition while the input turns against the declared sense, with the coast flanks driving."""
+        """Composition of the errors while the input turns against the declared sense, with the coast flanks driving."""
         return self._composed(-1)
 
     @cached_property
@@ -225,7 +227,8 @@ class Motion(Shown):
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the composition for one direction of the input, 1 or -1, with the pairs `besides` as further sources.
+        """Return the error composition for one direction of the input, 1 or -1, with the pairs `besides` as further
+        sources.
 
         Every pointer is set at position 0 of the declared sense.
         """
@@ -244,7 +247,7 @@ class Motion(Shown):
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles added to each link at position 0 of the input by teeth, and by pins [rad].
+        """Angles by which the errors of teeth, and of pins, turn each link at position 0 of the input [rad].
 
         They are linear in the errors of the pairs, because all driver angles are known.
         """
@@ -257,8 +260,8 @@ class Motion(Shown):
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
-        """Output -> constant angle between its pointer and its wheels, such that the output's error at position 0 is 0
-        [rad].
+        """Constant angle between the pointer of each output and its wheels [rad], such that the output's error at
+        position 0 is 0.
         """
         return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
@@ -274,7 +277,8 @@ class Motion(Shown):
             )
 
     def with_random_phases(self, random: Generator) -> Motion:
-        """Return the motion in which each pair with real teeth but without a declared phase has a random phase.
+        """Return the motion in which each pair with a declared tooth form but without a declared phase has a random
+        phase.
 
         Parameters
         ----------
@@ -301,8 +305,8 @@ class Motion(Shown):
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Output -> pair -> change of the output's angle per angular error of the pair's driven side [rad/rad], also
-        for ideal teeth.
+        """Change of an output's angle per angular error of a pair's driven side [rad/rad], by output and pair; also for
+        ideal teeth.
         """
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
@@ -330,11 +334,11 @@ class Motion(Shown):
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
-            # division first: the last position is exactly `turns`, wherever stretches begin
+            # division first: the last position is exactly `turns`, wherever chunks begin
             yield composition.at(turns * (at / (samples - 1)))
 
     def _sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """Return the composition for a run of `samples` positions, or its compiled kernel."""
+        """Return the error composition for a run of `samples` positions, or its compiled form."""
         composition = self._forward if turns >= 0 else self._backward
         pairs = len(composition.used)
         if not pairs or not is_fast(self.fast, samples * pairs / _PACE):

@@ -28,7 +28,7 @@ class MotionProblem:
     """Data from which the motion of a train in one state is computed, as collected by `find_motion_problem`."""
 
     system: WillisSystem
-    """Willis equations with labels, without redundant circuits."""
+    """Labelled Willis equations without those of redundant circuits."""
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
@@ -36,21 +36,23 @@ class MotionProblem:
     frame: str
     driving_link: str
     meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth as driven in this state, by name; the teeth of a pair are built when it is first read."""
+    """Gear pairs with a declared tooth form as driven in this state, by name; the teeth of a pair are built when it is
+    first read.
+    """
     pins: Sequence[PinMesh]
     drivers: Mapping[str, MeshDriver]
     """Driver of each pair and coupling, with the reason why it drives."""
     angles: Mapping[str, float] = field(default_factory=dict)
     """Starting angles of links [rad]; 0 for links without an entry."""
     phases: Mapping[str, float] = field(default_factory=dict)
-    """Pair -> declared position of a tooth of its first wheel past the line of centres [pitch]."""
+    """Declared phase of each pair: position of a tooth of its first wheel past the line of centres [pitch]."""
     shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
-    """(pair, wheel) -> other pairs of this wheel with the same line of centres.
+    """Other pairs of a wheel with the same line of centres, by pair and wheel.
 
     Each has a flag that is True if the two contacts are on opposite sides of the wheel.
     """
     loops: Sequence[Loop] = ()
-    """Loops with redundant pairs, around which real teeth may contradict each other."""
+    """Loops closed by redundant pairs, around which the transmission errors of the teeth may be incompatible."""
 
     @property
     def deviation(self) -> str:
@@ -81,8 +83,8 @@ class MotionProblem:
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:
-        """Return the pair that drives the driver of a pair, and so determines its phase, as in `shared`; None if no
-        pair does.
+        """Return the pair that drives the driver of `pair` and so determines its phase, with its flag as in `shared`;
+        None without such a pair.
         """
         if pair not in self.drivers:
             return None
@@ -92,7 +94,7 @@ class MotionProblem:
 
     @property
     def teeth(self) -> list[GearMesh]:
-        """All pairs with real teeth."""
+        """All gear pairs with a declared tooth form."""
         return list(self.meshes.values())
 
     @property
@@ -102,11 +104,13 @@ class MotionProblem:
 
     @property
     def rigid(self) -> list[GearMesh]:
-        """Pairs with real teeth of constant ratio, which need no evaluation at positions."""
+        """Gear pairs whose tooth form keeps a constant ratio, so that they need no evaluation at positions."""
         return [mesh for mesh in self.teeth if mesh.rigid]
 
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
-        """Return the redundant loops with variable errors, and the pairs that cause these errors."""
+        """Return the loops closed by redundant pairs in which transmission errors vary, each with the pairs that cause
+        them.
+        """
         found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
         return [(loop, real) for loop, real in found if real]
 
@@ -116,9 +120,9 @@ class MotionProblem:
 
 
 def find_motion_problem(train: TrainMechanics, state: str | None = None, without: Sequence[str] = ()) -> MotionProblem:
-    """Collect the data of a train in one state.
+    """Collect the data from which the motion of a train in one state is computed.
 
-    without   redundant pairs to omit, so that real teeth do not contradict each other around a loop
+    without   redundant pairs to omit, so that the errors of teeth are compatible around every closed loop
 
     Raises `QuestionError` if no input turns, or if the speeds of the train are not determined.
     """
@@ -156,7 +160,7 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
 
 
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
-    """Return for each wheel with coaxial mates the other pairs that share its line of centres.
+    """Return, for each pair of a wheel with coaxial mates, the other pairs that share its line of centres.
 
     An example is a planet between sun and ring. The flag is True if the contacts are on opposite sides of the wheel,
     because one mate is a ring.

@@ -1,7 +1,7 @@
 """Run of a motion over a number of revolutions of the input, with its statistics and spectrum.
 
 The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
-revolution of the input, an exact rational number, so its harmonics have the orders k cycles. To first order the
+revolution of the input, an exact rational number, so its harmonic k has the order k times `cycles`. To first order the
 amplitude of a line is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is
 also computed, by a Fourier sum with a Hann window. Differences between the two amplitudes are due to modulation of
 pairs by each other.
@@ -48,9 +48,9 @@ class HarmonicShare(NamedTuple):
     pair: str
     """Name of the pair whose error has this harmonic."""
     harmonic: int
-    """Number of the harmonic, relative to the pair's period."""
+    """Number of the harmonic: cycles per period of the pair's error."""
     amplitude: float
-    """First-order amplitude in the output [rad]."""
+    """First-order amplitude of the harmonic in the output's error [rad]."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Return the amplitudes of the composed errors at the given orders [rad], shape (outputs, orders).
+    """Return the amplitudes [rad] of the total output errors at the given orders, shape (outputs, orders).
 
     A Hann window is applied unless the run is an integer number of periods.
     """
@@ -356,7 +356,8 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the table columns for some positions: revolutions, then angle [rad], error [rad], speed [1] by output.
+        """Return the table columns for some positions: revolutions, then angle [rad], error [rad] and speed [1] of each
+        output.
 
         An angle is the sum of starting angle, mean motion and error.
         """

@@ -1,4 +1,4 @@
-"""Transmission errors of the pairs of a moving train: driving side, phase of the teeth, and propagation of the errors.
+"""Transmission errors of the pairs of a moving train: driver, phase of the teeth, and propagation of the errors.
 
 The equations are in sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the phase of the teeth at
 position 0.

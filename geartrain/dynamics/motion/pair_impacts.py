@@ -1,8 +1,8 @@
 """Energy of tooth impacts of a pair, and the speed above which its quasi-static transmission function is invalid.
 
-Let s = max(-d tau / dS) be the maximum rate at which the speed ratio tau decreases. At the driver's speed w, the driven
-inertia J stays in contact if the load torque is at least J w^2 s. Under a load T contact is lost above
-w = sqrt(T / (J s)).
+Let s = max(-d tau / dS) be the maximum rate at which the speed ratio tau decreases with the driver angle S. At the
+driver's speed w, the driven inertia J stays in contact if the load torque is at least J w^2 s. Under a load T contact
+is lost above w = sqrt(T / (J s)).
 
 In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. If the speed of a
 pair's driven side jumps by 1 rad/s, the speed of every link l jumps by its response g_l, so the effective inertia of
@@ -47,7 +47,7 @@ class ToothImpact(Shown):
 
     @property
     def power(self) -> float:
-        """Power that the impacts dissipate [W]."""
+        """Power that the tooth impacts dissipate [W]."""
         return self.rate * sum(self.inertia * jump**2 / 2 for jump in self.jumps)
 
 
@@ -81,8 +81,9 @@ def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float
     inertia   moment of inertia J of the driven wheel and all links that it drives [kg m2]
     omega1    constant speed of the driver [rad/s]
 
-    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts, with the speed ratios
-    before and after. Sorge's paper on triangular teeth takes the first term as lost energy; it is the second term.
+    For an inelastic impact with the speed ratios `before` and `after`, the transferred energy is
+    J omega1^2 (after^2 - before^2)/2, and the dissipated energy is J omega1^2 (after - before)^2/2. Sorge's paper on
+    triangular teeth takes the former as the lost energy; the lost energy is the latter.
     """
     leaps, scale = tuple(leaps), inertia * omega1**2
     handed = sum((leap.after**2 - leap.before**2) / 2 for leap in leaps) * scale
@@ -92,8 +93,8 @@ def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float
 
 @dataclass(frozen=True)
 class PairOperation:
-    """Operating data of a pair: inertia [kg m2], speed of the driver [revolutions/s] and load torque [N m]; None if
-    unknown.
+    """Operating data of a pair: inertia [kg m2] and load torque [N m] of the driven side, and speed of the driver
+    [revolutions/s]; None if unknown.
     """
 
     inertia: float | None = None
@@ -108,7 +109,7 @@ class PairOperation:
 
 @dataclass(frozen=True)
 class PairImpacts(Result):
-    """Impact energies of one pair and limits of its contact; None where `PairOperation` lacks the data."""
+    """Impact energies of one pair and limits of its contact; a value is None if `PairOperation` lacks its data."""
 
     KEYS = (
         *("inertia", "rate", "handed", "dissipated", "work"),

@@ -65,13 +65,13 @@ class RunningStatistics(Result):
     count: int = 0
     """Number of positions evaluated so far."""
     centre: float = 0.0
-    """Mean error of the output [rad]."""
+    """Mean deviation of the output from its mean motion [rad]."""
     square: float = 0.0
     """Sum of squared deviations of the error from its mean [rad^2]."""
     minimum: float = inf
-    """Minimum error of the output [rad]."""
+    """Minimum deviation of the output from its mean motion [rad]."""
     most: float = -inf
-    """Maximum error of the output [rad]."""
+    """Maximum deviation of the output from its mean motion [rad]."""
     slow: float = inf
     """Minimum speed of the output minus its mean speed, divided by the input speed [1]."""
     fast: float = -inf
@@ -82,7 +82,7 @@ class RunningStatistics(Result):
     """
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Add positions to the peak values and moments.
+        """Include the errors and speeds at further positions in the peak values and moments.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class RunningStatistics(Result):
         """
         new = len(error)
         centre = float(error.mean())
-        # deviations from each stretch's own mean: a plain sum of squares would cancel for a small error on a large lag
+        # deviations from each chunk's own mean: a plain sum of squares would cancel for a small error on a large lag
         gap = centre - self.centre
         total = self.count + new
         self.square += float(((error - centre) ** 2).sum()) + gap**2 * self.count * new / total
@@ -109,7 +109,7 @@ class RunningStatistics(Result):
 
     @property
     def peak_to_peak(self) -> float:
-        """Maximum minus minimum error of the output [rad]."""
+        """Maximum minus minimum deviation of the output from its mean motion [rad]."""
         return self.most - self.minimum
 
     @property

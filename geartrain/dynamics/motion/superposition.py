@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 
 
 class Superposition:
-    """First-order errors of a composition; every pair is evaluated at the mean angle of its driver."""
+    """First-order errors of the outputs of an error composition; every pair is evaluated at the mean angle of its
+    driver.
+    """
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used

@@ -1,7 +1,7 @@
-"""Driving side of each gear pair and coupling, from the power that flows through it relative to its carrier.
+"""Driver of each gear pair and coupling, from the power that flows through it relative to its carrier.
 
-The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driving
-side of all pairs that transmit a load. Otherwise every pointer on a dial is assumed to resist its motion with an
+The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driver
+of all pairs that transmit a load. Otherwise every pointer on a dial is assumed to resist its motion with an
 unknown torque. Without loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0. If all
 c_o of a pair have one sign, the power flows in one direction for any torques of the pointers; otherwise the direction
 is undetermined. For pairs through which no pointer takes power, resistance is assumed at the outputs on shafts, then at
@@ -35,13 +35,13 @@ if TYPE_CHECKING:
 
 
 UnitLoads = Mapping[str, Mapping[str, Fraction]]
-"""Unit loads: name of the resisting output or link -> link -> torque."""
+"""Unit loads of each resisting output or link, by name: torque on each link."""
 
 _NAMED = 3  # loads listed by name; the others are only counted
 
 
 LoadGroup = frozenset[str]
-"""Names of resisting outputs or links."""
+"""Names of outputs or links that resist their motion."""
 
 
 def group_text(group: LoadGroup) -> str:
@@ -53,12 +53,14 @@ def group_text(group: LoadGroup) -> str:
 
 
 class FlowDirections(NamedTuple):
-    """Loads whose power flows from a pair's first wheel to its second, and loads whose power flows in reverse."""
+    """Names of the loads whose power flows from a pair's first wheel to its second, and of the loads whose power flows
+    back.
+    """
 
     ahead: LoadGroup = frozenset()
     back: LoadGroup = frozenset()
     shared: bool = False
-    """True if redundant pairs share the power, and the shares are undetermined."""
+    """True if redundant pairs share the power in undetermined proportions."""
     note: str = ""
     """Note on outputs that take no power through this pair."""
 
@@ -121,7 +123,9 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """Driving sides in one state with known speeds. Efficiencies are computed only for pairs that transmit a load."""
+    """Drivers of all pairs in one state with known speeds. Efficiencies are computed only for pairs that transmit a
+    load.
+    """
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting
@@ -225,7 +229,9 @@ _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_shafts, ""),
     (_joints, ""),
 )
-"""Assumed resistances in order of precedence, each with words for a note on pairs that carry no power to it."""
+"""Kinds of assumed resistance in order of precedence, each with the subject of a note on pairs that carry no power to
+it.
+"""
 
 
 def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
@@ -256,7 +262,7 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield the sets of links with unknown torque, each with as many links as there are inputs.
+    """Yield the possible sets of links with unknown torque, each with as many links as there are inputs.
 
     If there is a crank besides the inputs, the sets are all combinations of the crank with further links.
     """
@@ -281,7 +287,9 @@ def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return the load applied to each planet equal to the loaded one, and the same number of times to their carrier."""
+    """Return a load repeated on all planets equal to the loaded one; the torque on other links is multiplied by their
+    number.
+    """
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)

@@ -19,10 +19,10 @@ from geartrain.numerics.block_triangular import Block
 from geartrain.numerics.elimination import Echelon, LinearForm, eliminate, feasible
 
 Sides = Mapping[int, int]
-"""Column -> driving side; see `TorqueUnknown`."""
+"""Driving side of each unknown torque, by column of the balance; see `TorqueUnknown`."""
 
 KnownTorques = Mapping[int, LinearForm]
-"""Row -> known torques, as linear forms of symbols (columns below 0)."""
+"""Known torques of each row of the balance, as linear forms of symbols (columns below 0)."""
 _MOST_TRIED = 14  # lossy torques of a block with exhaustive enumeration: 2^14 small systems
 _MOST_OPEN = 10  # the same if torques remain undetermined anyway and the iteration has found a solution
 _MOST_ROUNDS = 50  # maximum iterations; a repeated pattern ends them sooner
@@ -30,11 +30,11 @@ _MOST_FLOWS = 256  # maximum number of partial solutions
 _KNOWN = -1  # column of the known torques
 
 Values = dict[int, Fraction | None]
-"""Column -> torque; None if it is undetermined."""
+"""Value of each unknown torque, by column of the balance; None if it is undetermined."""
 
 
 def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Echelon:
-    """Return the exact echelon form of a block's equations (3) for one pattern of power flow."""
+    """Return the exact echelon form of the equations (3) of one block of the balance, for one pattern of power flow."""
     rows = {row: dict(form) for row, form in known.items()}
     for column in block.columns:
         for row, value in columns[column].pieces[sides[column]].items():
@@ -46,7 +46,7 @@ def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides
 def solve_block(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques
 ) -> dict[int, LinearForm | None] | None:
-    """Return the unknowns of a block as linear forms of symbols, with None for undetermined unknowns.
+    """Return the unknown torques of a block as linear forms of symbols, with None for undetermined torques.
 
     The result is None if no torques balance the known ones.
     """
@@ -99,7 +99,7 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
     """Return all combinations of the solutions of the blocks, and True if all patterns were tried.
 
-    The result is None if a block leaves a torque open that a later block may need or determine.
+    The result is None if a block leaves a torque undetermined that a later block may need or determine.
     """
     partials, complete = [_Partial({}, {}, dict(balance.rows))], True
     for block in blocks:

@@ -1,4 +1,4 @@
-"""Train in one load case: determined speeds, real teeth and pins, loads; check of equilibrium by virtual work.
+"""Train in one load case: determined speeds, declared teeth and pins, loads; check of equilibrium by virtual work.
 
 The equations are (14) to (16) of docs/torques.md. Loads are in equilibrium if they do no work in any motion compatible
 with the constraints. The condition does not contain speeds, so a torque may be determined although a speed is not.
@@ -127,17 +127,17 @@ class LoadCase:
     tree: Tree
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
-    """Link -> -1 if its axis is opposite to the reference direction of its parallel axes; other links have 1."""
+    """-1 for each link whose axis is opposite to the reference direction of its parallel axes; other links have 1."""
     case: StateCase
     speeds: Mapping[str, Fraction]
-    """Link -> speed, for links whose speed is determined [unit of the train]."""
+    """Speed of each link whose speed is determined [unit of the train]."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
-    """Pairs with real teeth by name."""
+    """Gear pairs with a declared tooth form, by name."""
     pins: Sequence[PinMesh] = ()
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
     """Speeds of all links as linear forms of the free speeds if the train is underdetermined; otherwise empty."""
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """Cache of mean efficiencies, by name of the pair or coupling."""
+    """Mean efficiencies computed so far, by name of the pair or coupling."""
 
     @cached_property
     def gears(self) -> Mapping[str, GearPair]:
@@ -156,12 +156,12 @@ class LoadCase:
 
     @cached_property
     def system(self) -> WillisSystem:
-        """Willis equations of the case, with labels."""
+        """Labelled Willis equations of the load case."""
         return assemble_willis_system(tuple(self.train.links), self.train.frame, self.circuits, self.case, self.signs)
 
     @cached_property
     def axes(self) -> Axes:
-        """Directions and positions of all axes."""
+        """Directions and positions of the axes of all links."""
         return Axes(self.train, self.tree)
 
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:

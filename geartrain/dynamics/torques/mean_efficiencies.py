@@ -1,9 +1,10 @@
 """Mean efficiency of a pair: declared, or computed from its teeth or its pin, by equations (17) to (20) of
 docs/torques.md.
 
-Over a revolution the torques on the two sides of a pair cannot both be constant. If the driver's torque is constant,
-the mean efficiency is mean(eta). If the driven side's torque is constant, it is mean(tau)/mean(tau/eta). A torque is
-constant if the balance of its own link alone determines it.
+Over a revolution the torques on the two sides of a pair cannot both be constant. Let tau be the speed ratio and eta the
+efficiency at each position. If the driver's torque is constant, the mean efficiency is mean(eta). If the driven side's
+torque is constant, it is mean(tau)/mean(tau/eta). A torque is constant if the balance of its own link alone determines
+it.
 """
 
 from __future__ import annotations
@@ -92,7 +93,7 @@ def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficienc
 
 
 def _mean(efficiency: float | None) -> Fraction:
-    """Return a mean efficiency as a fraction with 15 digits; 0 if friction locks the pair (None)."""
+    """Return a mean efficiency as a fraction with 15 digits; 0 for None, which means that friction locks the pair."""
     if efficiency is None:
         return Fraction(0)
     # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
@@ -120,7 +121,9 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return by pair the link whose own balance determines its torque: 1 for the first link, -1 for the second."""
+    """Return, for each pair with a link whose own balance determines its torque, 1 for the first link, -1 for the
+    second.
+    """
     found: dict[str, int] = {}
     for block in balance.parts:
         # rows beyond those of the links are declared shares, not balances
@@ -143,7 +146,7 @@ def _side(mesh: LoadedPair, link: str) -> int:
 def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
     """Return the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less means self-locking.
 
-    driving, driven   helix angles of the wheels [rad], right hand positive; their sum is the shaft angle
+    driving, driven   helix angles of the wheels [rad], positive for right-hand helices; their sum is the shaft angle
     pressure_angle    normal pressure angle [rad]
 
     Only sliding along the teeth at the pitch point is considered; sliding along the profile is small compared with it.

@@ -41,8 +41,8 @@ _MEAN = "the reported torques are means over a turn"
 
 @dataclass(frozen=True)
 class _NonuniformPair:
-    """Pair with a variable speed ratio tau. It adds a factor times (tau - m) times the speed of its driver to its
-    equation.
+    """Pair with a variable speed ratio tau and mean ratio m. Its Willis equation contains a factor times (tau - m)
+    times the speed of its driver.
     """
 
     id: str
@@ -77,7 +77,9 @@ def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[
     gains = _gains(setting, nonuniform)
 
     def bounds(link: str, carrier: str, added: Floats) -> Floats:
-        """Return the bounds of a relative speed; `added` has those of (tau - m) w of each pair, shape (2, pairs)."""
+        """Return the bounds of a relative speed; `added` has the bounds of each pair's speed deviation, shape (2,
+        pairs).
+        """
         mean = setting.relative(link, carrier)
         if mean is None:
             return np.array([-inf, inf])
@@ -128,7 +130,7 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
 
 
 def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Floats]:
-    """Return the speed that a unit deviation of each pair adds to each link while the inputs turn uniformly."""
+    """Return the speed that a unit speed deviation of each pair adds to each link while the inputs turn uniformly."""
     import numpy as np
 
     number = {each.id: at for at, each in enumerate(nonuniform)}
@@ -189,7 +191,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
     Torques over a revolution include friction of pins and bearings, and their variation, if the data are declared.
 
-    at_means   pairs with real teeth that have their mean efficiency at all positions
+    at_means   pairs with a declared tooth form that have their mean efficiency at all positions
     """
     found = [
         *_pins_without_dimensions(setting, setting.circuits),

@@ -43,7 +43,7 @@ class PowerNode(NamedTuple):
 
 @dataclass(frozen=True)
 class PowerStream(Result):
-    """Power that flows from one node to the next.
+    """Power that flows from one node of the power flow to another.
 
     See Also
     --------
@@ -59,7 +59,7 @@ class PowerStream(Result):
     power: Fraction
     """Power of the stream, above 0 [unit of torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)
-    """Part of `power` that recirculates in closed loops, in the same unit."""
+    """Part of `power` that recirculates in closed loops [unit of torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class RecirculatingPower(Result):
     power: Fraction
     """Recirculating power [unit of torque times the train's unit of speed]."""
     power_in: Fraction
-    """Power that enters the train, in the same unit."""
+    """Power that enters the train [unit of torque times the train's unit of speed]."""
 
     @property
     def of_power_in(self) -> Fraction | None:
@@ -87,12 +87,12 @@ class RecirculatingPower(Result):
 
     @property
     def pairs(self) -> tuple[str, ...]:
-        """Names of the pairs in the loops."""
+        """Names of the pairs through which the power recirculates."""
         return tuple(node.name for node in self.nodes if node.kind == "pair")
 
     @property
     def shafts(self) -> tuple[str, ...]:
-        """Names of the shafts in the loops."""
+        """Names of the shafts through which the power recirculates."""
         return tuple(node.name for node in self.nodes if node.kind == "shaft")
 
 
@@ -140,7 +140,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle in the selected streams; empty without a cycle."""
+    """Return one cycle of the power flow in the selected streams; empty without a cycle."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:
@@ -190,18 +190,18 @@ class PowerLoss(Result):
     power: Fraction
     """Power loss of the pair or bearing [unit of torque times the train's unit of speed]."""
     power_in: Fraction
-    """Power that enters the train, in the same unit."""
+    """Power that enters the train [unit of torque times the train's unit of speed]."""
     loss: Fraction
-    """Total power loss of the train, in the same unit."""
+    """Total power loss of the train [unit of torque times the train's unit of speed]."""
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Lost power divided by the power that enters the train; None if no power enters."""
+        """Power lost in this node divided by the power that enters the train; None if no power enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
     def of_loss(self) -> Fraction:
-        """Lost power divided by the total lost power."""
+        """Power lost in this node divided by the total power lost in the train."""
         return self.power / self.loss
 
 
@@ -232,9 +232,11 @@ class PowerFlow(Result):
     streams: tuple[PowerStream, ...] = ()
     """Power streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Pair or bearing -> lost power, in the same unit; parts without losses are omitted."""
+    """Power lost in each pair or bearing [unit of torque times the train's unit of speed]; parts without losses are
+    omitted.
+    """
     loops: tuple[RecirculatingPower, ...] = ()
-    """Power loops, in descending order of power."""
+    """Loops in which power recirculates, in descending order of power."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:
@@ -319,8 +321,8 @@ def watts_per_unit(train: Train, case: StateCase) -> float | None:
     """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are numbers
     without a unit.
 
-    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
-    have units.
+    Speeds have a unit if the train declares a `rate`, which is the speed of the first input that turns, or if its
+    inputs have units.
     """
     if not train.has_torque_units(case.state):
         return None

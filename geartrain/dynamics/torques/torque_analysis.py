@@ -44,7 +44,7 @@ class LoadedBalance:
 
     @property
     def load(self) -> str:
-        """Name of the load in sentences: "the load", or "the friction of the bearings"."""
+        """Name of the load for sentences: "the load", or "the friction of the bearings"."""
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
@@ -58,7 +58,7 @@ class LoadedBalance:
         return any(self.loads.values()) and any(self.bearing_friction.values())
 
     def power(self, flow: FlowPattern) -> Fraction:
-        """Return the power that the unknown torques put into the train."""
+        """Return the power that the unknown torques put into the train [unit of torque times unit of speed]."""
         return self._power(flow.solved.external)
 
     def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
@@ -103,8 +103,8 @@ def _some(links: Sequence[str]) -> str:
 def find_torque_verdict(
     question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, neglected: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
-    """Return the verdict on flow patterns that are sorted by undetermined torques, then by losses; the first one is the
-    result.
+    """Return the verdict on flow patterns, sorted by number of undetermined torques, then by losses; the first one is
+    the result.
     """
     if not flows:
         return _unbalanced(question, complete)
@@ -137,7 +137,9 @@ def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, with the cause: shares, friction of bearings or of teeth."""
+    """Return the verdict that no torques balance the load, with the cause: declared shares, friction of bearings or of
+    teeth.
+    """
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
@@ -208,7 +210,7 @@ def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueV
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
     """Return a description of one flow pattern; `resisted` is True if power leaves at the unknown torque in the
-    returned one.
+    pattern that is returned.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -225,8 +227,8 @@ def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[st
 
     loaded   links with an external torque or a brake
 
-    On an idler no torque is shared, because it transmits all of it; its pairs may share the torque on their other
-    wheels.
+    The pairs of an idler do not share its torque, because each of them transmits all of it; they may share the torque
+    on their other wheels.
     """
     by_wheel: dict[str, dict[str, Fraction]] = {}
     for gear in train.gears:
@@ -247,7 +249,8 @@ def find_ties(
     known: Mapping[str, Fraction],
     singled: Collection[str],
 ) -> tuple[tuple[str, ...], ...]:
-    """Return groups of pairs of equal planets: same carrier, mates, tooth counts, efficiencies and external torque.
+    """Return groups of pairs that belong to equal planets: same carrier, mates, tooth counts, efficiencies and external
+    torque.
 
     singled   links that are not equal to any other: frame, braked, locked or requested links, links with declared
     shares
@@ -288,7 +291,7 @@ class TorqueQuestion:
     """
     undecided: TorqueVerdict | None = None
     """Verdict that requests a further unknown torque, returned if the loads are not in equilibrium without it; None if
-    no choice is open.
+    no further torque need be chosen.
     """
 
 
@@ -304,7 +307,8 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
-    """Return the pairs that have no torque under the declared loads for any losses; empty if torques are undetermined.
+    """Return the pairs that have no torque under the declared loads, whatever the losses; empty if torques are
+    undetermined.
 
     They correspond to the zero-force members of a truss.
     """
@@ -355,7 +359,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the links with unknown torques: as many as there are inputs, or only the links that are certain."""
+    """Return the links with unknown torques: as many as there are inputs, or fewer if the choice is not unique."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)

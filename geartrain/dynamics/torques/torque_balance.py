@@ -18,7 +18,7 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Mesh -> driving side in the carrier's frame: 1 for the first link, -1 for the second link, 0 without loss."""
+"""Driving side of each mesh in the carrier's frame: 1 for the first link, -1 for the second link, 0 without loss."""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
 """Link, and the meshes on one of its wheels, each with its fraction of the wheel's torque."""
@@ -33,16 +33,17 @@ class LoadedPair:
     links: tuple[str, str, str]
     """Links i, j and k: first link, second link, and carrier."""
     senses: tuple[int, int, int]
-    """Senses of the axes of links i, j and k, 1 or -1."""
+    """Senses of the axes of first link, second link and carrier, 1 or -1."""
     a: int
     """Coefficient of the first link in the pair's Willis equation."""
     b: int
     """Coefficient of the second link in the pair's Willis equation."""
     rolling: Fraction
-    """Rolling speed a (w_i - w_k) = -b (w_j - w_k); 0 without relative motion."""
+    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), with the angular speeds w of the links; 0 without relative motion.
+    """
     forward: Fraction = Fraction(1)
-    """Efficiency with link i driving, at most 1; 0 or less is self-locking. `backward` is the efficiency with j
-    driving.
+    """Efficiency with the first link driving, at most 1; 0 or less is self-locking. `backward` is the efficiency with
+    the second link driving.
     """
     backward: Fraction = Fraction(1)
 
@@ -61,30 +62,33 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed. Power flows from i to j if the multiplier has the opposite sign."""
+        """Sign of the rolling speed. Power flows from the first to the second link if the multiplier has the opposite
+        sign.
+        """
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Driving sides to be tried. Self-locking sides are omitted, unless both sides are self-locking: then it is
-        (1,).
+        """Driving sides to be tried. Self-locking sides are omitted, unless both sides are self-locking: the result is
+        then (1,).
         """
         if not self.loses:
             return (0,)
         return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
 
     def efficiency(self, side: int) -> Fraction:
-        """Return the efficiency with i driving (`side` 1) or j driving (-1); 1 for side 0."""
+        """Return the efficiency with the first link driving (`side` 1) or the second (-1); 1 for side 0."""
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, Fraction, Fraction]:
-        """Return the torques on links i, j and k for a multiplier of 1: equation (5)."""
+        """Return the torques on first link, second link and carrier for a multiplier of 1: equation (5)."""
         left = self.a * (self.backward if side < 0 else Fraction(1))
         right = self.b * (self.forward if side > 0 else Fraction(1))
         return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
 
     def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
-        """Return the signs of the torques on both links relative to `other`, an equal pair with the same unknown.
+        """Return the signs of the torques on both links relative to `other`, an equal pair with the same unknown
+        torque.
 
         alike   True if both pairs have their links in the same order; a planet with reversed axis changes the sign
         """
@@ -93,7 +97,9 @@ class LoadedPair:
         return first, second
 
     def power(self, multiplier: Fraction) -> Fraction:
-        """Return the power from i to j in the carrier's frame, before losses if i drives: equation (4)."""
+        """Return the power from first to second link in the carrier's frame, before losses if the first drives:
+        equation (4).
+        """
         return -multiplier * self.rolling
 
 
@@ -102,10 +108,12 @@ class TorqueUnknown:
     """Unknown torque that one or more meshes have in common, with its coefficient in each row of the balance."""
 
     pieces: Mapping[int, LinearForm]
-    """Driving side -> row -> coefficient. Sides refer to the first lossy mesh; side 0 is without loss."""
+    """Coefficients of the torque, by driving side and row of the balance. Sides refer to the first lossy mesh; side 0
+    is without loss.
+    """
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
-    """Driving sides to be tried."""
+    """Driving sides of the first lossy mesh to be tried."""
     turn: int = 0
     """Sign of the rolling speed of the first lossy mesh."""
     barred: bool = False
@@ -118,7 +126,9 @@ class TorqueUnknown:
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one mesh of this unknown, whose links may be in another order; 0 without loss."""
+        """Return the driving side of one mesh with this unknown torque, whose links may be in another order; 0 without
+        loss.
+        """
         return side * mesh.turn * self.turn if mesh.loses else 0
 
 
@@ -166,7 +176,7 @@ class TorqueBalance:
 
     @cached_property
     def rows(self) -> Mapping[int, Fraction]:
-        """Row -> known torque; there is one row for each link and for each declared share.
+        """Known torque of each row of the balance; there is one row for each link and for each declared share.
 
         Rows of equal planets are proportional, so only one of them is kept.
         """
@@ -200,7 +210,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block; it is used if a block leaves open an unknown of a later block."""
+        """Whole balance as one block; it is used if a block leaves an unknown of a later block undetermined."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -209,7 +219,7 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """Mesh -> rows of declared shares that contain its torque.
+        """Rows of declared shares that contain the torque of a mesh, by mesh.
 
         Such a row states that the torque of a mesh on the link, divided by its share, is the same as for the first
         mesh.
@@ -291,7 +301,7 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
 
 
 def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
-    """Return the balance without the pairs `names`."""
+    """Return the torque balance without the pairs `names`."""
     return replace(
         balance,
         meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),

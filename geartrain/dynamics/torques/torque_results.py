@@ -59,7 +59,7 @@ class HoldingTorque(Result):
 
     @property
     def by_link(self) -> Mapping[str, Fraction] | None:
-        """Link -> torque [N m, or number without a unit]; None if undetermined."""
+        """Torque on each held link [N m, or number without a unit]; None if undetermined."""
         return None if self.torques is None else dict(zip(self.links, self.torques, strict=True))
 
 
@@ -67,11 +67,11 @@ class MemberTorques(NamedTuple):
     """Torques on the members of a gear pair or coupling [N m, or number without a unit]."""
 
     first: Fraction
-    """Torque on the first link of the pair."""
+    """Torque on the first link of the pair [N m, or number without a unit]."""
     second: Fraction
-    """Torque on the second link of the pair."""
+    """Torque on the second link of the pair [N m, or number without a unit]."""
     carrier: Fraction
-    """Torque on the carrier."""
+    """Torque on the carrier of the pair [N m, or number without a unit]."""
 
 
 class BearingTorque(NamedTuple):
@@ -118,13 +118,16 @@ class PairTorque(Result):
     driver: str
     """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
     links: tuple[str, str, str]
-    """First link, second link, carrier."""
+    """Names of first link, second link and carrier of the pair."""
     torques: tuple[Fraction, Fraction, Fraction]
     """Torques on the three links, each about its own axis [N m, or number without a unit]."""
     multiplier: Fraction
-    """Multiplier x of the pair's Willis equation."""
+    """Multiplier x of the pair's Willis equation; without losses the torque on the first link is x times its
+    coefficient a.
+    """
     rolling: Fraction | None
-    """Rolling speed a (w_i - w_k); None if undetermined.
+    """Rolling speed: coefficient a of the Willis equation times the speed of the first link relative to the carrier;
+    None if undetermined.
 
     The power from the first link to the second is -x times this speed.
     """
@@ -207,7 +210,7 @@ class TorqueVerdict(Result):
     kind: TorqueVerdictKind
     """Kind of the verdict, from the list in the description of the class."""
     text: str
-    """Verdict as a sentence."""
+    """Verdict and its reason in one sentence."""
     candidates: tuple[str, ...] = ()
     """Links whose torque may be requested (`solve_for`) or balances the loads, or pairs with undetermined torques."""
 
@@ -256,9 +259,9 @@ class DrivenWay(NamedTuple):
     torques: Torques
     """Torques of the driven train, with the `efficiency` in this direction."""
     source: str
-    """Link at which power enters."""
+    """Link at which power enters the train."""
     load: str
-    """Link at which power leaves."""
+    """Link at which power leaves the train."""
 
 
 @dataclass(frozen=True)
@@ -314,13 +317,13 @@ class Torques(FrozenFields, Tabular, TrainResult):
     `neglected` have values.
     """
     requested: tuple[str, ...] = ()
-    """Links whose torque was computed from the balance."""
+    """Links whose external torque was computed from the torque balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
-    """Link -> external torque [N m, or number without a unit]: loads, requested torques, brakes."""
+    """External torque on each link [N m, or number without a unit]: loads, requested torques, brakes."""
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
-    """Link -> speed, for links whose speed is determined [unit of the train]."""
+    """Speed of each link whose speed is determined [unit of the train]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
-    """Gear pairs and couplings by name."""
+    """Torques and power of each gear pair and coupling, by name."""
     bearings: tuple[BearingTorque, ...] = ()
     """Friction torques of bearings; empty if no bearing declares friction."""
     held: tuple[HoldingTorque, ...] = ()
@@ -350,12 +353,14 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def powers(self) -> Mapping[str, Fraction]:
-        """Link -> external power, positive if it flows into the train, for links whose speed is determined."""
+        """External power of each link whose speed is determined [unit of torque times the train's unit of speed],
+        positive if it flows into the train.
+        """
         return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
 
     @property
     def link_torques(self) -> Mapping[str, LinkTorque]:
-        """Link -> external torque on the link and its power."""
+        """External torque on each link, and its power."""
         powers = self.powers
         return {
             link: LinkTorque(torque, powers.get(link), link in self.requested) for link, torque in self.external.items()
@@ -400,19 +405,25 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in pairs and bearings; if torques of pairs are undetermined, the net external power."""
+        """Power lost in pairs and bearings [unit of torque times the train's unit of speed]; if torques of pairs are
+        undetermined, the net external power.
+        """
         if any(pair.loose for pair in self.pairs.values()):
             return self._missing
         return sum((pair.loss for pair in self.pairs.values()), self.bearing_loss)
 
     @property
     def known_power_in(self) -> Fraction | None:
-        """Power that enters the train; None if the speed of a loaded link is undetermined."""
+        """Power that enters the train [unit of torque times the train's unit of speed]; None if the speed of a loaded
+        link is undetermined.
+        """
         return None if self.open_speeds else self.power_in
 
     @property
     def known_loss(self) -> Fraction | None:
-        """Power lost in pairs and bearings; None if the speed of a loaded link is undetermined."""
+        """Power lost in pairs and bearings [unit of torque times the train's unit of speed]; None if the speed of a
+        loaded link is undetermined.
+        """
         return None if self.open_speeds else self.loss
 
     @property

@@ -1,4 +1,4 @@
-"""Motion of all links at positions of the input: speeds of the links, and driver angles of the pairs.
+"""Motion of all links at given positions of the input: speeds of the links, and driver angles of the pairs.
 
 If the torque of a pair presses on the coast flanks, its error follows from their transmission function. The flank in
 contact may change from position to position.
@@ -35,7 +35,7 @@ class LinkMotion(NamedTuple):
     shape (links, n).
     """
     angles: Mapping[str, Floats]
-    """Pair -> forward angle of its driver [rad], shape (n,), for each pair that is evaluated at positions."""
+    """Forward angle [rad] of the driver of each pair that is evaluated at positions, shape (n,), by pair."""
 
 
 class PositionMotion:
@@ -54,7 +54,7 @@ class PositionMotion:
 
     @cached_property
     def links(self) -> Mapping[str, int]:
-        """Link -> row in the arrays of speeds."""
+        """Row of each link in the arrays of speeds."""
         return {link: row for row, link in enumerate(self.motion.outputs)}
 
     @cached_property
@@ -113,7 +113,7 @@ class PositionMotion:
         return KinkSearch(self.coasting_all_along(coasting)).over(0.0, span).turns
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the composition in which the coast flanks of the given pairs are in contact at all positions."""
+        """Return the error composition in which the coast flanks of the given pairs are in contact at all positions."""
         if not pairs:
             return self.composition
         sources = tuple(

@@ -49,7 +49,7 @@ class PlaceInRun(NamedTuple):
 
 @dataclass(frozen=True)
 class CycleEnergy(Result):
-    """Energies over a run [J, or torque without a unit times rad].
+    """Energies over a run [J, or rad if torques are numbers without a unit].
 
     Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
 
@@ -64,28 +64,34 @@ class CycleEnergy(Result):
     )
 
     put_in: float
-    """Energy supplied by the unknown torques (such as the torque at the crank) while their power is positive."""
+    """Energy supplied by the unknown torques (such as the torque at the crank) while their power is positive [J, or rad
+    if torques are numbers without a unit].
+    """
     returned: float
-    """Energy absorbed by the unknown torques while their power is negative because the loads drive."""
+    """Energy absorbed by the unknown torques while their power is negative because the loads drive [J, or rad if
+    torques are numbers without a unit].
+    """
     taken_out: float
-    """Energy absorbed by the loads while their power is negative."""
+    """Energy absorbed by the loads while their power is negative [J, or rad if torques are numbers without a unit]."""
     loads_put_in: float
-    """Energy supplied by the loads while their power is positive."""
+    """Energy supplied by the loads while their power is positive [J, or rad if torques are numbers without a unit]."""
     mesh: float
-    """Energy lost in gear pairs, 0 or more."""
+    """Energy lost in gear pairs, 0 or more [J, or rad if torques are numbers without a unit]."""
     pin: float
-    """Energy lost in pins and slots, 0 or more."""
+    """Energy lost in pins and slots, 0 or more [J, or rad if torques are numbers without a unit]."""
     bearing: float
-    """Energy lost in bearings, 0 or more."""
+    """Energy lost in bearings, 0 or more [J, or rad if torques are numbers without a unit]."""
 
     @property
     def net_in(self) -> float:
-        """Energy supplied minus energy absorbed by the unknown torques."""
+        """Energy supplied minus energy absorbed by the unknown torques [J, or rad if torques are numbers without a
+        unit].
+        """
         return self.put_in - self.returned
 
     @property
     def net_out(self) -> float:
-        """Energy absorbed minus energy supplied by the loads."""
+        """Energy absorbed minus energy supplied by the loads [J, or rad if torques are numbers without a unit]."""
         return self.taken_out - self.loads_put_in
 
     @property
@@ -102,7 +108,7 @@ class CycleEnergy(Result):
 
     @property
     def lost(self) -> float:
-        """Energy lost in pairs, pins and bearings."""
+        """Energy lost in pairs, pins and bearings [J, or rad if torques are numbers without a unit]."""
         return self.mesh + self.pin + self.bearing
 
 
@@ -118,13 +124,15 @@ class PairCycle(Result):
     KEYS = ("kind", "loss", "passed", "flank_changes", "maximum")
 
     kind: str
-    """Kind of the part: `mesh`, `pin` or `bearing`."""
+    """Kind of the part of the train: `mesh`, `pin` or `bearing`."""
     loss: float
-    """Energy lost in the part [J, or torque without a unit times rad]."""
+    """Energy lost in the pair, coupling or bearing over the run [J, or rad if torques are numbers without a unit]."""
     passed: float
-    """Energy input of the driving side relative to the carrier, in the same unit. It equals the loss for a bearing."""
+    """Energy input of the driving side relative to the carrier [J, or rad if torques are numbers without a unit]. For a
+    bearing it equals the loss.
+    """
     flank_changes: int = 0
-    """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each sign change.
+    """Number of sign changes of the torque through the pair. Teeth cross their backlash at each sign change.
 
     If the run is an integer number of periods, a change between the end and the start of the run is included.
     """
@@ -201,39 +209,44 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     for each side.
     """
     torque: Floats | None = None
-    """Torque at the link in the solution with minimum loss [N m, or number without a unit], shape (n,).
+    """Torque at `link` in the solution with minimum loss [N m, or number without a unit], shape (n,).
 
     The torque is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean
     speed is 0.
     """
     highest: Floats | None = None
-    """Torque at the link in the solution with maximum loss [N m, or number without a unit], shape (n,)."""
+    """Torque at `link` in the solution with maximum loss [N m, or number without a unit], shape (n,)."""
     standing: Floats | None = None
     """Breakaway torque at each position, with static friction in every contact [N m, or number without a unit], shape
     (n,).
     """
     speeds: LabelledArray | None = None
-    """Speeds of links divided by the input speed, axes (link, position)."""
+    """Speeds of links divided by the input speed [1], as an array labelled by link and position."""
     powers: LabelledArray | None = None
-    """Power of each external torque divided by the input speed, positive into the train, axes (link, position) [N m, or
-    number without a unit].
+    """Power of each external torque divided by the input speed, positive into the train [N m, or number without a
+    unit], as an array labelled by link and position.
     """
     losses: LabelledArray | None = None
-    """Lost power divided by the input speed, axes (part, position) [N m, or number without a unit]."""
+    """Power lost in each pair, coupling and bearing divided by the input speed [N m, or number without a unit], as an
+    array labelled by part and position.
+    """
     mean: float | None = None
-    """Mean torque over the run [N m, or number without a unit]; None if the train locks at some position."""
+    """Mean torque at `link` over the run [N m, or number without a unit]; None if the train locks at some position."""
     maximum: TorqueExtreme | None = None
-    """Maximum torque over all solutions at all positions; None if the train locks at some position."""
+    """Maximum torque over all solutions at all positions, with its position; None if the train locks at some position.
+    """
     minimum: TorqueExtreme | None = None
-    """Minimum torque in the solution with minimum loss; None if the train is locked at all positions."""
+    """Minimum torque in the solution with minimum loss, with its position; None if the train is locked at all
+    positions.
+    """
     starting: TorqueExtreme | None = None
     """Maximum breakaway torque, which starts the train from rest at any position; None if no torque starts it at some
     position.
     """
     energy: CycleEnergy | None = None
-    """Energies over the run; None if the train locks at some position."""
+    """Energy balance of the run; None if the train locks at some position."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
-    """Name -> loss and torque of each gear pair and coupling, and of each bearing as `bearing LINK`."""
+    """Loss and torque of each gear pair and coupling by name, and of each bearing as `bearing LINK`."""
     locked_share: float = 0.0
     """Fraction of the run in which no torque balances the loads."""
     held_share: float = 0.0
@@ -273,7 +286,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each position: `turns`, `torque`, `highest` and `standing`."""
+        """Table with a row for each position: revolutions of the input, torque with minimum and with maximum loss, and
+        breakaway torque.
+        """
         names = ("turns", "torque", "highest", "standing")
         return {name: getattr(self, name).tolist() for name in names}
 
@@ -301,7 +316,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def minimum_place(self) -> PlaceInRun | None:
-        """Position of the minimum torque."""
+        """Position of the minimum torque in the run; None if the train is locked at all positions."""
         return _place(self.minimum)
 
     @property
@@ -325,7 +340,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def flank_changes(self) -> Mapping[str, int]:
-        """Pair or coupling -> number of times that its teeth cross their backlash."""
+        """Number of times that the teeth of each pair or coupling cross their backlash."""
         return {name: part.flank_changes for name, part in self.parts.items() if part.kind != "bearing"}
 
     @property
@@ -336,8 +351,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def recirculating(self) -> Mapping[str, float]:
-        """Pair -> energy transmitted by the pair divided by the energy input of the train, for pairs in which this
-        quotient exceeds 1.
+        """Energy transmitted by a pair divided by the energy input of the train, for each pair in which this quotient
+        exceeds 1.
         """
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}

@@ -5,8 +5,8 @@ The theory is in section 17 of docs/torques.md.
 The multiplier x of a pair is the torque on its driven side in the forward sense. For x >= 0 the drive flanks are in
 contact, for x <= 0 the coast flanks. Let tau be the speed ratio of the flank in contact at this position. The torque on
 the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without friction. Friction
-reverses with the sliding velocity, so a flank that is driven from the other side has the efficiency
-eta'(f) = 1/eta(-f) (23).
+reverses with the sliding velocity, so with a coefficient of friction f, a flank that is driven from the other side has
+the efficiency eta'(f) = 1/eta(-f) (23).
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques for a multiplier of 1, shape (n,) each: on the driven side, and from the driver, in forward senses."""
+    """Torques of a contact for a multiplier of 1, shape (n,) each: on the driven side, and from the driver, in forward
+    senses.
+    """
 
     driven: Floats
     driver: Floats
@@ -67,7 +69,7 @@ class ContactLosses:
     """Contact without losses. Subclasses describe the effect of friction on the torques of a contact."""
 
     has_friction: ClassVar[bool] = False
-    """True if the contact has losses."""
+    """True if the contact loses power."""
 
     @property
     def starts_harder(self) -> bool:
@@ -77,7 +79,7 @@ class ContactLosses:
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques for a multiplier of 1.
+        """Return the torques on the driven side and from the driver for a multiplier of 1.
 
         tau   speed ratio of the flank in contact, from `transmission`
         way   1 if the driver of the transmission function drives, -1 if the other side does, 0 without relative motion
@@ -125,7 +127,7 @@ class SlidingFriction(ContactLosses):
     the input.
     """
     static: float
-    """Coefficient of static friction."""
+    """Coefficient of static friction of the contact."""
 
     @property
     def starts_harder(self) -> bool:
@@ -134,8 +136,10 @@ class SlidingFriction(ContactLosses):
 
 
 class ToothFriction(SlidingFriction):
-    """Friction of real teeth: each tooth pair in contact transmits (1 + f out)/(1 + f into), with f < 0 if flanks slide
-    back.
+    """Friction of teeth: each tooth pair in contact multiplies the torque by (1 + f out)/(1 + f into).
+
+    Here `into` and `out` are the friction terms of input and output power, and f is the coefficient of friction,
+    negative if the driven side of the transmission function drives.
     """
 
     def torques(
@@ -162,7 +166,7 @@ class ToothFriction(SlidingFriction):
 
 @dataclass(frozen=True)
 class PinFriction(SlidingFriction):
-    """Friction of a pin along its slot: T_p = (r/rho)(T_s cos d + f |T_s sin d| sgn S'), equation (25) of
+    """Friction of a pin along its slot; the pin torque follows from the slot torque by equation (25) of
     docs/torques.md.
     """
 
@@ -179,7 +183,9 @@ class PinFriction(SlidingFriction):
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
     def kinks(self, at: DriverState) -> Floats:
-        """Return sin S. It is 0 if the pin is on the line through both axes, where the sliding velocity reverses."""
+        """Return the sine of the driver angle. It is 0 if the pin is on the line through both axes, where the sliding
+        velocity reverses.
+        """
         return np.sin(at.S)
 
 
@@ -260,7 +266,7 @@ def find_contacts(
     """Return the contact of every pair and coupling, by name.
 
     positions   motion with the pairs that are evaluated at every position; other pairs have a constant ratio
-    teeth       meshes with real teeth; their driver is the driver of the transmission function
+    teeth       meshes with a declared tooth form; their driver is the driver of the transmission function
     """
     found = {}
     for circuit in setting.circuits:
@@ -275,8 +281,8 @@ def find_contacts(
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """Yield the redundant pairs with friction of teeth; they have mean friction, because the motion does not determine
-    their position.
+    """Yield the redundant pairs with friction of teeth. Their mean friction is used, because the motion does not
+    determine their position.
     """
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
     return (name for name in teeth if name in names and _by_friction(setting, teeth[name]))

@@ -53,7 +53,8 @@ _ODD = Fraction(1_414_213, 1_000_003)  # factor of friction that cancels no decl
 def find_extreme(
     value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
 ) -> tuple[float, float] | None:
-    """Return position [revolutions] and value of the maximum (`way` 1) or minimum (-1); None if no value is finite.
+    """Return position [revolutions] and value of a quantity's maximum (`way` 1) or minimum (-1) over a run; None if no
+    value is finite.
 
     value_at   function that returns the values at positions
     values     values at the positions of the run, NaN where the train is locked
@@ -223,11 +224,11 @@ class _RunResults:
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
-        """Return the torque of the link, positive in its mean sense, in the solution with minimum loss."""
+        """Return the torque at the reported link, positive in its mean sense, in the solution with minimum loss."""
         return np.asarray(self._way * found.torque[self._row])
 
     def _highest(self, found: PositionTorques) -> Floats:
-        """Return the torque of the link, positive in its mean sense, in the solution with maximum loss."""
+        """Return the torque at the reported link, positive in its mean sense, in the solution with maximum loss."""
         return np.asarray(self._way * found.highest[self._row])
 
     def cycle(self) -> TorqueCycle:
@@ -329,7 +330,7 @@ class _RunResults:
         return self._extreme(1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
-        """Return the energies over the run [J, or torque without a unit times rad]."""
+        """Return the energies over the run [J, or rad if torques are numbers without a unit]."""
         found, requested = self.run.found, len(self.run.train.requested)
         # powers are divided by the speed of the input, so the integral is over its angle in radians
         weights = self.run.cells.weights * 2 * np.pi

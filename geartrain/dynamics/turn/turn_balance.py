@@ -42,9 +42,9 @@ class ColumnPieces:
     """Coefficients of one unknown torque in each row, for each sign of the torque."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
-    """Side (1 and -1, or 0 if the sign has no effect) -> row -> coefficient, shape (n,)."""
+    """Coefficients, shape (n,), by side (sign 1 or -1 of the torque, or 0 if the sign has no effect) and row."""
     barred: Mapping[int, Bools]
-    """Side -> mask of positions at which the torque must be 0."""
+    """Mask of positions at which the torque must be 0, by side."""
 
     @property
     def sides(self) -> tuple[int, ...]:
@@ -54,13 +54,13 @@ class ColumnPieces:
 
 @dataclass
 class BalanceLayer:
-    """One solution of the balance at each position where a solution exists."""
+    """One solution of the torque balance at each position where a solution exists."""
 
     values: Floats
     """Torques by column, shape (columns, n). `rows` is the sum of torques in each row, shape (rows, n)."""
     rows: Floats
     valid: Bools
-    """True at positions where all rows are balanced."""
+    """True at positions where the torques of all rows are balanced."""
 
     def copy(self) -> BalanceLayer:
         """Return a copy with its own arrays."""
@@ -70,7 +70,7 @@ class BalanceLayer:
 @dataclass(frozen=True)
 class _Trial:
     """Torques of one block for one pattern, shape (columns, n), and a mask of positions where they are consistent with
-    a layer.
+    the pattern and with earlier blocks.
     """
 
     layer: BalanceLayer
@@ -82,7 +82,7 @@ class _Trial:
 def solve_positions(
     columns: Sequence[ColumnPieces], parts: Sequence[Block], known: Floats
 ) -> tuple[list[BalanceLayer], bool]:
-    """Return every solution of the balance at every position, and True if all patterns were tried.
+    """Return every solution of the torque balance at every position, and True if all patterns were tried.
 
     known   known torques of each row, shape (rows, n)
     """
@@ -246,7 +246,7 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at n positions, the last axis. Powers and losses are divided by the speed of the input."""
+    """Torques at n positions (last axis of all arrays). Powers and losses are divided by the speed of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
@@ -268,7 +268,9 @@ class PositionTorques(NamedTuple):
     powers: Floats
     """Power of each external torque, positive into the train, shape (outside, n)."""
     losses: Floats
-    """Lost power of pairs, then of bearings, shape (parts, n). `passed` is the power input of each driving side."""
+    """Power lost in pairs, then in bearings, divided by the input speed, shape (parts, n). `passed` is the power input
+    of each driving side.
+    """
     passed: Floats
     pressed: Floats
     """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
@@ -290,7 +292,7 @@ class _State(NamedTuple):
     contacts: Mapping[str, DriverState]
     forces: Mapping[str, Mapping[int, PairForce]]
     resting: Mapping[str, Bools]
-    """Link -> mask of positions at which it is at rest within the backlash of its pairs."""
+    """Mask of positions at which each link is at rest within the backlash of its pairs, by link."""
     static: bool
 
 
@@ -305,7 +307,7 @@ class TurnBalance:
     contacts: Mapping[str, PairContact]
     """Contact of each pair, in the order of the circuits."""
     loads: Mapping[str, float]
-    """Link -> load about its own axis. `bearings` has friction and drag by link."""
+    """Load on each link about its own axis. `bearings` has friction and drag by link."""
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
     """False if not all patterns of power flow were tried."""
@@ -335,12 +337,12 @@ class TurnBalance:
 
     @cached_property
     def columns(self) -> tuple[TorqueUnknown, ...]:
-        """Unknown torques of the balance."""
+        """Unknown torques of the balance, one for each column of its matrix."""
         return self.balance.columns
 
     @cached_property
     def of_pair(self) -> Mapping[str, int]:
-        """Pair -> column of its unknown torque."""
+        """Column index of each gear pair's unknown torque in the matrix of the torque balance."""
         return {mesh.id: at for at, column in enumerate(self.columns) for mesh in column.meshes}
 
     @cached_property
@@ -435,8 +437,7 @@ class TurnBalance:
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def outside_speeds(self, speeds: Floats) -> Floats:
-        """Return the speeds of the links with external torques relative to the links with the reaction, shape
-        (outside, n).
+        """Return the speed of each link with an external torque relative to its reaction link, shape (outside, n).
 
         They are measured about the links' own axes.
         """
@@ -527,7 +528,7 @@ class TurnBalance:
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
-        """Return the solution with minimum (`way` 1) or maximum power input (-1) at each position."""
+        """Return the solution with minimum (`way` 1) or maximum (-1) power input at each position."""
         if len(layers) == 1:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]
@@ -542,7 +543,7 @@ class TurnBalance:
 
     @cached_property
     def requested_columns(self) -> list[int]:
-        """Columns of the unknown external torques."""
+        """Columns of the balance matrix that belong to unknown external torques."""
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.requested)))
 

@@ -83,7 +83,7 @@ class RunCells:
 
     @property
     def middles(self) -> Floats:
-        """Middles of the cells."""
+        """Middle position of each cell [revolutions]."""
         return np.asarray((self.low + self.high) / 2)
 
     def divided(self, cell: Indices, at: Floats) -> RunCells:
@@ -99,7 +99,7 @@ class RunCells:
         return RunCells(low, np.where(last, self.high[number], np.append(low[1:], 0.0)), self.aside)
 
     def some(self, which: Bools) -> RunCells:
-        """Return a selection of the cells."""
+        """Return the selected cells."""
         return RunCells(self.low[which], self.high[which], self.aside)
 
 
@@ -123,7 +123,7 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
 def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> tuple[Indices, Floats]:
     """Return cell index and position of all sign changes within cells, located simultaneously by repeated subdivision.
 
-    signs_at   function that returns the signs at positions, shape (signs, n)
+    signs_at   function that returns the signs of the tracked quantities at positions, shape (signs, n)
     signs      signs at the positions of the cells
     """
     turns = cells.requested
@@ -185,7 +185,7 @@ class TurnRun:
 
     @cached_property
     def _refined(self) -> tuple[RunCells, PositionTorques]:
-        """Refined cells in order, with kinks at their ends, and the torques at all their positions."""
+        """Refined cells of the run in order, with kinks at their ends, and the torques at all their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
         # signs and tolerances refer to the scales of the initial cells, so that refinement does not change them
@@ -260,7 +260,7 @@ class TurnRun:
         ).astype(np.int64)
 
     def share(self, where: Bools) -> float:
-        """Return the fraction of the run that the selected positions represent."""
+        """Return the fraction of the run that is represented by the selected positions."""
         return float(self.cells.weights @ where) / self.span
 
     @cached_property

@@ -115,14 +115,17 @@ def run(
     assumptions: Annotated[
         bool,
         typer.Option(
-            "--assumptions", help="Count the trains again without each hard fact in turn, with one search per fact."
+            "--assumptions",
+            help="Count the trains again with each hard constraint of the evidence dropped in turn (one search per "
+            "constraint).",
         ),
     ] = False,
     rank: Annotated[
         Names,
         typer.Option(
             "--rank",
-            help="Rank this train among the explanations: a file or a shipped train; may be repeated.",
+            help="Report the rank of this train (a file, or the name of a shipped train) among the trains found; may "
+            "be repeated.",
             metavar="TRAIN",
         ),
     ] = None,
@@ -130,7 +133,8 @@ def run(
         Names,
         typer.Option(
             "--same",
-            help="Names of a wheel or output in the ranked train and in the evidence, such as E4=e3; may be repeated.",
+            help="Names of the same wheel or output in the ranked train and in the evidence, such as E4=e3; may be "
+            "repeated.",
             metavar="ITS=OURS",
         ),
     ] = None,

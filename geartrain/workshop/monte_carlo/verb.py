@@ -43,7 +43,11 @@ if TYPE_CHECKING:
 
 Plot = Annotated[Path | None, typer.Option("--plot", help="Write a plot to this file (.svg, .png or .pdf).")]
 Picture = Annotated[
-    str, typer.Option("--picture", help="Content of the plot: errors, course, convergence, sobol, pairs or map.")
+    str,
+    typer.Option(
+        "--picture",
+        help="Content of the plot: errors, course (errors along a revolution), convergence, sobol, pairs or map.",
+    ),
 ]
 
 
@@ -67,7 +71,8 @@ def run(
         typer.Option(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
-            help="Repeat the trials at several clearances, such as clearance_factor=1.005:1.04:8 or window=0.1:0.9:9.",
+            help="Repeat the trials at COUNT values of the clearance factor, such as clearance_factor=1.005:1.04:8, or "
+            "of the position in the clearance window, such as window=0.1:0.9:9.",
         ),
     ] = None,
     sobol: Annotated[

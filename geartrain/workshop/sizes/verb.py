@@ -59,8 +59,8 @@ def run(
         list[str] | None,
         typer.Option(
             "--free",
-            help="Parameter to vary, NAME or NAME=LOW:HIGH: radii, window or half_angle; may be repeated; "
-            "default: radii.",
+            help="Parameter to vary, as NAME or NAME=LOW:HIGH. Names: radii (ratio of radii over ratio of tooth "
+            "counts), window (position in the clearance window, 0 to 1), half_angle. May be repeated; default: radii.",
         ),
     ] = None,
     within: Annotated[

@@ -30,6 +30,7 @@ _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 _NODES = 16  # Gauss-Legendre nodes of an interval
 _ROUNDING = 1e-14  # fraction of an integral: smaller differences between an interval and its halves are rounding error
 _DEEPEST, _DEEPEST_SLOW = 40, 2  # maximum number of bisections of an interval
+_MOST_INTERVALS = 1024  # at once: a steep end needs few at each level, more are due to rounding error everywhere
 _END = 1e-9  # of an interval: at its ends the next tooth pair, or the other side of the pitch point, counts too
 _SAMPLES = 1001  # samples of an interval in the search for the minimum efficiency
 
@@ -286,7 +287,7 @@ class TransmissionFunction(Shown, ABC):
                 rough = np.tile(off > _ROUNDING * np.maximum(scale, np.abs(whole)), 2)
                 done.append((low[~rough], high[~rough]))
                 low, high, whole = low[rough], high[rough], halves[rough]
-                if not len(low):
+                if not len(low) or len(low) > _MOST_INTERVALS:
                     break
         low, high = (np.concatenate(ends) for ends in zip(*done, (low, high), strict=True))
         return nodes(low, high).ravel(), (((high - low) / 2)[:, None] * w).ravel() / (high - low).sum()

@@ -123,6 +123,23 @@ def three(first: str = "", second: str = "", third: str = "", more: str = "", ef
     return f"extends: three-planets\nloads: {{carrier: -18 N m}}\ngears: [{', '.join(suns + rings)}]\n"
 
 
+@pytest.mark.parametrize("state", ["1", "2", "3", "4", "R"])
+def test_copies_of_planets_that_mesh_with_each_other_carry_equal_loads(state: str) -> None:
+    """A Ravigneaux set with three planets of each kind has the efficiency and the total mesh power of one of each."""
+    pairs = ("a~ps", "ps~pl", "b~pl", "pl~r")
+    gears = [{"id": name, "efficiency": "0.99"} for name in pairs]
+    one = shipped("ravigneaux-set").with_changes(gears=gears, loads={"OUT": "-100 N m"})
+    three = one.with_changes(links={planet: {"copies": 3} for planet in ("SHORT", "LONG")})
+    found, single = three.torques(state), one.torques(state)
+    assert found.verdict.kind == "determined"
+    assert found.efficiency == single.efficiency
+    for name in pairs:
+        first, second = name.split("~")
+        copies = [each.power for pair, each in found.pairs.items() if pair.split("~")[0].split(".")[0] == first
+                  and pair.split("~")[1].split(".")[0] == second]  # fmt: skip
+        assert copies == [single.pairs[name].power / 3] * 3
+
+
 def test_declared_shares_override_the_equal_ones() -> None:
     found = load(three(", share: 0.5", ", share: 0.3", ", share: 0.2")).torques()
     assert found.verdict.kind == "determined"

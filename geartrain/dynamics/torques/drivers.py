@@ -281,6 +281,8 @@ def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
     found: dict[str, tuple[str, ...]] = {}
     for group in balance.ties:
         common = set.intersection(*(set(ends[name]) for name in group))
+        if not common:  # of two kinds of planets, which mesh with each other
+            continue
         planets = tuple(sorted(link for name in group for link in ends[name] if link not in common))
         found |= dict.fromkeys(planets, planets)
     return found

@@ -249,8 +249,10 @@ def find_ties(
     known: Mapping[str, Fraction],
     singled: Collection[str],
 ) -> tuple[tuple[str, ...], ...]:
-    """Return groups of pairs that belong to equal planets: same carrier, mates, tooth counts, efficiencies and external
-    torque.
+    """Return groups of pairs that belong to equal planets, which have equal torques.
+
+    Planets are equal if they have the same carrier and external torque and mesh, with equal tooth counts and
+    efficiencies, with the same wheels or with equal planets (colour refinement).
 
     singled   links that are not equal to any other: frame, braked, locked or requested links, links with declared
     shares
@@ -258,24 +260,52 @@ def find_ties(
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
     # pins in slots have different angles at equal planets
     apart |= {link for circuit in circuits if circuit.kind not in _EVEN for link in (circuit.i, circuit.j)}
-    by_planet: dict[str, list[tuple[_Key, str]]] = {}
+    meshing = _planet_meshes(circuits, meshes, apart)
+    classes = _planet_classes(meshing, known)
+    groups: dict[_Key, list[str]] = {}
+    grouped: set[str] = set()
+    # a mesh of two planets is grouped from the side of the class with the smaller number
+    for planet in sorted(meshing, key=classes.__getitem__):
+        for name, mate, key in meshing[planet]:
+            if name not in grouped:
+                grouped.add(name)
+                groups.setdefault((classes[planet], classes.get(mate, -1), key), []).append(name)
+    return tuple(tuple(names) for names in groups.values() if len(names) > 1)
+
+
+def _planet_meshes(
+    circuits: Sequence[Circuit], meshes: Sequence[LoadedPair], apart: Collection[str]
+) -> dict[str, list[tuple[str, str, _Key]]]:
+    """Return the meshes of each planet: id, link of the mate, and what meshes of equal planets have in common."""
+    found: dict[str, list[tuple[str, str, _Key]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
         ways = (mesh.forward, mesh.backward)
         at_first, at_second, _ = mesh.torques(0)
-        for planet, own, mate, other, losses in (
-            (circuit.i, at_first, second, at_second, ways),
-            (circuit.j, at_second, first, at_first, ways[::-1]),
+        for planet, mate, wheel, own, other, losses in (
+            (circuit.i, circuit.j, second, at_first, at_second, ways),
+            (circuit.j, circuit.i, first, at_second, at_first, ways[::-1]),
         ):
             if planet not in apart:
-                by_planet.setdefault(planet, []).append(((circuit.carrier, mate, own, other, losses), circuit.id))
-    alike: dict[_Key, list[list[str]]] = {}
-    for planet, found in by_planet.items():
-        found.sort(key=lambda each: str(each[0]))
-        key = (known.get(planet, Fraction(0)), *(key for key, _ in found))
-        alike.setdefault(key, []).append([name for _, name in found])
-    groups = [group for group in alike.values() if len(group) > 1]
-    return tuple(names for group in groups for names in zip(*group, strict=True))
+                key = (circuit.carrier, wheel if mate in apart else None, own, other, losses)
+                found.setdefault(planet, []).append((circuit.id, mate, key))
+    return found
+
+
+def _planet_classes(
+    meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
+) -> dict[str, int]:
+    """Return the number of the class of equal planets to which each planet belongs, by colour refinement."""
+    classes: dict[str, int] = {}
+    while True:
+        keys: dict[str, _Key] = {}
+        for planet, found in meshing.items():
+            around = sorted(((key, classes.get(mate, -1)) for _, mate, key in found), key=str)
+            keys[planet] = (known.get(planet, Fraction(0)), classes.get(planet), *around)
+        numbers = {key: at for at, key in enumerate(dict.fromkeys(keys.values()))}
+        if len(numbers) == len(set(classes.values())):
+            return classes
+        classes = {planet: numbers[key] for planet, key in keys.items()}
 
 
 @dataclass(frozen=True)

@@ -128,7 +128,7 @@ def test_copies_of_planets_that_mesh_with_each_other_carry_equal_loads(state: st
     """A Ravigneaux set with three planets of each kind has the efficiency and the total mesh power of one of each."""
     pairs = ("a~ps", "ps~pl", "b~pl", "pl~r")
     gears = [{"id": name, "efficiency": "0.99"} for name in pairs]
-    one = shipped("ravigneaux-set").with_changes(gears=gears, loads={"OUT": "-100 N m"})
+    one = load("ravigneaux-set").with_changes(gears=gears, loads={"OUT": "-100 N m"})
     three = one.with_changes(links={planet: {"copies": 3} for planet in ("SHORT", "LONG")})
     found, single = three.torques(state), one.torques(state)
     assert found.verdict.kind == "determined"

@@ -18,7 +18,12 @@ def run(
         bool, typer.Option("--search", help="Try every combination of clutches and brakes that determines the speeds.")
     ] = False,
     gears: Annotated[
-        int, typer.Option("--gears", min=0, help="Search for series of gears with this number of forward gears.")
+        int,
+        typer.Option(
+            "--gears",
+            min=0,
+            help="Search for sequences of forward gears, in order of ratio, with this number of gears.",
+        ),
     ] = 0,
     steps: Annotated[
         tuple[float, float],

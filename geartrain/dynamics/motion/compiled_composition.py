@@ -123,7 +123,8 @@ class CompositionArrays(NamedTuple):
     """Arrays from which the compiled kernel computes the errors of the outputs."""
 
     drivers: SourceRows
-    """Change of each source's driver angle per unit of the error of each earlier source [rad/rad]."""
+    """Derivative of the driver angle of each error source with respect to the error of each earlier source [rad/rad].
+    """
     outputs: SourceRows
     """Error of each output per unit of the error of each source [rad/rad]."""
     offset: Floats

@@ -29,7 +29,9 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling that is omitted from the phase closure because its position is unknown, with the reason."""
+    """Gear pair or coupling that is excluded from the assembly conditions because its position is unknown, with the
+    reason.
+    """
 
     name: str
     """Name of the pair or coupling."""

@@ -265,7 +265,11 @@ def find_orrery(
     if first in targets.names:
         what = f"the first arbor and a period are both named {first!r}"
         raise QuestionError(
-            Problem(what, "each period names an arbor, and names must be distinct", "rename the first arbor")
+            Problem(
+                what,
+                "arbors are named after their periods, and names of arbors must be unique",
+                "rename the first arbor",
+            )
         )
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"

@@ -55,7 +55,9 @@ def can_close(distance: float, sides: Sides) -> bool:
 
 
 def _chains(arbor: Arbor, geometry: SurvivingGeometry) -> list[_Chain] | None:
-    """Return the chains from an arbor down to arbors of known position; None if one of them cannot be closed."""
+    """Return the chains from an arbor down to arbors of known position; None if the centre distances of one chain
+    cannot connect its two known positions.
+    """
     by_child: list[list[_Chain]] = []
     for wheel, child in arbor.driven_arbors():
         below = _chains(child, geometry)

@@ -79,8 +79,7 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of a jam, clash, dwell and loss of contact for each combination of clearance and error
-    factor.
+    """Return the probabilities of a jam, clash, dwell and loss of contact for a grid of clearance factors and of factors that multiply the cutting errors.
 
     The same random wheels are used in all cases.
 

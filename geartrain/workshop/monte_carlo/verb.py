@@ -46,7 +46,7 @@ Picture = Annotated[
     str,
     typer.Option(
         "--picture",
-        help="Content of the plot: errors, course (errors along a revolution), convergence, sobol, pairs or map.",
+        help="Content of the plot: errors, course (errors over one revolution), convergence, sobol, pairs or map.",
     ),
 ]
 
@@ -72,7 +72,7 @@ def run(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
             help="Repeat the trials at COUNT values of the clearance factor, such as clearance_factor=1.005:1.04:8, or "
-            "of the position in the clearance window, such as window=0.1:0.9:9.",
+            "of its position between the limits of each pair, 0 to 1, such as window=0.1:0.9:9.",
         ),
     ] = None,
     sobol: Annotated[

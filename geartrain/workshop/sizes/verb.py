@@ -59,8 +59,9 @@ def run(
         list[str] | None,
         typer.Option(
             "--free",
-            help="Parameter to vary, as NAME or NAME=LOW:HIGH. Names: radii (ratio of radii over ratio of tooth "
-            "counts), window (position in the clearance window, 0 to 1), half_angle. May be repeated; default: radii.",
+            help="Parameter to vary, as NAME or NAME=LOW:HIGH. Names: radii (ratio of radii divided by ratio of tooth "
+            "counts), window (clearance factor between its lower limit, 0, and its upper limit, 1), half_angle (half "
+            "the angle of a tooth). May be repeated; default: radii.",
         ),
     ] = None,
     within: Annotated[

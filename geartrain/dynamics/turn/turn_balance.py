@@ -437,7 +437,8 @@ class TurnBalance:
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def outside_speeds(self, speeds: Floats) -> Floats:
-        """Return the speed of each link with an external torque, relative to the link that takes the reaction, shape (links with external torques, positions).
+        """Return the speed of each link with an external torque, relative to the link that takes the reaction, shape
+        (links with external torques, positions).
 
         They are measured about the links' own axes.
         """

@@ -106,7 +106,8 @@ class ToothPairSearch:
 
 @lru_cache(maxsize=256)
 def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
-    """Return the contact points of two tooth outlines at their centre distance, and the lag of the driven wheel caused by displaced flanks.
+    """Return the contact points of two tooth outlines at their centre distance, and the lag of the driven wheel caused
+    by displaced flanks.
 
     Raises `RangeError` if the teeth do not touch for a whole pitch.
     """

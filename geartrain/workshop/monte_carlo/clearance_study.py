@@ -79,7 +79,8 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probabilities of a jam, clash, dwell and loss of contact for a grid of clearance factors and of factors that multiply the cutting errors.
+    """Return the probabilities of a jam, clash, dwell and loss of contact for a grid of clearance factors and of
+    factors that multiply the cutting errors.
 
     The same random wheels are used in all cases.
 

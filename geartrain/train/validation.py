@@ -31,7 +31,10 @@ from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_forms
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
+from geartrain.train.mechanism import GearPair, Link, Wheel
+from geartrain.train.outputs import Output
 from geartrain.train.references import find_problems
+from geartrain.train.states import State
 from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
 
@@ -81,6 +84,15 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     return train
 
 
+_BLOCKS: dict[str, type[BaseModel]] = {
+    "the train": Train,
+    "a wheel": Wheel,
+    "a link": Link,
+    "a gear pair": GearPair,
+    "an output": Output,
+    "a state": State,
+}
+"""Blocks of a declaration in which an unknown key may belong."""
 _LOOKED_UP = 200  # unknown keys for which similar keys are searched
 
 
@@ -133,7 +145,8 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
         return Problem(what, why, fix, place(loc))
     if kind == "extra_forbidden":
         allowed = tuple(_keys_at(loc[:-1]))
-        fix = suggest(key, allowed)
+        homes = [block for block, model in _BLOCKS.items() if key in model.model_fields and key not in allowed]
+        fix = suggest(key, allowed, otherwise=f"`{key}` is a key of {' or of '.join(homes)}" if homes else "")
         if key == "teeth" and "wheels" in allowed:
             fix = f"write `{loc[-2]}: {{wheels: {{w: {error['input']}}}}}`: teeth belong to a wheel, here named w"
         return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", fix, place(loc))

@@ -47,6 +47,8 @@ def test_the_train_that_the_others_spoil_is_sound() -> None:
 MISTAKES = {
     "unknown key": (changed("wheels: {p: 20}", "wheel: {p: 20}"), 3, ["unknown key 'wheel'", "did you mean 'wheels'?"]),
     "unknown key at the top": (changed("gears:", "gear:"), 8, ["unknown key 'gear'", "did you mean 'gears'?"]),
+    "a key of another block": (changed("gears:", "module: 1 mm\ngears:"), 8, ["`module` is a key of a wheel"]),
+    "a key of the train in a link": (changed("wheels: {p: 20}", "unit: rpm, wheels: {p: 20}"), 3, ["key of the train"]),
     "unknown key in a pair": (changed("{pair: [p, w]}", "{pairs: [p, w]}"), 9, ["unknown key 'pairs'", "'pair'"]),
     "duplicate key": (changed("  b: {wheels: {w: 60}}", "  a: {wheels: {w: 60}}"), 4, ["key 'a' is given twice", ":3"]),
     "duplicate key in a flow": (changed("{p: 20}", "{p: 20, p: 30}"), 3, ["key 'p' is given twice"]),

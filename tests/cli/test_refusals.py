@@ -168,8 +168,8 @@ mesh --form triangular 48 96 -p clearance_factor=1.01 --profile w.svg | the modu
 mesh --form triangular 48 96 --module 1mm -p clearance_factor=1.01 --profile w.stl | not an output format
 mesh --form triangular 48 96 --profile w.svg --vary clearance_factor=1.01:1.02:3 | omit --profile or --vary
 mesh 48 96 --form triangular -p window=0.5 --friction dokos | error: --friction: | give --rate and --module
-mesh 48 96 --form triangular -p window=0.5 --friction dokos --rate '1 rpm' | error: --friction: | cannot be computed without the module
-mesh 48 96 --form triangular -p window=0.5 --friction dokos --module 1mm | error: --friction: | cannot be computed without the speed of the driver
+mesh 48 96 --form triangular -p window=0.5 --friction dokos --rate '1 rpm' | error: --friction: | follows from the module
+mesh 48 96 --form triangular -p window=0.5 --friction dokos --module 1mm | error: --friction: | follows from the speed of the driver
 mesh 48 96 --form triangular -p window=0.5 --friction stribek,static=1 | error: --friction: | 'stribeck'
 mesh 48 96 --form triangular -p window=0.5 --friction stribeck,static=0.2 | error: --friction: | kinetic: Field required
 mesh 48 96 --form triangular -p window=0.5 --friction dokos --vary window=0.1:0.9:3 | error: --friction: | needs a coefficient of friction

@@ -517,5 +517,5 @@ def test_torques_over_turns_that_are_no_number_are_refused() -> None:
 def test_a_loose_link_without_inertia_is_named() -> None:
     with pytest.raises(QuestionError, match="no link that turns with sun"):
         GearTrain.declare({"extends": "moon-triangular"}).dynamics(rate=1.0)
-    with pytest.raises(QuestionError, match="no rate"):
+    with pytest.raises(QuestionError, match="no input speed"):
         GearTrain.declare({"extends": "moon-triangular"}).dynamics()

@@ -90,7 +90,7 @@ def without_losses(mesh: GearMesh) -> Section | None:
     """Return the section on the friction of a pair whose sliding losses are 0 or not known; None for other pairs."""
     if not mesh.has_friction:
         return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
-    return None if mesh.tells_losses else Section("Friction", (f"{mesh.friction_words}.",))
+    return None if mesh.computes_losses else Section("Friction", (f"{mesh.friction_words}.",))
 
 
 def fault_text(fault: Problem) -> str:

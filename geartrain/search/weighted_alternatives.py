@@ -41,7 +41,7 @@ class AlternativeRows(Generic[Table]):
     """Row of the table that each alternative belongs to, shape (m,); None if alternative i belongs to row i."""
     leads: tuple[tuple[Table, Ints], ...] = ()
     """Parts of the alternatives: pairs of a table and the row in it, shape (m,)."""
-    tells: tuple[tuple[Hashable, int, Ints], ...] = ()
+    facts: tuple[tuple[Hashable, int, Ints], ...] = ()
     """Variables, each with its number of values and the index of the value that each alternative assigns, shape (m,).
     """
 
@@ -94,7 +94,7 @@ class WeightedAlternatives(Generic[Table]):
         for table in reversed(self._inside):  # in reverse order, every table comes after all tables that refer to it
             way, inside = self._ways[table], self._ways[table].below(self._inside)
             around = outside[table] if way.owners is None else outside[table][way.owners]
-            for variable, size, values in way.tells:
+            for variable, size, values in way.facts:
                 found[variable] = found.get(variable, 0) + sums_by(values, around * self._below[table], size)
             for at, (part, rows) in enumerate(way.leads):
                 # not total / inside[at], which may be 0

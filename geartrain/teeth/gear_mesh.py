@@ -390,7 +390,7 @@ class GearMesh(Shown, ABC):
         return SlidingEfficiency(self.losses if driver == self.driver else self._with_friction(self.reversed))
 
     @property
-    def tells_losses(self) -> bool:
+    def computes_losses(self) -> bool:
         """True if the friction losses of the pair can be computed.
 
         The computation needs a declared coefficient, or a friction law and the pitch-line speed.
@@ -403,7 +403,7 @@ class GearMesh(Shown, ABC):
 
         Both strings are "-" if the losses cannot be computed or the teeth cannot run.
         """
-        if not self.tells_losses or not self.verdict:
+        if not self.computes_losses or not self.verdict:
             return "-", "-"
         return self.efficiency(self.driver).text, self.efficiency(self.driven).text
 

@@ -105,10 +105,10 @@ def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) 
     directions = set()
     for name in pair:
         link, wheel = train.wheels[name]
-        stands = link in still
-        if wheel.kind != "spur" or any(link in lock for lock in train.locks) or (stands and carrier in still):
+        is_still = link in still
+        if wheel.kind != "spur" or any(link in lock for lock in train.locks) or (is_still and carrier in still):
             return False
-        axis = train.axes.get(tree.axis(carrier if stands else link) or "")
+        axis = train.axes.get(tree.axis(carrier if is_still else link) or "")
         directions.add(_Z_AXIS if axis is None else tuple(map(_value, axis.direction)))
     return len(directions) == 1
 

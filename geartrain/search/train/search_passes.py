@@ -187,12 +187,12 @@ class PassRunner:
         # tasks of later passes have higher numbers in the journal
         self.done += len(tasks)
 
-        def told(done: int, total: int) -> None:
+        def report_progress(done: int, total: int) -> None:
             if tell is not None:
                 tell(before + done, before + total)
 
         try:
-            yield from run(work, tasks, self.executor, journal, told)
+            yield from run(work, tasks, self.executor, journal, report_progress)
         except KeyboardInterrupt:
             self.stopped = True
 

@@ -41,7 +41,7 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
     """Return the friction terms on one flank, turning in its driving sense and backwards; None without friction."""
-    if not mesh.tells_losses or not mesh.has_friction:
+    if not mesh.computes_losses or not mesh.has_friction:
         return None
     losses = mesh.losses
     coefficient: Callable[[Floats], Floats | float] = lambda _: mesh.friction or 0.0  # noqa: E731

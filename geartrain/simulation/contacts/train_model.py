@@ -105,7 +105,7 @@ class TrainModel:
             found.append(
                 "backlash and impacts: the train has no tooth form, pin or efficiency, so all speed ratios are constant"
             )
-        left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.tells_losses]
+        left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.computes_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
         return tuple(found)
@@ -142,7 +142,7 @@ class TrainModel:
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
-            return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.has_friction and mesh.tells_losses)
+            return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.has_friction and mesh.computes_losses)
         gear = self._gears.get(circuit.id)
         return gear is not None and gear.efficiency is not None and gear.efficiency.forward.base < 1
 

@@ -225,9 +225,9 @@ def helical_root_stress(
         return None
     # virtual number of teeth in the normal section
     z = wheel.z / (cos(lean.base) ** 2 * cos(lean.helix))
-    stands_in = replace(wheel, z=z, tip=z / 2 + wheel.tip)
-    radius = outer_single_contact(stands_in, angle, contact_ratio)
-    found = root_stress(stands_in, angle, tangential, width, module, radius)
+    equivalent = replace(wheel, z=z, tip=z / 2 + wheel.tip)
+    radius = outer_single_contact(equivalent, angle, contact_ratio)
+    found = root_stress(equivalent, angle, tangential, width, module, radius)
     return replace(found, stress=found.stress * lean.Ybeta, Ybeta=lean.Ybeta)
 
 

@@ -219,7 +219,7 @@ def _transmission_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple
     if speed is None or efficiency is None:
         return (mesh.name, "-", "-", "-", "-")
     minimum, most = speed.relative
-    lost = efficiency.text if mesh.tells_losses else "-"
+    lost = efficiency.text if mesh.computes_losses else "-"
     jumps = ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
     return (mesh.name, f"{minimum:.5f}..{most:.5f}", figures.error_text, lost, jumps)
 

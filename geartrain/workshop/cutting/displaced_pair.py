@@ -266,13 +266,13 @@ class DisplacedPair:
         return SideTerms(driver, driven, j)
 
     @staticmethod
-    def _eccentric_terms(wheel: DisplacedWheel, turned: float, stands: float, across: float, along: float) -> Any:
+    def _eccentric_terms(wheel: DisplacedWheel, turned: float, phase: float, across: float, along: float) -> Any:
         """Return the lag [rad of the driven wheel] due to the eccentricity of a wheel, for each number n of pitches
         passed.
         """
         if not np.any(wheel.e):
             return 0.0
-        angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + stands
+        angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + phase
         angle = angle - np.asarray(wheel.towards)[..., None]
         return np.asarray(wheel.e)[..., None] * (across * np.sin(angle) + along * np.cos(angle))
 

@@ -394,16 +394,16 @@ class MeshingCycle:
     def dwells(self) -> Bools:
         """Return a mask (trials,) of dwells: a tooth pair leaves before a later pair touches its driven tooth."""
         front = self.front
-        stands: Any = np.array(self._all(self.front.reach > -inf))
+        dwelling: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
         for n in (*range(1, self._pairs_in_reach() + 1), -1):
             # indexed by the pair that takes over; the one n before it leaves
             x = self.ahead(n) - np.roll(self._all(front.reach), n, -1)
             y = np.where(x <= front.reach, self._held(front, x) - self.apart(n), inf)
-            stands &= np.roll(self._all(y), -n, -1) > limit
-            if not stands.any():
+            dwelling &= np.roll(self._all(y), -n, -1) > limit
+            if not dwelling.any():
                 break
-        found: Bools = stands.any(axis=1)
+        found: Bools = dwelling.any(axis=1)
         return found
 
     def clashes(self) -> Bools:
@@ -593,17 +593,17 @@ class _EntriesAndExits:
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
         clash = extreme_sum(*self._entering(1), np.maximum) > self.tip - near
-        stands = extreme_sum(*self._leaving(1), np.maximum) > -self.tip - near
-        found: Bools = np.broadcast_to(clash | stands, self.pair.trials).copy()
+        dwelling = extreme_sum(*self._leaving(1), np.maximum) > -self.tip - near
+        found: Bools = np.broadcast_to(clash | dwelling, self.pair.trials).copy()
         return found
 
     def events(self) -> tuple[Bools, Bools, Floats]:
         """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (or inf)."""
-        stands = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
+        dwelling = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
         y = self._minimum(self._entering)
         clash = (y > self.tip + self.small).any(axis=1)
         next_on = self._between(1)[1][:, np.arange(self.pair.count) % self.sizes.z2]
-        return clash, stands, np.where(stands, (y + next_on - self.tip).min(axis=1), inf)
+        return clash, dwelling, np.where(dwelling, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
         """Return the minimum over neighbouring tooth pairs for each tooth pair of the cycle (trials, tooth pairs)."""

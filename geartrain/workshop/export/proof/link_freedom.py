@@ -146,10 +146,10 @@ class _Motion:
         s1, s2, sk = senses
         ratio = turned.counts[0] / turned.counts[1] * (1 if turned.ring else -1)
         # a tooth of the first wheel faces a space of the second one on the line of centres
-        stands = pi / turned.counts[1] + (0.0 if turned.ring else pi)
+        start = pi / turned.counts[1] + (0.0 if turned.ring else pi)
         begin, end = self._tooth_angle(one, one, other, turned), self._tooth_angle(other, one, other, turned)
         t = begin + s1 * angles[first] - sk * angles[held]
-        lag = end + s2 * angles[second] - sk * angles[held] - stands - ratio * t
+        lag = end + s2 * angles[second] - sk * angles[held] - start - ratio * t
         near, lag = _wrapped(t, turned.pitches[0]), _wrapped(lag, turned.pitches[1])
         free = turned.free(np.array([near]), np.array([lag]))
         low, high = float(free.low[0]) - lag, float(free.high[0]) - lag

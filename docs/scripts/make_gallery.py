@@ -21,10 +21,10 @@ GROUPS = {
 }
 LEAD = """# Gallery
 
-This page lists all shipped trains, each with the speed of its first output. All trains are determined unless otherwise
-noted. The [site](contributing.md#documentation) shows the plan, the dials, the animated page and the report of each
-train; `geartrain view NAME -o x.html` writes the animated page. The files are in `trains/`; each file cites its
-sources.
+This page lists all shipped trains, each with the speed of its first output and the number of further outputs (`+20`).
+All trains are determined unless otherwise noted. The [site](contributing.md#documentation) shows the plan, the dials,
+the animated page and the report of each train; `geartrain view NAME -o x.html` writes the animated page. The files are
+in `trains/`; each file cites its sources.
 """
 MOST = 1
 

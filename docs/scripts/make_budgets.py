@@ -298,8 +298,8 @@ STATEMENTS = (
     ),
 )
 
-REST = """In most rows of the [table of trains](#largest-error-of-each-train), the largest cause is lost motion. To avoid
-lost motion, always turn the crank forward.
+REST = """In most rows of the [table of trains](#largest-error-of-each-train), the largest cause is lost motion. To
+avoid lost motion, always turn the crank forward.
 
 ## Assumptions
 

@@ -177,9 +177,10 @@ def digits(value: float) -> str:
 
 HEAD = """# Budgets of the pointers
 
-How large is the error of a pointer, and what causes it? `geartrain budget TRAIN` computes the contributions of five
-causes separately, in degrees at the pointer and in days, and sorts these contributions by size. If the data for a cause
-are not declared, the command reports "not declared"; it never assumes that the contribution is 0.
+How large is the error of a pointer, and which causes contribute to it? `geartrain budget TRAIN` computes the
+contributions of five causes separately, in degrees at the pointer and in days, and sorts these contributions by size.
+If the data for a cause are not declared, the command reports "not declared"; it never assumes that the contribution is
+0.
 
 ![Causes of the error of each pointer of freeth-2021](images/budget.svg)
 

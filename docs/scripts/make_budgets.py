@@ -177,18 +177,19 @@ def digits(value: float) -> str:
 
 HEAD = """# Budgets of the pointers
 
-How large is the error of a pointer, and what causes it? `geartrain budget TRAIN` computes the contributions of five
-causes separately, in degrees at the pointer and in days, and sorts these contributions by size. If the data for a cause
-are not declared, the command reports "not declared"; it never assumes that the contribution is 0.
+How large is the error of a pointer, and which causes contribute to it? `geartrain budget TRAIN` computes the
+contributions of five causes separately, in degrees at the pointer and in days, and sorts these contributions by size.
+If the data for a cause are not declared, the command reports "not declared"; it never assumes that the contribution is
+0.
 
 ![Causes of the error of each pointer of freeth-2021](images/budget.svg)
 
-*The eight pointers of `freeth-2021` with the largest errors, for assumed teeth.*
+*The eight pointers of `freeth-2021` with the largest errors, with assumed teeth.*
 
 ## Run it
 
-The train `freeth-2021` declares no tooth form. To examine the effect of real teeth, extend the train with an
-assumed tooth form:
+The train `freeth-2021` declares no tooth form. To examine the effect of real teeth, extend the train with an assumed
+tooth form:
 
 <!-- file: assumed.yaml -->
 ```yaml
@@ -208,7 +209,7 @@ $ geartrain budget assumed.yaml --of moon
 | cause | meaning | printed value, in degrees |
 |---|---|---|
 | ratio | the mean speed differs from the target | drift over the span |
-| theory | the anomaly of the pins differs from the true motion of Moon or Sun | peak to peak, at the best phase |
+| theory | the anomaly that the pins produce differs from that of the Moon or Sun | peak to peak, at the best phase |
 | teeth | transmission error of perfectly made teeth | peak to peak |
 | lost motion | backlash of the teeth if the crank is turned back | maximum |
 | cutting | pointer error due to deviations of teeth and wheels | central 95 % range of the Monte Carlo trials |
@@ -218,8 +219,8 @@ gains during the time $T$ is
 
 $$ 360^\\circ\\,(|w| - |t|)\\,T, \\tag{1} $$
 
-which is computed exactly. A target is a declared period or speed, such as a period that `geartrain periods` lists. If
-a pointer has several targets, an observed period takes precedence over a relation that the makers intended.
+which is computed exactly. A target is a declared period or speed, such as a period that `geartrain periods` lists. If a
+pointer has several targets, an observed period takes precedence over a period relation that the makers intended.
 
 **Theory.** If the teeth are perfect, the pins give the pointer an anomaly $d(\\varphi)$ at the phase $\\varphi$. The
 equation of centre of the true motion is $C(M) = \\nu - M$, where $M$ is the mean anomaly. The true anomaly $\\nu$
@@ -228,9 +229,10 @@ eccentricity $e$ is 0.0549 for the Moon and 0.0167 for the Sun. The theory error
 
 $$ d(\\varphi) - C(\\varphi + s) - \\text{mean}, \\tag{2} $$
 
-where $s$ is the phase that minimises the mean square of this error. If no pins drive the pointer, its theory error is
-the whole equation of centre $C$. If a pointer is read relative to another moving body, the ranges of both bodies are
-added. Evection (1.3 degrees) and variation (0.7 degrees) of the Moon are not included.
+where $s$ is the phase that minimises the mean square of this error, and the mean of the other terms is subtracted. If
+no pins drive the pointer, its theory error is the whole equation of centre $C$. If a pointer is read relative to
+another moving body, the peak-to-peak errors of both bodies are added. Evection (1.3 degrees) and variation (0.7
+degrees) of the Moon are not included.
 
 **Teeth and lost motion.** Let $e_f$ be the error of the pointer if all real teeth and pins are in contact on their
 drive flanks. Let $e_b$ be the error if they are in contact on their coast flanks, and $e_0$ the error with the same
@@ -240,9 +242,9 @@ $$ \\text{teeth} = e_f - e_0, \\qquad \\text{lost motion} = |e_b - e_f|. \\tag{3
 
 The backlash between a pin and its slot cannot be declared, so it is reported as unknown.
 
-**Cutting.** In each Monte Carlo trial, the deviations of the teeth and wheels are drawn at random ([cut by
-hand](cut-by-hand.md)). If $e_c$ is the error of the pointer in a trial at a random position, the contribution of
-cutting is the range from the 2.5th to the 97.5th percentile of
+**Cutting.** In each Monte Carlo trial, the deviations of the teeth and wheels are drawn at random
+([cut by hand](cut-by-hand.md)). If $e_c$ is the error of the pointer in a trial at a random position of the crank, the
+contribution of cutting is the range from the 2.5th to the 97.5th percentile of
 
 $$ e_c - (e_f - e_0), \\tag{4} $$
 
@@ -257,8 +259,10 @@ error.
 
 For each shipped train in its first state, the table lists the pointer with the largest total error and the two largest
 contributions to this error, in degrees. "Assumed" means that the train declares no teeth, so the budget assumes the
-teeth of the example and bearing friction at every pointer. "None" means that triangular teeth cannot be assumed,
-because triangular wheels with these tooth counts cannot turn. """
+teeth of the example and bearing friction at every pointer. "Partly assumed" means that the train declares teeth, but
+some of its other data are assumed. "None" means that triangular teeth cannot be assumed, because triangular wheels with
+these tooth counts cannot turn.
+"""
 
 PUBLISHED = """## Published statements
 
@@ -274,7 +278,8 @@ STATEMENTS = (
         " with pitch-true radii, whereas the theory error is {moon_theory}",
     ),
     (
-        '"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement" (same)',
+        '"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement" (same'
+        " abstract)",
         "Confirmed: at least one pair jams in {jams} % of the trials. Only a few pairs of very unequal wheels jam",
     ),
     (
@@ -284,24 +289,25 @@ STATEMENTS = (
     ),
     (
         'Inaccuracies "would have cancelled out many of the subtle anomalies" (Wikipedia 2017, second-hand)',
-        "Incorrect for the Moon's anomaly ({uniform_theory} peak to peak), which remains visible. Correct for the"
-        " agreement of this anomaly with the true Moon to within {moon_theory}",
+        "Incorrect for the Moon's anomaly ({uniform_theory} peak to peak), which remains visible. Correct for finer"
+        " details, such as the difference of {moon_theory} between this anomaly and that of the true Moon",
     ),
     (
         "The indicated Moon could be wrong by 20 degrees (Edmunds and Freeth 2011, second-hand)",
-        "Confirmed for pitch deviations of 0.3 deg ([cut by hand](cut-by-hand.md)), and for any deviations if the"
-        " crank is turned back: {moon_lost_motion}",
+        "Confirmed for pitch deviations of 0.3 deg ([cut by hand](cut-by-hand.md)), and for deviations of any size if"
+        " the crank is turned back (lost motion {moon_lost_motion})",
     ),
 )
 
-REST = """Lost motion is the largest error of nearly every pointer. To avoid lost motion, always turn the crank forward.
+REST = """In most rows of the [table of trains](#largest-error-of-each-train), the largest cause is lost motion. To
+avoid lost motion, always turn the crank forward.
 
 ## Assumptions
 
 - The driven wheels are braked, so that the flanks remain in contact while the crank turns in one direction. Teeth and
   arbors are rigid. Bearings have no clearance unless `fitting` declares it.
 - The eccentricities are modern values (NASA's planetary fact sheets). Two thousand years ago, the eccentricity of the
-  Sun was 0.0176, which changes its equation of centre by one twentieth.
+  Sun was 0.0176, so its equation of centre was one twentieth larger.
 - The true motions of the planets are not modelled.
 
 This page is written by `python docs/scripts/make_budgets.py`.

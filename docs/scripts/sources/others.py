@@ -190,7 +190,7 @@ def rows() -> Iterator[Row]:
 
 SOURCE = Source(
     "Other publications",
-    "Other shipped trains are based on these publications",
+    "Shipped trains not based on the four sources above are based on the publications in these tables",
     "`geartrain report TRAIN` lists the errata of a train with their reasons.",
     tuple(rows()),
 )

@@ -317,7 +317,7 @@ def work_and_stress() -> Iterator[Row]:
         "Footnote 6",
         "45 deg makes involutes most efficient",
         "heights()",
-        "only at one height of the tooth; at one arc all are equal",
+        "only for equal tooth heights; for equal arcs, all pressure angles are equally efficient",
     )
     yield equation("Eq. (47)", "normal force of a torque, spur", "forces('spur')", Equal(ONCE))
     yield equation("Eq. (48)", "normal force of a rack", "rack_force()", Equal())

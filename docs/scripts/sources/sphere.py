@@ -387,6 +387,7 @@ def sizes() -> Iterator[Row]:
 SOURCE = Source(
     "Sphere",
     "Anonymous, Spherical Configuration of Rounded Gears - A Derivation (a web log)",
-    "Lengths are measured on a dodecahedron that geartrain constructs. The ratio 5/3 is realised by 20 and 12 teeth.",
+    "Lengths are measured on a dodecahedron that geartrain constructs."
+    " For the note's ratio of 5/3, it uses 20 and 12 teeth.",
     tuple(row for part in (introduction, first_steps, angles, sizes) for row in part()),
 )

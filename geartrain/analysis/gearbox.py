@@ -232,7 +232,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
     every = {name: _slip(speeds, clutch) for name, clutch in declared.clutches.items() if name not in engaged}
     slips = {name: slip for name, slip in every.items() if slip is not None}
     out, load = speeds.get(link), _load(train, state, source, link) if answer.verdict else None
-    # how equal planets share a load is not determined, but their common power flow is
+    # equal planets count as one, so that the mesh power is their common power
     shared = load if train.planets_as_one is train else _load(train.planets_as_one, state, source, link)
     return GearState(
         state,

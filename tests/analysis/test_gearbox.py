@@ -77,7 +77,7 @@ def test_a_positive_recirculation_is_between_sets_and_not_inside_them() -> None:
     assert states["R"].recirculating > Fraction(1, 2)
     assert all(each.recirculating == 0 for name, each in states.items() if name != "R")
     ravigneaux = load("ravigneaux-set")
-    # how three long and three short planets share the load is unknown, and does not affect the power between the sets
+    # the number of planets does not affect the power between the sets
     three = ravigneaux.with_changes(links={planet: {"copies": 3} for planet in ("SHORT", "LONG")})
     assert all(each.recirculating == 0 for train in (ravigneaux, three) for each in train.gearbox().states)
 

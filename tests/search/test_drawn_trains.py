@@ -37,7 +37,7 @@ def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
             assert not everything & set(found)
             everything |= set(found)
             tried += each.solutions > 1
-    assert tried > (3 if rings else 20)
+    assert tried > (3 if rings else 10)
 
 
 @pytest.mark.slow

@@ -185,7 +185,7 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
     functions: dict[str, TransmissionFunction] = {
         mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid
     }
-    functions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
+    functions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.couplings}
     if not functions:
         raise QuestionError(Problem("every pair with a tooth form keeps its exact ratio" if train.meshes else _NO_FORM))
     import numpy as np
@@ -222,7 +222,7 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Yield rows on motion: composition (with numpy, compiled, from tables) and first-order superposition."""
-    if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
+    if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
 

@@ -14,7 +14,7 @@ from geartrain.kinematics.graph import build_graph
 from geartrain.numerics.lazy_graph import Lazy, LazyDict
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.dynamics.gear_meshes import CouplingMesh
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.answer import Answer
@@ -151,7 +151,7 @@ class _GraphFacts:
         circuit, tree = self._circuits[name], self._train.tree
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
-    def mesh(self, name: str) -> GearMesh | PinMesh | None:
+    def mesh(self, name: str) -> GearMesh | CouplingMesh | None:
         """Return the gear pair with tooth geometry and its driving wheel in this state, or the pin with dimensions;
         None for a pair or coupling without teeth or dimensions.
         """
@@ -174,7 +174,7 @@ class _GraphFacts:
 
     @cached_property
     def _meshes(self) -> Mapping[str, Any]:
-        pins = {pin.coupling.name: pin for pin in self._train.pins}
+        pins = {pin.coupling.name: pin for pin in self._train.couplings}
         return {mesh.name: mesh for mesh in self._train.meshes_in(self._state)} | pins
 
     @cached_property
@@ -184,4 +184,4 @@ class _GraphFacts:
 
         own = self._train
         case, meshes = own.kinematics.cases[self._state], {mesh.name: mesh for mesh in own.meshes}
-        return LoadCase(own.declaration, own.tree, own.circuits, own.signs, case, {}, meshes, own.pins)
+        return LoadCase(own.declaration, own.tree, own.circuits, own.signs, case, {}, meshes, own.couplings)

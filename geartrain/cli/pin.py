@@ -31,8 +31,8 @@ def run(
     Example: `geartrain pin 9.6mm 1.1mm`.
     """
     from geartrain.report.pair_page import describe_pin
+    from geartrain.teeth.couplings.pins import pin_transmission
     from geartrain.teeth.pair_results import pin_figures
-    from geartrain.teeth.pin_coupling import pin_transmission
 
     to = sink(out, force, (".md", ".html", ".json"))
     rub = read_friction(friction)

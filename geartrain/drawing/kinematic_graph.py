@@ -93,7 +93,8 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
         ends = (wheels[gear.pair[0]][0], wheels[gear.pair[1]][0])
         found.append(GraphEdge(ends, "gear", gear.name, gear.name in broken))
     for coupling in declared.couplings:
-        found.append(GraphEdge((coupling.pin, coupling.slot), "coupling", coupling.name, coupling.name in broken))
+        for row in coupling.rows(wheels):
+            found.append(GraphEdge((row.driver, row.driven), "coupling", row.id, row.id in broken))
     return found
 
 

@@ -413,7 +413,9 @@ class _Drawing:
 
     def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton) -> None:
         self.axes, self.train, self.skeleton = axes, train, skeleton
-        self.couplings = {each.name: each for each in train.declaration.couplings}
+        self.couplings = {
+            row.id: each for each in train.declaration.couplings for row in each.rows(train.declaration.wheels)
+        }
         self.feet: dict[str, tuple[float, float]] = {}
         self.words = StickLabels()
         for mesh in skeleton.meshes:
@@ -478,13 +480,14 @@ class _Drawing:
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
         """Draw a pin in its slot; for links that a coupling keeps parallel, two bars side by side."""
         coupling = self.couplings[mesh.name]
-        parallel = coupling.kind == "parallel"
+        pin = getattr(coupling, "pin", None)
+        parallel = coupling.kind == "parallel" or pin is None
         for link, foot, side in zip(mesh.ends, (low, high), (-1, 1), strict=True):
             end = mesh.meet + 0.03 * side * parallel
             self._line([mesh.x, mesh.x], [foot, end], PURPLE, _COUPLING, zorder=3, gid=f"coupling {mesh.name}")
             if parallel:
                 self._line([mesh.x - _TICK, mesh.x + _TICK], [end, end], PURPLE, _COUPLING, zorder=5)
-            elif link == coupling.pin:
+            elif link == pin:
                 self.axes.plot([mesh.x], [mesh.meet], "o", color=PURPLE, markersize=5, zorder=5)
             else:
                 box = Rectangle((mesh.x - 0.05, mesh.meet - 0.1), 0.1, 0.2, zorder=4)

@@ -1,4 +1,4 @@
-"""Gear meshes with declared tooth forms, and pin-and-slot couplings with declared dimensions, built from the
+"""Gear meshes with declared tooth forms, and couplings with variable ratio, built from the
 declaration of a train.
 
 The module also computes tooth sizes if only the tooth shape is declared. Triangular teeth are determined up to a scale
@@ -22,8 +22,10 @@ from geartrain.train import GearPair, Train, Wheel
 
 if TYPE_CHECKING:
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
-    from geartrain.teeth.pin_coupling import Coupling
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
+    from geartrain.teeth.coupling import Coupling
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
+    from geartrain.teeth.couplings.pins import PinCoupling
+    from geartrain.teeth.transmission import TransmissionFunction
 
 
 ShaftAngle = Callable[[GearPair], float | None]
@@ -31,10 +33,18 @@ ShaftAngle = Callable[[GearPair], float | None]
 
 
 @dataclass(frozen=True)
-class PinMesh:
-    """Coupling by pin and slot with declared dimensions, and its transmission function."""
+class CouplingMesh:
+    """Coupling with variable ratio and declared dimensions, and its transmission function."""
 
     coupling: Coupling
+    transmission: TransmissionFunction
+
+
+@dataclass(frozen=True)
+class PinMesh(CouplingMesh):
+    """Coupling by pin and slot with declared dimensions, and its transmission function."""
+
+    coupling: PinCoupling
     transmission: PinToSlotTransmission
 
     @property
@@ -42,7 +52,7 @@ class PinMesh:
         """Transmission function with the slot driving the pin. Raises `RangeError` for a pin follower, whose slot only
         oscillates and cannot drive the pin.
         """
-        from geartrain.teeth.pin_transmission import SlotToPinTransmission
+        from geartrain.teeth.couplings.pin_transmission import SlotToPinTransmission
 
         return SlotToPinTransmission(self.transmission.r, self.transmission.e, self.transmission.friction)
 
@@ -130,13 +140,14 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
     return sum(halves) if len(halves) == len(wheels) else None
 
 
-def find_pins(train: Train) -> tuple[PinMesh, ...]:
-    """Return all couplings that declare `pin_radius` and have a transmission function."""
-    return tuple(
-        PinMesh(coupling, coupling.transmission)
-        for coupling in train.couplings
-        if coupling.pin_radius and coupling.transmission
-    )
+def find_couplings(train: Train) -> tuple[CouplingMesh, ...]:
+    """Return all couplings that have a transmission function."""
+    pins = {each.name for each in train.pin_couplings}
+    found: list[CouplingMesh] = []
+    for coupling in train.couplings:
+        if (transmission := coupling.transmission) is not None:
+            found.append((PinMesh if coupling.name in pins else CouplingMesh)(coupling, transmission))  # type: ignore[arg-type]
+    return tuple(found)
 
 
 def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:

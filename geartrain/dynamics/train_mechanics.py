@@ -17,7 +17,7 @@ from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.results import Shown
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.dynamics.gear_meshes import CouplingMesh, PinMesh
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.teeth.gear_mesh import GearMesh
@@ -171,13 +171,22 @@ class TrainMechanics(Shown):
         return at_own_speeds(driven, self.load_case(state))
 
     @cached_property
-    def pins(self) -> tuple[PinMesh, ...]:
-        """Pin-and-slot couplings with declared dimensions, each with its transmission function."""
+    def couplings(self) -> tuple[CouplingMesh, ...]:
+        """Couplings with variable ratio and declared dimensions, each with its transmission function."""
         if not self.declaration.couplings:
             return ()
-        from geartrain.dynamics.gear_meshes import find_pins
+        from geartrain.dynamics.gear_meshes import find_couplings
 
-        return find_pins(self.declaration)
+        return find_couplings(self.declaration)
+
+    @property
+    def pins(self) -> tuple[PinMesh, ...]:
+        """Couplings of `couplings` by pin and slot."""
+        if not self.couplings:
+            return ()
+        from geartrain.dynamics.gear_meshes import PinMesh
+
+        return tuple(each for each in self.couplings if isinstance(each, PinMesh))
 
     # ------------------------------------------------------------------------------------------------ loads and motion
 
@@ -226,7 +235,15 @@ class TrainMechanics(Shown):
             return None
         forms = speed_forms(own.equations(case.state)) if solution.verdict.kind == "free" else {}
         return LoadCase(
-            self.declaration, own.tree, own.circuits, own.signs, case, solution.speeds, self.undriven, self.pins, forms
+            self.declaration,
+            own.tree,
+            own.circuits,
+            own.signs,
+            case,
+            solution.speeds,
+            self.undriven,
+            self.couplings,
+            forms,
         )
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def build_graph(train: Train) -> Graph:
     """Return a graph with links as vertices, and turning pairs, gear pairs and couplings as edges.
 
-    Edges have the data `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (axis, or
+    Edges have the data `kind` (revolute, gear, or the kind of a coupling), `label` (axis, or
     name of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or
     coupling; turning pairs have the keys `revolute 0`, `revolute 1` etc. in the order of the declaration.
     """
@@ -48,7 +48,8 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
         first, second = (wheels[wheel][0] for wheel in gear.pair)
         yield (first, second), gear.name, "gear", gear.name, gear
     for coupling in train.couplings:
-        yield (coupling.pin, coupling.slot), coupling.name, coupling.kind, coupling.name, coupling
+        for row in coupling.rows(wheels):
+            yield (row.driver, row.driven), row.id, coupling.kind, row.id, coupling
 
 
 MOST_SQUARE = 48
@@ -108,7 +109,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
     graph : networkx.MultiGraph
         `GearTrain.graph`.
     kinds : iterable of str
-        Kinds of edges to count: revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel; by default all.
+        Kinds of edges to count: revolute, gear, or kinds of couplings; by default all.
 
     Returns
     -------
@@ -237,7 +238,7 @@ def _edge_text(data: dict[str, Any]) -> dict[str, str]:
     if data["kind"] == "gear":
         text |= {"first_wheel": declared.pair[0], "second_wheel": declared.pair[1]}
     elif data["kind"] != "revolute":
-        text |= {"pin": declared.pin, "slot": declared.slot}
+        text |= dict(zip(declared.ENDS, declared.ends, strict=True)) if len(declared.ENDS) == 2 else {}
     return text
 
 

@@ -17,7 +17,7 @@ from geartrain.kinematics.circuits import Tree
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.numerics.vectors import minus, plus, turned
-from geartrain.teeth.pin_coupling import Coupling, Parallel, PinsInHoles
+from geartrain.teeth.coupling import Coupling
 from geartrain.train import GearPair, Link, Train
 from geartrain.train.mechanism import Axis, Revolute
 
@@ -175,7 +175,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
         if len(counts) > 1 and 1 not in counts:
             yield _unequal(train, first, second, "gears", at)
     for at, coupling in enumerate(train.couplings):
-        for link in (coupling.pin, coupling.slot):
+        for link in coupling.links(train.wheels):
             if train.links[link].copies > 1 and not _allows_copies(train, coupling):
                 what = f"coupling '{coupling.name}' cannot join {train.links[link].copies} equal links '{link}'"
                 fix = "declare these links one by one, each with its coupling"
@@ -185,8 +185,8 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
 
 def _allows_copies(train: Train, coupling: Coupling) -> bool:
     """Return True if the coupling keeps each of several equal links parallel to one other link."""
-    counts = {train.links[link].copies for link in (coupling.pin, coupling.slot)}
-    return isinstance(coupling, Parallel | PinsInHoles) and 1 in counts
+    counts = {train.links[link].copies for link in coupling.links(train.wheels)}
+    return coupling.FOR_COPIES and 1 in counts
 
 
 def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
@@ -219,7 +219,9 @@ class _Expansion:
         gears = self._all_copies(
             self.declared.gears, lambda gear: [self.declared.wheels[wheel][0] for wheel in gear.pair], self._gear
         )
-        couplings = self._all_copies(self.declared.couplings, lambda each: (each.pin, each.slot), self._coupling)
+        couplings = self._all_copies(
+            self.declared.couplings, lambda each: each.links(self.declared.wheels), self._coupling
+        )
         counts = [_pair_count(self.declared, gear) for gear in self.declared.gears]
         states = self.declared.states
         made = self.declared.changed(
@@ -276,12 +278,8 @@ class _Expansion:
         return gear.changed(pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _copy_name(gear.id, at))
 
     def _coupling(self, coupling: Coupling, at: int) -> Coupling:
-        named = {
-            "pin": self._copied_link(coupling.pin, at),
-            "slot": self._copied_link(coupling.slot, at),
-            "id": coupling.id and _copy_name(coupling.id, at),
-        }
-        return coupling.model_copy(update=named)
+        links = {link: self._copied_link(link, at) for link in coupling.ends}
+        return coupling.renamed(links, coupling.id and _copy_name(coupling.id, at))
 
     def _wheel(self, wheel: str, at: int) -> str:
         return _copy_name(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel

@@ -245,7 +245,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 def ripples(train: GearTrain) -> bool:
     """Return True if a pin has dimensions, or if the speed ratio of a gear pair varies within a turn."""
-    return bool(train.mechanics.pins) or any(not mesh.rigid for mesh in train.meshes)
+    return bool(train.mechanics.couplings) or any(not mesh.rigid for mesh in train.meshes)
 
 
 # ----------------------------------------------------------------------------------------------------------------- page

@@ -26,10 +26,10 @@ from geartrain.teeth.triangular.triangular_transmission import contact_course
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import PairImpacts, PairOperation
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
+    from geartrain.teeth.couplings.pin_transmission import PinTransmission
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.outlines.wheel_outline import WheelOutline
     from geartrain.teeth.pair_results import PairFigures
-    from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
     from geartrain.teeth.triangular.triangular_transmission import ContactCourse, TriangularTransmission

@@ -202,7 +202,7 @@ def _torques(train: GearTrain, loaded: Sequence[str | None]) -> tuple[TorqueFigu
 
 
 def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
-    if not (whole and (train.mechanics.teeth or train.mechanics.pins)):
+    if not (whole and (train.mechanics.teeth or train.mechanics.couplings)):
         return {"teeth": (), "pins": (), "motion": ()}
     from geartrain.report.gear_pairs import driven_pairs, driven_pins
     from geartrain.report.motion_report import collect_motions

@@ -270,25 +270,18 @@ def _circuits(train: GearTrain) -> Section:
     return Section("Fundamental circuits", (text, *more), tables)
 
 
-_ENDS = {
-    "pin_and_slot": ("slot", "pin"),
-    "pin_follower": ("slot", "pin"),
-    "pins_in_holes": ("holes", "pins"),
-    "parallel": ("1", "1"),
-}
-"""Names of the two sides of a pin-and-slot coupling, which has no wheels."""
-
-
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
     """Return a table with one column for each fundamental circuit, and rows for its links, carrier, tooth counts and
     ratio.
     """
+    from geartrain.teeth.coupling import coupling_model
+
     wheels = declared.wheels
 
     def teeth(circuit: Circuit, side: int) -> str:
         name = circuit.wheels[side]
         if circuit.kind != "gear":
-            return _ENDS[circuit.kind][side]
+            return coupling_model(circuit.kind).SIDES[side]
         return f"{name} {wheels[name][1].count}"
 
     rows = [

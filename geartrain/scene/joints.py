@@ -10,12 +10,12 @@ from geartrain.numerics.vectors import Vector, across, beside, dot, minus, plus,
 from geartrain.scene.context import SceneContext
 from geartrain.scene.elements import SceneCoupling, ScenePair, SceneShiftElement
 from geartrain.scene.movement import MovementStart
-from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
+from geartrain.teeth.couplings.pins import Parallel, PinsInHoles
 
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Loop
     from geartrain.kinematics.circuits import Circuit
-    from geartrain.teeth.pin_coupling import Coupling as Declared
+    from geartrain.teeth.couplings.pins import PinCoupling as Declared
 
 
 def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
@@ -114,7 +114,7 @@ _NONE = 1e-9  # mm: smaller distances are rounding errors
 def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoupling, ...]:
     """Return all couplings by pins in the order declared."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
-    drawn = (each for each in stage.train.declaration.couplings if not isinstance(each, Parallel))
+    drawn = (each for each in stage.train.declaration.pin_couplings if not isinstance(each, Parallel))
     return tuple(_coupling(stage, moved, circuits[each.name], each) for each in drawn)
 
 
@@ -155,7 +155,7 @@ def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, a
     """
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
-        same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
+        same = (each for each in stage.train.declaration.pin_couplings if isinstance(each, PinsInHoles))
         first = next(each for each in same if each.pin == declared.pin)  # its pins pass through all discs
         between = across(minus(_point(stage, tree.axis(first.slot)), middle), axis)
         towards = unit_or_z(between) if size(between) > _NONE else towards

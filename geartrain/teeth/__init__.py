@@ -23,8 +23,7 @@ form_comparison               conjugate forms compared with the 20 degree involu
 contact_coefficients          declared coefficients of Coulomb friction and restitution
 friction_law                  friction that depends on speed (Stribeck, Buckingham, Dokos, a table)
 rubbed_transmission           losses of a pair under such friction
-pin_coupling                  declared couplings by pins in slots and holes
-pin_transmission              their transmission functions
+coupling, couplings           base class and kinds of couplings other than gear pairs, such as pins in slots
 cycloidal_disc                lobed disc in a ring of pins (shortened epitrochoid)
 
 conjugate                     teeth from their path of contact, for spur and bevel wheels
@@ -45,6 +44,7 @@ from geartrain.teeth.any_tooth_form import TOOTH_FORMS
 
 if TYPE_CHECKING:
     from geartrain.teeth.circular_arc import CircularArc
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
     from geartrain.teeth.cycloidal import Cycloidal
     from geartrain.teeth.form_comparison import compare_forms
     from geartrain.teeth.friction_law import (
@@ -63,7 +63,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.pair_results import PairVerdict, SlidingEfficiency, SpeedRatio, TransmissionError
     from geartrain.teeth.pin_ring import PinRing
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
     from geartrain.teeth.rubbed_transmission import RubbedTransmission
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.teeth.triangular import Triangular
@@ -109,7 +108,7 @@ _PLACES = {
     ),
     "GearMesh": "gear_mesh",
     **dict.fromkeys(("PairVerdict", "SlidingEfficiency", "SpeedRatio", "TransmissionError"), "pair_results"),
-    **dict.fromkeys(("PinToSlotTransmission", "SlotToPinTransmission"), "pin_transmission"),
+    **dict.fromkeys(("PinToSlotTransmission", "SlotToPinTransmission"), "couplings.pin_transmission"),
     "RubbedTransmission": "rubbed_transmission",
     "TransmissionFunction": "transmission",
     "compare_forms": "form_comparison",

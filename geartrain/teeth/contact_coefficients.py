@@ -20,7 +20,7 @@ from pydantic import (
     model_validator,
 )
 
-from geartrain.numerics.quantity import Figure, Friction, bad, parse_friction
+from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, parse_friction
 
 
 class CoulombFriction(BaseModel):
@@ -77,3 +77,51 @@ def _check_restitution(figure: Figure) -> Figure:
 
 DeclaredRestitution = Annotated[Figure, AfterValidator(_check_restitution)]
 """Coefficient of restitution, 0 to 1."""
+
+
+def _at_most_one(efficiency: Quantity) -> Quantity:
+    if efficiency.base > 1:
+        # a number up to 100 was probably meant as a percentage
+        meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
+        fix = f"for example, write 0.98 or {meant}; no pair transmits more power than it receives"
+        raise bad("efficiency", f"an efficiency of {efficiency.text} is above 1", fix)
+    return efficiency
+
+
+Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
+
+
+class Efficiencies(BaseModel):
+    """Basic efficiency of a pair (carrier fixed) for each driving side: a number up to 1, or a percentage.
+
+    A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    forward: Efficiency = Field(
+        description="Efficiency with the first wheel driving, at most 1; 0 or less means self-locking"
+    )
+    backward: Efficiency = Field(
+        description="Efficiency with the second wheel driving, at most 1; 0 or less means self-locking"
+    )
+
+    @model_validator(mode="after")
+    def _check_directions(self) -> Efficiencies:
+        if self.forward.base <= 0 and self.backward.base <= 0:
+            what = f"an efficiency of {self.forward.text} transmits no power in either direction"
+            raise bad("efficiency", what, "give an efficiency above 0 and at most 1, such as 0.98 or 98 %")
+        return self
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Return the schema of the keys, and of a single value for both directions."""
+        return {"anyOf": [{"type": ["number", "string"]}, handler(schema)]}
+
+
+def _efficiency(raw: object) -> object:
+    return raw if isinstance(raw, dict | Efficiencies) else {"forward": raw, "backward": raw}
+
+
+DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
+"""Basic efficiencies, or one number for both directions."""

@@ -15,7 +15,7 @@ from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result, finite
 
 if TYPE_CHECKING:
-    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.couplings.pin_transmission import PinTransmission
     from geartrain.teeth.transmission import TransmissionFunction
 
 

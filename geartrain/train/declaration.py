@@ -19,10 +19,11 @@ from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import Figure, PairDamping, PairStiffness, Quantity, Speed, Torque, in_unit, same_kind
 from geartrain.numerics.results import summary_line
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
-from geartrain.teeth.pin_coupling import Coupling
+from geartrain.teeth.coupling import Coupling
 from geartrain.train.fields import (
     ByName,
     Declared,
+    DeclaredCoupling,
     DeclaredFriction,
     DeclaredToothForm,
     ExpectedVerdict,
@@ -38,6 +39,7 @@ from geartrain.train.reconstruction import Reconstruction
 from geartrain.train.states import Clutch, Drive, Erratum, Escapement, Remove, State, StateCase
 
 if TYPE_CHECKING:
+    from geartrain.teeth.couplings.pins import PinCoupling
     from geartrain.teeth.friction_law import FrictionLaw
 
 
@@ -178,9 +180,7 @@ class Train(Declared):
     )
     revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs in mesh")
-    couplings: tuple[Coupling, ...] = Field(
-        (), description="Couplings: pins in slots, pins in holes, links kept parallel"
-    )
+    couplings: tuple[DeclaredCoupling, ...] = Field((), description="Couplings of links other than gear pairs")
     inputs: ByName[Speed] = Field(
         {},
         validate_default=True,
@@ -288,10 +288,12 @@ class Train(Declared):
 
         Parameters
         ----------
-        part : GearPair or PinAndSlot or PinFollower
+        part : GearPair or Coupling
             Gear pair or coupling of this train.
         """
-        return friction_in_force(part.friction or (self.friction if isinstance(part, GearPair) else None))
+        if isinstance(part, GearPair):
+            return friction_in_force(part.friction or self.friction)
+        return friction_in_force(getattr(part, "friction", None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
         """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of
@@ -323,11 +325,21 @@ class Train(Declared):
 
         Parameters
         ----------
-        part : GearPair or PinAndSlot or PinFollower
+        part : GearPair or Coupling
             Gear pair or coupling of this train.
         """
-        found = self.restitution if part.restitution is None else part.restitution
+        own = getattr(part, "restitution", None)
+        found = self.restitution if own is None else own
         return None if found is None else float(found.value)
+
+    @property
+    def pin_couplings(self) -> tuple[PinCoupling, ...]:
+        """Couplings by a pin or pins, in the order declared; also links kept parallel by any device."""
+        if not self.couplings:
+            return ()
+        from geartrain.teeth.couplings.pins import PinCoupling
+
+        return tuple(each for each in self.couplings if isinstance(each, PinCoupling))
 
     @property
     def cases(self) -> tuple[StateCase, ...]:

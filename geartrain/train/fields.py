@@ -26,6 +26,7 @@ from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.results import summary_line, values_summary
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
+from geartrain.teeth.coupling import COUPLINGS, coupling_model
 
 MOST_TEETH = 10**12
 
@@ -185,16 +186,18 @@ Nothing = BeforeValidator(_empty_for_nothing)
 
 
 @cache
-def _form_reader(*names: str) -> TypeAdapter[Any]:
-    """Return the validator of the union of the given tooth forms; no other tooth form is imported."""
+def _union_reader(key: str, *names: str) -> TypeAdapter[Any]:
+    """Return the validator of the union of the given tooth forms (key `form`) or couplings (key `kind`); no other model
+    is imported.
+    """
+    model = tooth_form if key == "form" else coupling_model
 
-    class Forms:
+    class Models:
         @classmethod
         def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-            forms = {name: handler.generate_schema(tooth_form(name)) for name in names}
-            return core_schema.tagged_union_schema(forms, "form")
+            return core_schema.tagged_union_schema({name: handler.generate_schema(model(name)) for name in names}, key)
 
-    return TypeAdapter(Forms)
+    return TypeAdapter(Models)
 
 
 @cache
@@ -234,13 +237,20 @@ def _read_tooth_form(raw: Any) -> Any:
 
     An unknown name is validated against all forms, so that the error lists their names.
     """
-    keys = {"form": raw} if isinstance(raw, str) else raw
-    name = keys.get("form") if isinstance(keys, dict) else getattr(keys, "form", None)
-    known = isinstance(name, str) and name in TOOTH_FORMS
-    form = _form_reader(*([name] if known else TOOTH_FORMS)).validate_python(keys)
-    # pydantic builds only the validators of a union's members; writing a form needs its serializer
-    type(form).model_rebuild()
-    return form
+    return _read_model({"form": raw} if isinstance(raw, str) else raw, "form", TOOTH_FORMS)
+
+
+def _read_coupling(raw: Any) -> Any:
+    """Return a coupling from its keys. An unknown kind is validated against all kinds, so that the error lists them."""
+    return _read_model(raw, "kind", COUPLINGS)
+
+
+def _read_model(keys: Any, key: str, known: Mapping[str, object]) -> Any:
+    name = keys.get(key) if isinstance(keys, dict) else getattr(keys, key, None)
+    read = _union_reader(key, *([name] if isinstance(name, str) and name in known else known)).validate_python(keys)
+    # pydantic builds only the validators of a union's members; writing a model needs its serializer
+    type(read).model_rebuild()
+    return read
 
 
 @cache
@@ -249,10 +259,12 @@ def _coulomb_friction() -> TypeAdapter[Any]:
 
 
 if TYPE_CHECKING:
+    from geartrain.teeth.coupling import Coupling
     from geartrain.teeth.friction_law import FrictionLaw
     from geartrain.teeth.tooth_form import ToothForm
 
     DeclaredToothForm = ToothForm
+    DeclaredCoupling = Coupling
     DeclaredFriction = CoulombFriction | FrictionLaw
 else:
 
@@ -277,4 +289,15 @@ else:
 
         @classmethod
         def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-            return {"anyOf": [{"enum": [*TOOTH_FORMS]}, handler(_form_reader(*TOOTH_FORMS).core_schema)]}
+            return {"anyOf": [{"enum": [*TOOTH_FORMS]}, handler(_union_reader("form", *TOOTH_FORMS).core_schema)]}
+
+    class DeclaredCoupling:
+        """A coupling as an entry of a model. Its kind is imported when a declaration names it."""
+
+        @classmethod
+        def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
+            return core_schema.no_info_plain_validator_function(_read_coupling)
+
+        @classmethod
+        def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+            return handler(_union_reader("kind", *COUPLINGS).core_schema)

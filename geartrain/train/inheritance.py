@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import DeclarationError, Loc, Problem, suggest
+from geartrain.teeth.coupling import COUPLING_ENDS
 from geartrain.train.validation import declare, written_out
 from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
@@ -133,8 +134,14 @@ def _pair_name(node: YamlNode) -> str:
 
 
 def _coupling_name(node: YamlNode) -> str:
-    given, pin, slot = (node.mapping.get(key) for key in ("id", "pin", "slot"))
-    return given.text if given else f"{pin.text if pin else ''}~{slot.text if slot else ''}"
+    given = node.mapping.get("id")
+    return given.text if given else "~".join(_coupling_ends(node)[:2])
+
+
+def _coupling_ends(node: YamlNode) -> list[str]:
+    """Return the names of the links or wheels that a coupling joins, the first one driving."""
+    given = (node.mapping[key] for key in COUPLING_ENDS if key in node.mapping)
+    return [name for each in given for name in (each.mapping or texts(each))]
 
 
 def _merge_lists(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], object]) -> YamlNode:
@@ -174,7 +181,7 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
     for key, ends, removed in (
         ("revolutes", lambda node: texts(node.mapping.get("pair")), links),
         ("gears", lambda node: texts(node.mapping.get("pair")), wheels),
-        ("couplings", lambda node: (node.mapping[end].text for end in ("pin", "slot") if end in node.mapping), links),
+        ("couplings", _coupling_ends, links | wheels),
     ):
         if key in result:
             entries, named = result[key].items, gone.get(key, ())

@@ -12,7 +12,6 @@ from math import cos
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import (
-    AfterValidator,
     BeforeValidator,
     Discriminator,
     Field,
@@ -32,7 +31,6 @@ from geartrain.numerics.quantity import (
     PairDamping,
     PairStiffness,
     Quantity,
-    Share,
     Torque,
     TorsionalDamping,
     above_zero,
@@ -42,7 +40,7 @@ from geartrain.numerics.quantity import (
     not_below_zero,
 )
 from geartrain.numerics.vectors import Vector, unit
-from geartrain.teeth.contact_coefficients import DeclaredRestitution
+from geartrain.teeth.contact_coefficients import DeclaredEfficiency, DeclaredRestitution
 from geartrain.train.fields import (
     AlsoShort,
     Boolean,
@@ -125,61 +123,6 @@ class BearingFriction(Declared):
 
 DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 """Friction of a bearing, or its sliding torque as a single value."""
-
-
-# --------------------------------------------------------------------------------------------------------- efficiencies
-
-
-def _at_most_one(efficiency: Quantity) -> Quantity:
-    if efficiency.base > 1:
-        # a number up to 100 was probably meant as a percentage
-        meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
-        raise PydanticCustomError(
-            "efficiency",
-            "an efficiency of {text} is above 1",
-            {
-                "text": efficiency.text,
-                "fix": f"for example, write 0.98 or {meant}; no pair transmits more power than it receives",
-            },
-        )
-    return efficiency
-
-
-Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
-
-
-class Efficiencies(Declared):
-    """Basic efficiency of a pair (carrier fixed) for each driving wheel: a number up to 1, or a percentage.
-
-    A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
-    """
-
-    SHORT: ClassVar = {"type": ["number", "string"]}
-
-    forward: Efficiency = Field(
-        description="Efficiency with the first wheel driving, at most 1; 0 or less means self-locking"
-    )
-    backward: Efficiency = Field(
-        description="Efficiency with the second wheel driving, at most 1; 0 or less means self-locking"
-    )
-
-    @model_validator(mode="after")
-    def _check_directions(self) -> Efficiencies:
-        if self.forward.base <= 0 and self.backward.base <= 0:
-            raise PydanticCustomError(
-                "efficiency",
-                "an efficiency of {text} transmits no power in either direction",
-                {"text": self.forward.text, "fix": "give an efficiency above 0 and at most 1, such as 0.98 or 98 %"},
-            )
-        return self
-
-
-def _efficiency(raw: object) -> object:
-    return raw if isinstance(raw, dict | Efficiencies) else {"forward": raw, "backward": raw}
-
-
-DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
-"""Basic efficiencies, or one number for both directions."""
 
 
 # --------------------------------------------------------------------------------------------------------- tooth counts

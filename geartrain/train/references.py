@@ -185,8 +185,8 @@ def declared_units(train: Train) -> Iterator[Problem]:
             if length.value:
                 (plain if length.unit is None else named).append(("axes", label))
     for at, coupling in enumerate(train.couplings):
-        for size in (coupling.pin_radius, coupling.offset, coupling.clearance, getattr(coupling, "pin_diameter", None)):
-            if size is not None and size.value:
+        for size in coupling.lengths:
+            if size.value:
                 (plain if size.unit is None else named).append(("couplings", at))
     if plain and named:
         yield Problem(
@@ -390,10 +390,11 @@ def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
 
 def _couplings(train: Train) -> Iterator[Problem]:
     for at, coupling in enumerate(train.couplings):
-        if coupling.pin == coupling.slot:
+        if len(set(coupling.ends)) < len(coupling.ends):
+            twice = next(link for link in coupling.ends if coupling.ends.count(link) > 1)
             yield Problem(
-                f"coupling '{coupling.name}' joins '{coupling.pin}' to itself",
-                "pin and slot must be on different links",
+                f"coupling '{coupling.name}' joins '{twice}' to itself",
+                f"{' and '.join(coupling.SIDES)} must be on different links",
                 "name the other link",
                 train.place("couplings", at),
             )
@@ -419,8 +420,7 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
     """
     loc: Loc
     for at, coupling in enumerate(train.couplings):
-        yield "link", coupling.pin, ("couplings", at, "pin")
-        yield "link", coupling.slot, ("couplings", at, "slot")
+        yield from ((kind, name, ("couplings", at, *path)) for kind, name, path in coupling.references())
         yield "source", coupling.source, ("couplings", at)
     for loc, part in _cases(train):
         for key in ("inputs", "fixed", "loads"):

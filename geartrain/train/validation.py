@@ -29,8 +29,9 @@ from geartrain.errors import (
 from geartrain.numerics.containers import collector_paused
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_forms
 from geartrain.teeth.contact_coefficients import CoulombFriction
+from geartrain.teeth.coupling import COUPLINGS, coupling_model
 from geartrain.train.declaration import Train
-from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
+from geartrain.train.fields import DeclaredCoupling, DeclaredFriction, DeclaredToothForm
 from geartrain.train.mechanism import GearPair, Link, Wheel
 from geartrain.train.outputs import Output
 from geartrain.train.references import find_problems
@@ -218,7 +219,7 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """Return `loc` without the tags that pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *TOOTH_FORMS, *_laws()}
+    tags = {"count", "doubt", *COUPLINGS, *TOOTH_FORMS, *_laws()}
     return tuple(
         step
         for at, step in enumerate(loc)
@@ -251,6 +252,8 @@ def _step(kind: Any, step: str | int) -> Iterator[Any]:
 def _models_in(annotation: Any) -> Iterator[Any]:
     if annotation is DeclaredToothForm:
         yield from tooth_forms().values()
+    elif annotation is DeclaredCoupling:
+        yield from map(coupling_model, COUPLINGS)
     elif annotation is DeclaredFriction:
         yield CoulombFriction
         yield from _laws().values()

@@ -22,7 +22,7 @@ import geartrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
-from geartrain.teeth.pin_transmission import PinTransmission
+from geartrain.teeth.couplings.pin_transmission import PinTransmission
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission

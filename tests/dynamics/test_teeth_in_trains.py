@@ -100,7 +100,8 @@ from geartrain import load
 from geartrain.report import collect_report
 data = collect_report(load("pennestri-2002")).to_dict()
 assert data["teeth"] == data["pins"] == []
-heavy = ("numpy", "scipy", "geartrain.teeth.triangular.triangular_transmission", "geartrain.teeth.pin_transmission")
+teeth = "geartrain.teeth"
+heavy = ("numpy", "scipy", f"{teeth}.triangular.triangular_transmission", f"{teeth}.couplings.pin_transmission")
 print([name for name in sys.modules if name in heavy])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -37,14 +37,14 @@ def count(train: str, wheel: str) -> int:
 
 def amplitude(radius: float) -> float:
     """Return the anomaly of the Moon's pin (deg) with the declared offset."""
-    pin = next(each for each in load("freeth-2008").declaration.couplings if each.name == "anomaly")
+    pin = next(each for each in load("freeth-2008").declaration.pin_couplings if each.name == "anomaly")
     assert pin.offset is not None
     return degrees(asin(float(pin.offset.value) / radius))
 
 
 def declared_radius() -> float:
     """Return the declared radius of the Moon's pin (mm)."""
-    pin = next(each for each in load("freeth-2008").declaration.couplings if each.name == "anomaly")
+    pin = next(each for each in load("freeth-2008").declaration.pin_couplings if each.name == "anomaly")
     assert pin.pin_radius is not None
     return float(str(pin.pin_radius).split()[0])
 

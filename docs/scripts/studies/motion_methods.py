@@ -247,7 +247,7 @@ class MotionCase:
 
     def summary(self) -> TrainRecord:
         """What the train is and does."""
-        pins = (joint.coupling.name for joint in self.direct._problem.pins)
+        pins = (joint.coupling.name for joint in self.direct._problem.couplings)
         lawful = {*self.direct._problem.meshes, *pins}
         outputs = {
             tally.name: {"peak_to_peak": math.degrees(tally.peak_to_peak), "rms": math.degrees(tally.rms)}

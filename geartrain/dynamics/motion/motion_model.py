@@ -252,7 +252,7 @@ class Motion(Shown):
         They are linear in the errors of the pairs, because all driver angles are known.
         """
         deltas = np.zeros((len(self._errors.spread.pairs), 2))
-        pins = {joint.coupling.name for joint in self._problem.pins}
+        pins = {joint.coupling.name for joint in self._problem.couplings}
         for each in self._errors.sources(1):
             deltas[each.pair, int(each.id in pins)] = each.sense * float(each.transmission.error(each.phase))
         teeth, slots = self._errors.spread.errors(deltas).T

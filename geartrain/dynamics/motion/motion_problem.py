@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from itertools import permutations
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_sys
 from geartrain.numerics.containers import ItemwiseMapping
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.dynamics.gear_meshes import CouplingMesh
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.circuits.joint_tree import Tree
     from geartrain.teeth.gear_mesh import GearMesh
@@ -39,7 +40,7 @@ class MotionProblem:
     """Gear pairs with a declared tooth form as driven in this state, by name; the teeth of a pair are built when it is
     first read.
     """
-    pins: Sequence[PinMesh]
+    couplings: Sequence[CouplingMesh]
     drivers: Mapping[str, MeshDriver]
     """Driver of each pair and coupling, with the reason why it drives."""
     angles: Mapping[str, float] = field(default_factory=dict)
@@ -54,12 +55,17 @@ class MotionProblem:
     loops: Sequence[Loop] = ()
     """Loops closed by redundant pairs, around which the transmission errors of the teeth may be incompatible."""
 
+    @cached_property
+    def periods(self) -> Mapping[str, Fraction]:
+        """Periods of the transmission function of each coupling in one revolution of its driver."""
+        return {joint.coupling.name: joint.coupling.periods_per_turn for joint in self.couplings}
+
     @property
     def deviation(self) -> str:
-        """Name of the angle of an output minus its mean motion: transmission error of teeth, anomaly of pins, or
+        """Name of the angle of an output minus its mean motion: transmission error of teeth, anomaly of couplings, or
         deviation if both contribute.
         """
-        return ("deviation" if self.pins else "transmission error") if self.rippling else "anomaly"
+        return ("deviation" if self.couplings else "transmission error") if self.rippling else "anomaly"
 
     @property
     def way(self) -> int:
@@ -116,7 +122,7 @@ class MotionProblem:
 
     def _ripples(self, pair: str) -> bool:
         mesh = self.meshes.get(pair)
-        return any(joint.coupling.name == pair for joint in self.pins) if mesh is None else not mesh.rigid
+        return any(joint.coupling.name == pair for joint in self.couplings) if mesh is None else not mesh.rigid
 
 
 def find_motion_problem(train: TrainMechanics, state: str | None = None, without: Sequence[str] = ()) -> MotionProblem:
@@ -126,7 +132,7 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
 
     Raises `QuestionError` if no input turns, or if the speeds of the train are not determined.
     """
-    own, declared, meshes, pins = train.kinematics, train.declaration, train.undriven, train.pins
+    own, declared, meshes = train.kinematics, train.declaration, train.undriven
     case = own.case(state)
     solution = own.solution(case)
     if not any(case.inputs.values()):
@@ -150,12 +156,12 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
         declared.frame,
         next(link for link, speed in case.inputs.items() if speed),
         ItemwiseMapping((name for name in meshes if name in kept), lambda name: meshes[name].driven_by(drivers[name])),
-        [joint for joint in pins if joint.coupling.name in kept],
+        [joint for joint in train.couplings if joint.coupling.name in kept],
         drivers,
         {name: link.angle.si for name, link in declared.links.items() if link.angle is not None},
         {gear.name: float(gear.phase.value) for gear in declared.gears if gear.phase is not None},
         find_shared_wheels(circuits, own.tree) if meshes else {},
-        [parts.loop(chord) for chord in parts.closing] if meshes or pins else [],
+        [parts.loop(chord) for chord in parts.closing] if meshes or train.couplings else [],
     )
 
 

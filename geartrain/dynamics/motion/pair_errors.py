@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING
@@ -113,7 +114,7 @@ class PairErrors:
         """
         meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
         transmissions: dict[str, TransmissionFunction] = {mesh.name: mesh.transmission for mesh in meshes}
-        transmissions |= {joint.coupling.name: joint.transmission for joint in self.train.pins}
+        transmissions |= {joint.coupling.name: joint.transmission for joint in self.train.couplings}
         circuits = self._circuits
         for at, name in enumerate(self.spread.pairs):
             if name in transmissions:
@@ -135,12 +136,13 @@ class PairErrors:
         driver = self.train.relative(ends[1 - driven], carrier)
         forward = -1 if driver < 0 else 1
         sense = self.sense(circuit)
-        teeth = 1
-        if circuit.kind != "gear":  # the error of a pin counts in the sense of the slot's own angle
+        # a follower with the mean ratio 0 has no sense: its error counts in the driver's sense
+        if not circuit.b:
             sense = forward
-        else:
-            # a wheel's coefficient in the Willis equation is its tooth count
-            teeth = abs((circuit.b, circuit.a)[driven])
+        # a wheel's coefficient in the Willis equation is its tooth count
+        teeth = Fraction(abs((circuit.b, circuit.a)[driven]))
+        if circuit.kind != "gear":
+            teeth = self.train.periods[circuit.id]
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
         # phases count in the forward sense, angles about declared axes

@@ -11,14 +11,14 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
-from geartrain.dynamics.gear_meshes import PinMesh
+from geartrain.dynamics.gear_meshes import CouplingMesh
 from geartrain.dynamics.torques.torque_results import BearingTorque
 from geartrain.kinematics.circuits import Axes, Circuit, Tree
 from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate
+from geartrain.teeth.coupling import Coupling
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
-from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train
 
 PRESCRIBED = -1
@@ -133,7 +133,8 @@ class LoadCase:
     """Speed of each link whose speed is determined [unit of the train]."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
     """Gear pairs with a declared tooth form, by name."""
-    pins: Sequence[PinMesh] = ()
+    varying: Sequence[CouplingMesh] = ()
+    """Couplings with variable ratio and declared dimensions."""
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
     """Speeds of all links as linear forms of the free speeds if the train is underdetermined; otherwise empty."""
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -146,13 +147,13 @@ class LoadCase:
 
     @cached_property
     def couplings(self) -> Mapping[str, Coupling]:
-        """Couplings by pin and slot, by name."""
-        return {coupling.name: coupling for coupling in self.train.couplings}
+        """Couplings by the names of their rows."""
+        return {row.id: each for each in self.train.couplings for row in each.rows(self.train.wheels)}
 
     @cached_property
-    def joints(self) -> Mapping[str, PinMesh]:
-        """Couplings by pin and slot with declared dimensions, by name."""
-        return {joint.coupling.name: joint for joint in self.pins}
+    def joints(self) -> Mapping[str, CouplingMesh]:
+        """Couplings with variable ratio and declared dimensions, by name."""
+        return {joint.coupling.name: joint for joint in self.varying}
 
     @cached_property
     def system(self) -> WillisSystem:

@@ -14,6 +14,7 @@ from dataclasses import replace
 from fractions import Fraction
 from math import cos, radians, tan
 
+from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
@@ -42,7 +43,7 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     """Return the efficiencies of a circuit; they are 1 if no loss is declared or if dimensions are unknown."""
     if circuit.kind != "gear":
-        return _of_pin(setting, circuit)
+        return _of_coupling(setting, circuit)
     gear = setting.gears[circuit.id]
     if gear.efficiency is not None:
         declared = gear.efficiency.forward.base, gear.efficiency.backward.base
@@ -78,10 +79,16 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
     return MeanEfficiencies((found[0], found[1]), (found[0], found[1]), exact=False)
 
 
-def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a pin and slot, slot driving first; 1 for a follower, whose mean power is 0."""
+def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
+    """Return the efficiencies of a coupling, first with the driven link of the declaration driving; 1 for a follower,
+    whose mean power is 0.
+    """
+    efficiency = setting.couplings[circuit.id].efficiency
+    if efficiency is not None and circuit.b:
+        declared = efficiency.backward.base, efficiency.forward.base
+        return MeanEfficiencies(declared, declared)
     joint = setting.joints.get(circuit.id)
-    if joint is None or not joint.transmission.friction or not circuit.b:
+    if not isinstance(joint, PinMesh) or not joint.transmission.friction or not circuit.b:
         return MeanEfficiencies()
     return _of_both(SlidingEfficiency(joint.reversed), SlidingEfficiency(joint.transmission))
 

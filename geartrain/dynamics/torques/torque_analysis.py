@@ -219,7 +219,6 @@ def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> 
 
 
 _Key = tuple[object, ...]
-_EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits with a constant ratio
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
@@ -259,7 +258,7 @@ def find_ties(
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
     # pins in slots have different angles at equal planets
-    apart |= {link for circuit in circuits if circuit.kind not in _EVEN for link in (circuit.i, circuit.j)}
+    apart |= {link for circuit in circuits if circuit.swings for link in (circuit.i, circuit.j)}
     meshing = _planet_meshes(circuits, meshes, apart)
     classes = _planet_classes(meshing, known)
     groups: dict[_Key, list[str]] = {}

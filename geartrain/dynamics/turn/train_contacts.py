@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
+from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.pair_speeds import pitch_line_speed, radians_per_second
 from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 from geartrain.teeth.friction_law import PairFriction
@@ -29,8 +30,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.position_motion import PositionMotion
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import TransmissionFunction
 
 
@@ -295,7 +296,9 @@ def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:
 
 def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None, mesh: GearMesh | None) -> PairContact:
     first = circuit.kind == "gear" and (mesh is None or mesh.driver == circuit.wheels[0])
-    losses = _pin_losses(setting, circuit) if circuit.kind != "gear" else _losses(setting, circuit, first, source, mesh)
+    losses = (
+        _coupling_losses(setting, circuit) if circuit.kind != "gear" else _losses(setting, circuit, first, source, mesh)
+    )
     if source is not None:
         return PairContact(
             circuit, first, source.forward, source.sense, float(source.transmission.ratio), losses, source
@@ -304,9 +307,12 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
     return PairContact(circuit, first, 1, -1 if circuit.a * circuit.b > 0 else 1, abs(own / other), losses)
 
 
-def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
-    joint, friction = setting.joints.get(circuit.id), setting.train.friction_of(setting.couplings[circuit.id])
-    if joint is None or friction is None or not friction.has_friction:
+def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
+    coupling, joint = setting.couplings[circuit.id], setting.joints.get(circuit.id)
+    if coupling.efficiency is not None and circuit.b:
+        return _constant_efficiency(setting, circuit, first=False)
+    friction = setting.train.friction_of(coupling)
+    if not isinstance(joint, PinMesh) or friction is None or not friction.has_friction:
         return ContactLosses()
     return PinFriction(joint.transmission.friction, friction.static, joint.transmission)
 
@@ -317,6 +323,10 @@ def _losses(
     """Return the losses of a gear pair: friction of teeth at each position, or a constant efficiency."""
     if source is not None and mesh is not None and _by_friction(setting, mesh):
         return _tooth_friction(setting, circuit, source, mesh)
+    return _constant_efficiency(setting, circuit, first)
+
+
+def _constant_efficiency(setting: LoadCase, circuit: Circuit, first: bool) -> ContactLosses:
     means = find_mean_efficiencies(setting, circuit).load
     driver, driven = (float(each) for each in (means if first else means[::-1]))
     return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)

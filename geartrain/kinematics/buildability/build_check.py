@@ -224,7 +224,7 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
     A wheel is exempt if its link has a pin or slot, if it is the escape wheel, or if it has a note.
     """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
-    coupled = {link for coupling in train.couplings for link in (coupling.pin, coupling.slot)}
+    coupled = {link for coupling in train.couplings for link in coupling.links(train.wheels)}
     escapement = train.escapement
     for name, (link, wheel) in train.wheels.items():
         if name in meshing or link in coupled or wheel.note:

@@ -371,7 +371,7 @@ class PitchDistances:
         """Record axis distances from declared positions, then from offsets of pins in slots; yield findings on
         contradictions.
         """
-        offsets = {coupling.name: coupling.offset for coupling in self.train.couplings if coupling.offset is not None}
+        offsets = {each.name: each.offset for each in self.train.pin_couplings if each.offset is not None}
         for pair in self.pairs:
             if pair.parallel:
                 self._record_positions(pair.axis_pair)

@@ -18,15 +18,16 @@ from geartrain.errors import DeclarationError, GearTrainError, Problem, RangeErr
 from geartrain.kinematics.circuits.joint_tree import Axes, Tree
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.vectors import ExactVector, Vector, cross, dot
-from geartrain.teeth.pin_coupling import Coupling, winding_number
+from geartrain.teeth.coupling import COUPLINGS, Coupling, CouplingRow
 from geartrain.train import Train, Wheel
 
 
 class Circuit(NamedTuple):
     """Fundamental circuit with its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
 
-    For an external gear pair a = z_i and b = z_j; for an internal gear pair b = -z_j. For a coupling, i is the slot (or
-    holes) with a = 1 and j the pin with b = -m, where m is the winding number, equations (13) to (15).
+    For an external gear pair a = z_i and b = z_j; for an internal gear pair b = -z_j. For a coupling, j is the driving
+    link, i the driven link, and b = -m a with the mean ratio m. For a pin and slot, m is the winding number, equations
+    (13) to (15).
 
     Examples
     --------
@@ -39,11 +40,11 @@ class Circuit(NamedTuple):
     id: str
     """Name of the pair or coupling."""
     kind: str
-    """Kind of the pair or coupling: gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
+    """Kind of the pair or coupling: gear, or a key of `geartrain.teeth.coupling.COUPLINGS`."""
     i: str
-    """Link of the first wheel, or of the slot."""
+    """Link of the first wheel, or driven link of a coupling, such as the slot."""
     j: str
-    """Link of the second wheel, or of the pin."""
+    """Link of the second wheel, or driving link of a coupling, such as the pin."""
     carrier: str
     """Carrier k: the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
@@ -51,14 +52,14 @@ class Circuit(NamedTuple):
     b: int
     """Coefficient b of the speed of link j relative to the carrier in the Willis equation."""
     wheels: tuple[str, str]
-    """Ids of the two wheels; for a coupling, names of the slot and the pin."""
+    """Ids of the two wheels; for a coupling, links i and j."""
     note: str = ""
     """Note that the sense of rotation is only a convention; empty if it is determined."""
 
     @property
     def swings(self) -> bool:
-        """True for a pin in a slot, whose instantaneous ratio varies about `ratio`, its mean value."""
-        return self.kind in ("pin_and_slot", "pin_follower")
+        """True for a coupling whose instantaneous ratio varies about `ratio`, its mean value."""
+        return self.kind != "gear" and COUPLINGS[self.kind].varies
 
     @property
     def ratio(self) -> Fraction:
@@ -107,7 +108,7 @@ class WillisEquation(NamedTuple):
     label: str
     """Name of the pair, or of the prescribed speed, such as `input sun`."""
     kind: str
-    """Kind of the equation: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
+    """Kind of the equation: frame, input, fixed, lock, gear, or the kind of a coupling."""
     terms: tuple[tuple[str, int], ...]
     """Terms of the left-hand side, as pairs of a link and its non-zero coefficient."""
     right: Fraction = Fraction(0)
@@ -147,30 +148,23 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             continue
         circuits.append(Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note))
     for at, coupling in enumerate(train.couplings):
-        carrier = _carrier(tree, coupling.slot, coupling.pin)
-        if carrier is None:
-            problems.append(_no_carrier(train, tree, coupling.name, coupling.slot, coupling.pin, ("couplings", at)))
-            continue
-        labels = tree.axis_seen_from(carrier, coupling.slot), tree.axis_seen_from(carrier, coupling.pin)
-        if not axes.are_parallel(labels):
-            problems.append(_oblique_pin(train, coupling, labels, at))
-            continue
-        winding = winding_number(coupling.kind)
-        circuits.append(
-            Circuit(
-                coupling.name,
-                coupling.kind,
-                coupling.slot,
-                coupling.pin,
-                carrier,
-                1,
-                -winding,
-                (coupling.slot, coupling.pin),
-            )
-        )
+        for row in coupling.rows(wheels):
+            found = _coupling_circuit(train, axes, coupling, row, at)
+            (problems if isinstance(found, Problem) else circuits).append(found)  # type: ignore[arg-type]
     if problems:
         raise DeclarationError(problems)
     return tuple(circuits)
+
+
+def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: CouplingRow, at: int) -> Circuit | Problem:
+    tree = axes.tree
+    carrier = _carrier(tree, row.driven, row.driver)
+    if carrier is None:
+        return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
+    labels = tree.axis_seen_from(carrier, row.driven), tree.axis_seen_from(carrier, row.driver)
+    if not axes.are_parallel(labels):
+        return _oblique_pin(train, coupling, labels, at)
+    return Circuit(row.id, coupling.kind, row.driven, row.driver, carrier, row.a, row.b, (row.driven, row.driver))
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:

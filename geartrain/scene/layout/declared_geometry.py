@@ -213,7 +213,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
     lines = {line.label: line for line in _lines(declared, tree)}
     axis: dict[str, str] = {}
     contacts, ties, strays = [], [], []
-    couplings = {coupling.name: coupling for coupling in declared.couplings}
+    couplings = {coupling.name: coupling for coupling in declared.pin_couplings}
     stretches = _stretches(train)
     for circuit in train.circuits:
         ends = tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)

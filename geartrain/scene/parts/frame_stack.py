@@ -37,8 +37,8 @@ from geartrain.scene.parts.eccentrics import (
 )
 from geartrain.scene.parts.stack_discs import Passage, Point, StackDisc, slabs
 from geartrain.scene.solids.bearing_plates import basis
+from geartrain.teeth.couplings.pins import Parallel, PinsInHoles
 from geartrain.teeth.outlines.fixed_teeth import CUP, wall
-from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 from geartrain.teeth.standard_teeth import DEDENDUM
 
 if TYPE_CHECKING:
@@ -412,7 +412,7 @@ def _cranks(stack: FrameStack, link: str, own: str) -> Iterator[tuple[str, str, 
     axis.
     """
     tree = stack.train.kinematics.tree
-    for coupling in stack.train.declaration.couplings:
+    for coupling in stack.train.declaration.pin_couplings:
         pair = coupling.pin, coupling.slot
         if isinstance(coupling, Parallel) and link in pair:
             crank = pair[1 - pair.index(link)]
@@ -440,7 +440,7 @@ def _on_cranks(
 def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
     """Yield the walls that connect flexible wheels to links on axes of the frame."""
     declared, tree = stack.train.declaration, stack.train.kinematics.tree
-    for coupling in (each for each in declared.couplings if isinstance(each, Parallel)):
+    for coupling in (each for each in declared.pin_couplings if isinstance(each, Parallel)):
         for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):
             own = [disc for disc in stack.wheel_discs if disc.link == thin and declared.wheels[disc.name][1].flexible]
             place = stack.layout.axes.get(tree.axis(cup) or "")
@@ -453,7 +453,7 @@ def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
 
 def find_pin_circles(stack: FrameStack) -> Iterator[PinCircle]:
     """Yield the circles of pins in round holes for which no wheel of the link of the pins is wide enough."""
-    for declared in stack.train.declaration.couplings:
+    for declared in stack.train.declaration.pin_couplings:
         places = [
             stack.layout.axes.get(stack.train.kinematics.tree.axis(link) or "")
             for link in (declared.pin, declared.slot)

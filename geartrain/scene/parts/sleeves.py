@@ -33,7 +33,7 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 
     held   a wheel that needs no collet, because a barrel is fixed to it
     """
-    coupled = {link for each in plan.stack.train.declaration.couplings for link in (each.pin, each.slot)}
+    coupled = {link for each in plan.stack.train.declaration.pin_couplings for link in each.ends}
     for column in plan.all_columns:
         around = _Obstacles(plan, column)
         for member in column.members:

@@ -14,13 +14,13 @@ import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector
+from geartrain.teeth.couplings.pins import Parallel, PinsInHoles
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.wheel_outline import WheelOutline
-from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.pin_coupling import Coupling
+    from geartrain.teeth.couplings.pins import PinCoupling
 
 CUT, PITCH, ENGRAVE = "CUT", "PITCH", "ENGRAVE"
 LAYERS = (CUT, PITCH, ENGRAVE)
@@ -108,7 +108,7 @@ class Plates:
 
 
 def coupling_discs(
-    couplings: Sequence[Coupling], bores: Mapping[str, float], holed: frozenset[str] = frozenset()
+    couplings: Sequence[PinCoupling], bores: Mapping[str, float], holed: frozenset[str] = frozenset()
 ) -> Plates:
     """Return the discs of pins and slots that are not in wheels, and notices on couplings that are not modelled.
 
@@ -216,7 +216,7 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
     return edge, Contour.circle(hole, (middle, 0.0))
 
 
-def _disc(coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
+def _disc(coupling: PinCoupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
     """Return the disc of a pin at radius r, or of its slot, which extends from |r - e| to r + e from an axis at the
     offset e.
     """

@@ -188,7 +188,7 @@ class SolidModel(Shown):
             whole |= self.plan.plated_pins.keys() & self.cut_couplings.keys()
             whole |= {each.coupling for each in self.plan.stack.eccentrics}
             whole |= {each.name for each in self.plan.stack.cups}
-        loose = [each for each in self.sized.declaration.couplings if each.name not in whole]
+        loose = [each for each in self.sized.declaration.pin_couplings if each.name not in whole]
         own = {place.link: self.bores_of_wheels[wheel] for wheel, place in self.layout.wheels.items()}
         return coupling_discs(loose, own, frozenset(self.cut_couplings))
 

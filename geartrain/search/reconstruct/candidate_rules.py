@@ -406,7 +406,9 @@ class _TrainReading:
     def _joined(self) -> dict[str, str]:
         """First link of the group of each link, where pins and slots on the frame connect the links of a group."""
         tree, frame = find_tree(self.train), self.train.frame
-        pairs = ((coupling.pin, coupling.slot) for coupling in self.train.couplings if coupling.kind == "pin_and_slot")
+        pairs = (
+            (coupling.pin, coupling.slot) for coupling in self.train.pin_couplings if coupling.kind == "pin_and_slot"
+        )
         joints = (pair for pair in pairs if all(tree.bears(frame, link) for link in pair))
         return {link: links[0] for links in joined_groups(self.train.links, joints) for link in links}
 

@@ -221,7 +221,7 @@ def joined_arbors(evidence: Train) -> Joined:
 def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, Any]]:
     """Yield the couplings of joined links as plain data, with the keys of a declaration."""
     requested = evidence.reconstruct
-    for coupling in evidence.couplings:
+    for coupling in evidence.pin_couplings:
         if coupling.pin in links:
             yield coupling.model_dump(mode="json", exclude_unset=True, by_alias=True)
     for given in () if requested is None else requested.given:
@@ -231,8 +231,8 @@ def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, An
 
 def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
     assert evidence.reconstruct is not None, "no evidence"
-    for at, coupling in enumerate(evidence.couplings):
-        yield (coupling.pin, coupling.slot), ("couplings", at)
+    for at, coupling in enumerate(evidence.pin_couplings):
+        yield coupling.ends, ("couplings", at)
     for at, given in enumerate(evidence.reconstruct.given):
         yield given.pair, ("reconstruct", "given", at)
 

@@ -468,7 +468,7 @@ def why_not(train: Train, link: str) -> str:
         return "the link does not turn"
     if any(link in lock for lock in train.locks):
         return "the link is locked to another link"
-    followers = [one for one in train.couplings if link == one.slot and one.kind != "pin_and_slot"]
+    followers = [one for one in train.pin_couplings if link == one.slot and one.kind != "pin_and_slot"]
     if followers:
         return "a pin and follower, whose mean ratio is 0, move the link"
     kinds = sorted({wheel.kind for wheel in wheels.values() if wheel.kind != "spur"})
@@ -487,7 +487,7 @@ def _unsupported_features(train: Train) -> Iterator[str]:
     """Yield the features of a train that no part supports."""
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
-    if any(one.kind != "pin_and_slot" for one in train.couplings):
+    if any(one.kind != "pin_and_slot" for one in train.pin_couplings):
         yield "couplings other than pin and slot"
     if train.locks:
         yield "locked arbors"

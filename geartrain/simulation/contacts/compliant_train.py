@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.quantity import Quantity
     from geartrain.simulation.contacts.contact_model import ContactPair
-    from geartrain.teeth.pin_coupling import Coupling
+    from geartrain.teeth.coupling import Coupling
     from geartrain.train import GearPair
 
 

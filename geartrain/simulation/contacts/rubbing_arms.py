@@ -22,8 +22,8 @@ from geartrain.teeth.rubbed_transmission import RubbedTransmission
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
     from geartrain.train.mechanism import GearPair
 
@@ -101,7 +101,7 @@ def separate_rubbing(
             found[mesh.name] = arms
         elif mesh.has_friction:
             left.append(mesh.name)
-    left += [joint.coupling.name for joint in moving.pins if joint.transmission.friction]
+    left += [joint.coupling.name for joint in moving.couplings if joint.transmission.friction]
     for gear in gears:
         if gear.name not in found and gear.efficiency is not None and gear.efficiency.forward.base < 1:
             left.append(gear.name)

@@ -84,7 +84,8 @@ def find_time_case(
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
     links = {name: link for name, link in train.links.items() if name != train.frame}
-    given = {part.name: train.restitution_of(part) for part in (*train.gears, *train.couplings)}
+    given = {gear.name: train.restitution_of(gear) for gear in train.gears}
+    given |= {row.id: train.restitution_of(each) for each in train.couplings for row in each.rows(train.wheels)}
     escapement = train.escapement
     passed = None if escapement is None else problem.seen_ratio(escapement.link, tree.top[escapement.link])
     turning = rate if rate is not None else _declared_rate(train, case, problem, passed, scale)
@@ -110,7 +111,7 @@ def find_time_case(
         },
         {name: torque.si for name, torque in case.loads.items()},
         bounces,
-        {each.name: each.clearance.si for each in train.couplings if each.clearance is not None},
+        {each.name: each.clearance.si for each in train.pin_couplings if each.clearance is not None},
         beats,
     )
 

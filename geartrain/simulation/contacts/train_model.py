@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.dynamics.gear_meshes import CouplingMesh, PinMesh
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.willis_system import axis_sense
@@ -34,8 +35,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.contact_model import ToothCompliance
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.train import Train
 
@@ -138,7 +139,7 @@ class TrainModel:
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:
-        if circuit.id in self._pins:
+        if circuit.id in self._couplings:
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
@@ -151,8 +152,8 @@ class TrainModel:
         return {mesh.name: mesh for mesh in self.problem.teeth}
 
     @cached_property
-    def _pins(self) -> Mapping[str, PinToSlotTransmission]:
-        return {joint.coupling.name: joint.transmission for joint in self.problem.pins}
+    def _couplings(self) -> Mapping[str, CouplingMesh]:
+        return {joint.coupling.name: joint for joint in self.problem.couplings}
 
     @cached_property
     def _gears(self) -> Mapping[str, Any]:
@@ -267,8 +268,12 @@ class TrainModel:
         """Return tables of the transmission functions of both flanks of a pair, its friction terms, and the
         transmission function of the front flank.
         """
-        if circuit.id in self._pins:
-            transmission = self._pins[circuit.id]
+        if circuit.id in self._couplings:
+            joint = self._couplings[circuit.id]
+            if not isinstance(joint, PinMesh):
+                front = tabled_angle(joint.transmission)
+                return front, front, None, joint.transmission
+            transmission = joint.transmission
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
                 front = tabled_angle(transmission)

@@ -13,8 +13,8 @@ from geartrain.simulation.strength.contact_pressure import Elasticity, elasticit
 from geartrain.simulation.strength.strength_results import PinContact
 
 if TYPE_CHECKING:
+    from geartrain.teeth.couplings.pins import PinsInHoles
     from geartrain.teeth.cycloidal_disc import CycloidalDisc
-    from geartrain.teeth.pin_coupling import PinsInHoles
     from geartrain.train import Material
 
 

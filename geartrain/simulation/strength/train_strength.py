@@ -26,8 +26,8 @@ from geartrain.simulation.strength.strength_results import (
 )
 from geartrain.simulation.strength.tooth_forces import ToothForces
 from geartrain.simulation.strength.virtual_spurs import SkewPair, VirtualSpurs
+from geartrain.teeth.couplings.pins import PinsInHoles
 from geartrain.teeth.cycloidal_disc import DiscMesh
-from geartrain.teeth.pin_coupling import PinsInHoles
 from geartrain.train import Train
 from geartrain.train.wheel_stock import face_width, material_named
 
@@ -277,7 +277,7 @@ class StrengthQuestion:
             width = 1e3 * min(self._width(disc), self._width(ring))
             pinned = PinnedDisc(mesh.gears[0], (self._named(disc), self._named(ring)), width, moved)
             yield gear.name, pinned.lobes(gear.name, mesh.transmission.disc, 1e3 * self.modules[mesh.gears[0]])
-        for coupling in (each for each in self.declared.couplings if isinstance(each, PinsInHoles)):
+        for coupling in (each for each in self.declared.pin_couplings if isinstance(each, PinsInHoles)):
             found = self._in_holes(coupling)
             if found is not None:
                 yield coupling.name, found

@@ -143,7 +143,7 @@ def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
     The errors are grouped by output, in descending order. Pins and pairs without influence are omitted.
     """
     found = Superposition(motion._forward)
-    pins = {joint.coupling.name for joint in motion._problem.pins}
+    pins = {joint.coupling.name for joint in motion._problem.couplings}
     tables = {}
     for name, row in zip(motion.outputs, np.abs(found.response) * found.ranges, strict=True):
         sizes = {source.id: degrees(size) for source, size in zip(found.sources, row.tolist(), strict=True)}
@@ -175,7 +175,7 @@ def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
     """Return the pairs that move an output, with the numbers of pairs whose teeth or dimensions are declared."""
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     real = set(motion._problem.meshes)
-    sized = {joint.coupling.name for joint in motion._problem.pins}
+    sized = {joint.coupling.name for joint in motion._problem.couplings}
     moving = moving_pairs(motion, output)
     gears = [name for name in moving if circuits[name].kind == "gear"]
     pins = [name for name in moving if circuits[name].swings]

@@ -391,7 +391,7 @@ def _circuits(work: SolidModel) -> tuple[str, Rows]:
 
 def _couplings(work: SolidModel) -> tuple[str, Rows]:
     rows = []
-    for each in work.train.declaration.couplings:
+    for each in work.train.declaration.pin_couplings:
         sizes = (None if size is None else f"{size.si * 1000:.12g}" for size in (each.pin_radius, each.offset))
         rows.append((each.name, each.kind, each.pin, each.slot, *sizes, each.status))
     return "coupling kind pin slot pin_radius_mm offset_mm status", rows

@@ -34,7 +34,8 @@ from geartrain.workshop.monte_carlo.trial_run import check_trials
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats
-    from geartrain.train import Train
+    from geartrain.teeth.coupling import Coupling
+    from geartrain.train import GearPair, Train
 
 
 FIGURES = ("mean", "maximum", "starting", "efficiency")
@@ -198,9 +199,11 @@ def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[st
 
 def _declarers(declared: Train) -> Iterator[tuple[str, int, Any]]:
     """Yield name, index and declared friction of the train and of each pair and coupling."""
-    parts = [(_TRAIN, declared), *((part.name, part) for part in (*declared.gears, *declared.couplings))]
+    parts: list[tuple[str, Train | GearPair | Coupling]] = [(_TRAIN, declared)]
+    parts += [(gear.name, gear) for gear in declared.gears]
+    parts += [(coupling.name, coupling) for coupling in declared.couplings]
     for item, (name, part) in enumerate(parts):
-        yield name, item, part.friction
+        yield name, item, getattr(part, "friction", None)
 
 
 def _is_random(friction: Any) -> bool:

@@ -9,17 +9,19 @@ Three or more pins in round holes, each wider than its pin by 2 e, keep two link
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Length, Quantity, bad
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, DeclaredRestitution
+from geartrain.teeth.coupling import Coupling
 from geartrain.teeth.tooth_form import check_above_0
 
 if TYPE_CHECKING:
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, PinTransmission
 
 
 def _integer(raw: object) -> object:
@@ -34,12 +36,12 @@ def _not_negative(length: Quantity) -> Quantity:
     return length
 
 
-class _Coupling(BaseModel):
-    """Coupling of two links by a pin or pins as declared, base class of all kinds."""
+class PinCoupling(Coupling):
+    """Coupling of two links by a pin or pins as declared, base class of all kinds with pins."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
+    ENDS = ("pin", "slot")
+    SIDES = ("slot", "pin")
 
-    id: str = Field("", description="Name of the coupling; default pin~slot")
     pin: str = Field(description="Link that carries the pin")
     slot: str = Field(description="Link that has the slot")
     pin_radius: Length | None = Field(None, description="Distance of the pin from the axis of its own link")
@@ -54,29 +56,24 @@ class _Coupling(BaseModel):
     restitution: DeclaredRestitution | None = Field(
         None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default from the train"
     )
-    source: str | None = Field(None, description="Key of the source of the dimensions")
-    status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
-        None, description="Evidence: the device survives, is reconstructed from surviving parts, or is a hypothesis"
-    )
-    note: str | None = Field(None, description="Remark for the reader")
 
     @property
-    def name(self) -> str:
-        """Declared id; default "pin~slot" with the names of the two links."""
-        return self.id or f"{self.pin}~{self.slot}"
+    def ends(self) -> tuple[str, str]:
+        """Link with the pin, and link with the slot."""
+        return self.pin, self.slot
 
     @property
     def transmission(self) -> PinToSlotTransmission | None:
         """Transmission function with the pin driving; None if the dimensions are not declared."""
         if self.pin_radius is None or self.offset is None:
             return None
-        from geartrain.teeth.pin_transmission import PinToSlotTransmission
+        from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
 
         friction = float(self.friction.sliding.value) if self.friction else 0.0
         return PinToSlotTransmission(self.pin_radius.si, self.offset.si, friction)
 
 
-class PinAndSlot(_Coupling):
+class PinAndSlot(PinCoupling):
     """Pin in a slot whose axis is inside the pin's circle: both links have the same mean speed."""
 
     kind: Literal["pin_and_slot"] = Field(description="Pin whose circle encloses the slot's axis: mean ratio 1")
@@ -87,7 +84,7 @@ class PinAndSlot(_Coupling):
         return self
 
 
-class PinFollower(_Coupling):
+class PinFollower(PinCoupling):
     """Pin in a slotted follower whose axis is outside the pin's circle: the follower oscillates."""
 
     kind: Literal["pin_follower"] = Field(description="Pin whose circle does not enclose the slot's axis: mean ratio 0")
@@ -97,14 +94,21 @@ class PinFollower(_Coupling):
         _check_winding(self, 0)
         return self
 
+    @property
+    def mean(self) -> Fraction:
+        """Mean ratio 0, because the follower only oscillates."""
+        return Fraction(0)
 
-class _ParallelCoupling(_Coupling):
+
+class _ParallelCoupling(PinCoupling):
     """Coupling that keeps two links parallel, so that both have the same speed at every instant."""
+
+    FOR_COPIES = True
 
     @model_validator(mode="after")
     def _has_no_friction(self) -> _ParallelCoupling:
         if self.friction is not None:
-            what = f"friction of a {self.kind} coupling is not modelled"  # type: ignore[attr-defined]
+            what = f"friction of a {self.kind} coupling is not modelled"
             raise bad("pin", what, "declare its loss as the `efficiency` of the gear pair of its disc")
         lengths = ("pin_radius", "offset", "pin_diameter")
         check_above_0(self, "pin", *(name for name in lengths if name in type(self).model_fields))
@@ -124,6 +128,8 @@ class PinsInHoles(_ParallelCoupling):
     pins' centres.
     """
 
+    SIDES = ("holes", "pins")
+
     kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at every instant")
     pins: Annotated[int, BeforeValidator(_integer)] = Field(
         6, ge=3, le=1000, description="Number of pins, evenly spaced on their circle"
@@ -139,6 +145,8 @@ class Parallel(_ParallelCoupling):
     The links `pin` and `slot` are interchangeable. The coupling is not drawn.
     """
 
+    SIDES = ("1", "1")
+
     kind: Literal["parallel"] = Field(
         description="Parallel cranks, an Oldham cross or the like: ratio 1 at every instant"
     )
@@ -149,17 +157,6 @@ class Parallel(_ParallelCoupling):
             fix = "remove `pin_radius` and `clearance`, or give `kind: pins_in_holes`"
             raise bad("pin", "a coupling of kind parallel has no pin", fix)
         return self
-
-
-Coupling = Annotated[PinAndSlot | PinFollower | PinsInHoles | Parallel, Field(discriminator="kind")]
-
-
-def winding_number(kind: str) -> int:
-    """Return the mean speed of the slot divided by the speed of the pin, in the frame of the carrier.
-
-    The value is 0 for kind "pin_follower", otherwise 1.
-    """
-    return 0 if kind == "pin_follower" else 1
 
 
 def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
@@ -202,7 +199,7 @@ def pin_transmission(
     `offset` is the distance between the two axes, in the unit of `pin_radius`. Raises `RangeError` if the coupling
     cannot turn; the place of the error is `driver` or `friction` if that value must be changed.
     """
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
     transmission = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(pin_radius, offset, friction)
     if friction >= transmission.locking_friction:

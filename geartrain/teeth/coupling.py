@@ -1,0 +1,173 @@
+"""Couplings that a train declares besides its gear pairs: base class of all kinds, and the kinds by name.
+
+Every coupling adds one or more rows to the Willis system. A row joins a driving link j and a driven link i by an exact
+mean ratio m in the frame of their carrier k: (w_i - w_k) = m (w_j - w_k). A coupling whose instantaneous ratio varies
+about m also has a `TransmissionFunction`.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from geartrain.numerics.quantity import Quantity
+from geartrain.teeth.contact_coefficients import DeclaredEfficiency
+
+if TYPE_CHECKING:
+    from geartrain.teeth.transmission import TransmissionFunction
+
+
+class CouplingKind(NamedTuple):
+    """Module and class of one kind of coupling."""
+
+    module: str
+    """Name of the module in `geartrain.teeth.couplings`."""
+    model: str
+    """Name of the class."""
+    varies: bool = False
+    """True if the instantaneous ratio varies about its mean."""
+
+
+COUPLINGS: Mapping[str, CouplingKind] = {
+    "pin_and_slot": CouplingKind("pins", "PinAndSlot", varies=True),
+    "pin_follower": CouplingKind("pins", "PinFollower", varies=True),
+    "pins_in_holes": CouplingKind("pins", "PinsInHoles"),
+    "parallel": CouplingKind("pins", "Parallel"),
+}
+"""Kinds of couplings by the value of `kind` in declarations."""
+
+
+COUPLING_ENDS = ("pin", "slot", "pair", "around", "turns", "slides")
+"""Keys of declared couplings that name links or wheels, in the order of `Coupling.ends`."""
+
+
+def coupling_model(kind: str) -> type[Coupling]:
+    """Import a kind of coupling by its name, a key of `COUPLINGS`, and return its class."""
+    found = COUPLINGS[kind]
+    model: type[Coupling] = getattr(import_module(f"geartrain.teeth.couplings.{found.module}"), found.model)
+    return model
+
+
+class CouplingRow(NamedTuple):
+    """Row of the Willis system that a coupling adds: a (w_i - w_k) + b (w_j - w_k) = 0, with carrier k."""
+
+    id: str
+    """Name of the row: the name of the coupling, unless it has several rows."""
+    driven: str
+    """Link i, whose speed is m times the speed of the driving link."""
+    driver: str
+    """Link j."""
+    a: int
+    """Coefficient of link i, above 0."""
+    b: int
+    """Coefficient of link j, -m a."""
+
+
+def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
+    """Return the row of a coupling with the mean ratio `mean`, driven speed divided by driver speed."""
+    return CouplingRow(name, driven, driver, mean.denominator, -mean.numerator)
+
+
+class Coupling(BaseModel):
+    """Coupling of two or more links as declared, base class of all kinds."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
+
+    ENDS: ClassVar[tuple[str, ...]] = ("pair",)
+    """Keys that name the links: two keys, driver first, or one key with a list or mapping of links."""
+    SIDES: ClassVar[tuple[str, str]] = ("driven", "driver")
+    """Names of the driven and of the driving side in tables."""
+    FOR_COPIES: ClassVar[bool] = False
+    """True if the coupling may join each of several equal links to one other link."""
+
+    kind: str
+    id: str = Field("", description="Name of the coupling; default `first~second`")
+    efficiency: DeclaredEfficiency | None = Field(
+        None,
+        description="Basic efficiency with the carrier fixed, at most 1: a number or a percentage, or "
+        "`{forward, backward}`, where forward means that the first link drives; default without loss",
+    )
+    source: str | None = Field(None, description="Key of the source of the dimensions")
+    status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
+        None, description="Evidence: the device survives, is reconstructed from surviving parts, or is a hypothesis"
+    )
+    note: str | None = Field(None, description="Remark for the reader")
+
+    @property
+    @abstractmethod
+    def ends(self) -> tuple[str, ...]:
+        """Links that the coupling joins, or wheels where it is declared by wheels; the driving link comes first."""
+
+    @property
+    def name(self) -> str:
+        """Declared id; default the names of its first two ends, joined by `~`."""
+        return self.id or "~".join(self.ends[:2])
+
+    @property
+    def mean(self) -> Fraction:
+        """Exact mean speed of the driven side divided by the speed of the driving side, relative to the carrier."""
+        return Fraction(1)
+
+    @property
+    def transmission(self) -> TransmissionFunction | None:
+        """Transmission function with the first end driving; None if the ratio is constant, or its data are missing."""
+        return None
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
+        return Fraction(1)
+
+    def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
+        """Return the links that the coupling joins, the driving link first.
+
+        wheels   wheel -> its link and its declaration, for a coupling declared by wheels
+        """
+        del wheels
+        return self.ends
+
+    def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:
+        """Return the rows that the coupling adds to the Willis system.
+
+        wheels   wheel -> its link and its declaration, for a coupling declared by wheels
+        """
+        driver, driven = self.links(wheels)
+        return (ratio_row(self.name, driven, driver, self.mean),)
+
+    def references(self) -> Iterator[tuple[str, str, tuple[str | int, ...]]]:
+        """Yield the kind (link or wheel), name and path of each part of the train that the coupling names."""
+        for key in self.ENDS:
+            value = getattr(self, key)
+            if isinstance(value, str):
+                yield "link", value, (key,)
+            else:
+                yield from (("link", each, (key, each if isinstance(value, Mapping) else at))
+                            for at, each in enumerate(value))  # fmt: skip
+
+    @property
+    def lengths(self) -> Iterator[Quantity]:
+        """Declared lengths of the coupling, which have units if any length of the train has one."""
+        values = (getattr(self, name) for name in type(self).model_fields)
+        return (each for each in values if isinstance(each, Quantity) and each.dimension in (None, "length"))
+
+    def renamed(self, names: Mapping[str, str], name: str) -> Self:
+        """Return the coupling between other links.
+
+        names   link -> its new name, for the links that are replaced
+        name    new `id`
+        """
+        changed: dict[str, Any] = {"id": name}
+        for key in self.ENDS:
+            value = getattr(self, key)
+            if isinstance(value, str):
+                changed[key] = names.get(value, value)
+            elif isinstance(value, Mapping):
+                changed[key] = {names.get(each, each): size for each, size in value.items()}
+            else:
+                changed[key] = tuple(names.get(each, each) for each in value)
+        return self.model_copy(update=changed)

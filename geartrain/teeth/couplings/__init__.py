@@ -1,0 +1,5 @@
+"""Couplings of links other than gear pairs, one file a family; `teeth/coupling.py` has their base class and names.
+
+pins                pins in slots, pins in holes, links kept parallel
+pin_transmission    transmission functions of a pin in a slot
+"""

@@ -198,7 +198,8 @@ class TrainKinematics(Shown):
         """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         from geartrain.kinematics.speeds import find_mobility
 
-        return find_mobility(self.whole.reduced, len(self.declaration.revolutes))
+        declared = self.declaration
+        return find_mobility(self.whole.reduced, len(declared.revolutes), sliding_pairs=len(declared.slides))
 
     @cached_property
     def is_placed(self) -> bool:
@@ -287,7 +288,8 @@ class TrainKinematics(Shown):
         case = self.case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+            found = solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs)
+            return lambda of, base: found.relative(of, self.tree.reference(of, base))
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
@@ -345,8 +347,8 @@ class TrainKinematics(Shown):
                 )
             )
         outputs = {output: declared} if declared else {}
-        links = declared.links(output, train.frame) if declared else (output, train.frame)
-        return replace(case, outputs=outputs), links
+        of, base = declared.links(output, train.frame) if declared else (output, train.frame)
+        return replace(case, outputs=outputs), (of, self.tree.reference(of, base))
 
     def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
         """Return for each output the link whose speed the output reports, and the link relative to which this speed is
@@ -375,7 +377,7 @@ class TrainKinematics(Shown):
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = relevant_circuits(self.circuits, kept)
-        kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
+        kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier, *circuit.bases))
         return self._solved_part(circuits, tuple(link for link in self.declaration.links if link in kept))
 
     def _system(self, part: SolvedPart, case: StateCase) -> WillisSystem:
@@ -466,8 +468,11 @@ class TrainKinematics(Shown):
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
 
+        def seen(of: str, base: str) -> SpeedValue | None:
+            return relative(of, self.tree.reference(of, base))
+
         def outputs() -> dict[str, OutputResult]:
-            return {each.name: each for each in judge_outputs(declared, case, relative, self.is_rotation)}
+            return {each.name: each for each in judge_outputs(declared, case, seen, self.is_rotation)}
 
         return Answer(
             declared.name,

@@ -81,7 +81,7 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
     """Return the speed of a link relative to another as a linear combination of declared speeds."""
-    found = {of: 1}
+    found, base = {of: 1}, stage.train.kinematics.tree.reference(of, base)
     found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.kinematics.signs)
     return found
 
@@ -344,8 +344,8 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
 def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:
     output = stage.outputs[name]
     of, base = output.links(name, stage.train.declaration.frame)
-    signs = stage.train.kinematics.signs
-    speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
+    signs, seen = stage.train.kinematics.signs, stage.train.kinematics.tree.reference(of, base)
+    speed, ratio = (_exact(relative_speed(of, seen, each, signs)) for each in (stage.speed, stage.ratio))
     # viewed against its axis, a positive angle is counter-clockwise
     sense = -1 if dot(stage.along(stage.train.kinematics.tree.axis(of)), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)

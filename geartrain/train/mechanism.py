@@ -64,7 +64,7 @@ _JOINT_SCHEMA = {
     "type": "object",
     "additionalProperties": {"type": "array", "items": {"type": ["string", "number"]}, "minItems": 2},
 }
-"""JSON Schema of the short form of `revolutes`, a mapping from axis label to the links on the axis."""
+"""JSON Schema of the short form of `revolutes` and `slides`, a mapping from axis label to the links on the axis."""
 
 
 FrictionTorque = Annotated[
@@ -401,7 +401,8 @@ class Link(Declared):
         None, description="Moment of inertia about its axis; default from its wheels, if their `density` is given"
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
-        None, description="Mass of a link on a moving carrier; default from its wheels, as for `inertia`"
+        None,
+        description="Mass of a link that slides or is on a moving carrier; default from its wheels, as for `inertia`",
     )
     bearing: DeclaredBearing | None = Field(
         None,
@@ -474,6 +475,22 @@ class Revolute(Declared):
 
 
 Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
+
+
+class Slide(Declared):
+    """Sliding pair of two links. Sliding pairs with the same axis label move along the same line.
+
+    See Also
+    --------
+    Train : its field `slides`
+    """
+
+    pair: tuple[Id, Id] = Field(description="Two links that slide along each other")
+    axis: Id = Field(description="Label of the axis; equal labels mean travel along one line")
+    note: str | None = Field(None, description="Remark for readers")
+
+
+Slides = Annotated[tuple[Slide, ...], AlsoShort(_JOINT_SCHEMA)]
 
 
 class GearPair(Declared):

@@ -11,7 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Figure, Share, Span, above_zero, checked
+from geartrain.numerics.quantity import Amount, Figure, Share, Span, above_zero, checked
 from geartrain.train.fields import AlsoShort, Declared, Id, exactly_one, short_for, whole_number
 
 _SIGNS = "Aries Taurus Gemini Cancer Leo Virgo Libra Scorpio Sagittarius Capricorn Aquarius Pisces"
@@ -249,8 +249,10 @@ class Target(Declared):
     period: Annotated[Span, above_zero(f"give a period {_RETROGRADE}", "a period")] | None = Field(
         None, description="Time or length of `turns` turns, above 0"
     )
-    speed: Figure | None = Field(
-        None, description="Speed in the train's unit with its sign; 0 is compared by difference"
+    speed: Amount | None = Field(
+        None,
+        description="Speed in the train's unit with its sign, or the travel of a sliding link such as `1.25 mm`; "
+        "0 is compared by difference",
     )
     sense: Literal["direct", "retrograde"] | None = Field(
         None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
@@ -311,11 +313,11 @@ class Expect(Declared):
 
     SHORT: ClassVar = {"type": ["number", "string"]}
 
-    value: Figure = Field(
-        description="Expected speed in the train's unit; integers and fractions are exact, "
-        "decimals are compared to their digits"
+    value: Amount = Field(
+        description="Expected speed in the train's unit, or travel of a sliding link with its unit; integers and "
+        "fractions are exact, decimals are compared to their digits"
     )
-    tolerance: Annotated[Figure, _TOLERANCE] | None = Field(
+    tolerance: Annotated[Amount, _TOLERANCE] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
     )
 
@@ -338,11 +340,11 @@ class Published(Declared):
     Output : its field `published`
     """
 
-    value: Figure = Field(description="Value as printed; the computed value must match all its digits")
+    value: Amount = Field(description="Value as printed; the computed value must match all its digits")
     as_: Literal["speed", "input/output", "output/input"] = Field(
         "speed", alias="as", description="Quantity that is printed; ratios need exactly one non-zero input"
     )
-    tolerance: Annotated[Figure, _TOLERANCE] | None = Field(
+    tolerance: Annotated[Amount, _TOLERANCE] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
     )
     place: str | None = Field(None, description="Page or table of the source")

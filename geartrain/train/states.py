@@ -17,11 +17,15 @@ from pydantic_core import PydanticCustomError
 from geartrain.errors import Loc, Problem
 from geartrain.numerics.exact import abridged_text, decimal
 from geartrain.numerics.quantity import (
+    TRAVEL_ARM,
     Figure,
     Inertia,
+    InputSpeed,
+    Load,
     Mass,
     MeasuredLength,
     Quantity,
+    Rate,
     Speed,
     Time,
     Torque,
@@ -119,10 +123,12 @@ class Drive(Declared):
     ('weight', 0.08)
     """
 
-    rate: Speed | None = Field(None, description="Constant speed of the input in real time, for any load")
+    rate: Rate | None = Field(None, description="Constant speed of the input in real time, for any load")
     torque: DriveTorque | None = Field(None, description="Constant torque")
     weight: Annotated[Mass, above_zero("give a mass such as 4 kg")] | None = Field(
-        None, description="Mass of a weight on a line around a drum; needs `drum`"
+        None,
+        description="Mass of a weight on a line around a drum; needs `drum`, unless the `crank` is the link of the "
+        "weight, which slides",
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
         None,
@@ -135,10 +141,10 @@ class Drive(Declared):
     @model_validator(mode="after")
     def _has_one_key(self) -> Drive:
         exactly_one(self, "a drive", _KINDS, "kind")
-        if (self.weight is None) != (self.drum is None):
+        if self.weight is None and self.drum is not None:
             raise PydanticCustomError(
                 "drive",
-                "`weight` and `drum` must be given together",
+                "`drum` is given without `weight`",
                 {"fix": "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"},
             )
         return self
@@ -151,10 +157,13 @@ class Drive(Declared):
 
     @property
     def pull(self) -> float | None:
-        """Torque of a weight at its drum [N m]: mass times gravity times radius; None for other drives."""
-        if self.weight is None or self.drum is None:
+        """Torque of a weight [N m], mass times gravity times the radius of its drum; None for other drives.
+
+        For the link of the weight itself it is the torque that stands for the force, see `as_torque`.
+        """
+        if self.weight is None:
             return None
-        return self.weight.si * GRAVITY * self.drum.si
+        return self.weight.si * GRAVITY * (float(TRAVEL_ARM) if self.drum is None else self.drum.si)
 
     @property
     def steady_torque(self) -> float | None:
@@ -259,9 +268,11 @@ class State(Declared):
     locks: tuple[tuple[Id, Id], ...] | None = Field(
         None, description="Pairs of links that are locked together; default from the train"
     )
-    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link; default from the train")
-    loads: ByName[Torque] | None = Field(
-        None, description="External torques by link, positive if power enters the train; default from the train"
+    inputs: ByName[InputSpeed] | None = Field(None, description="Prescribed speeds by link; default from the train")
+    loads: ByName[Load] | None = Field(
+        None,
+        description="External torques, and forces on sliding links, by link, positive if power enters the train in the "
+        "positive sense; default from the train",
     )
     solve_for: Id | None = Field(None, description="Link whose external torque is the unknown; default from the train")
     drive: Drive | None = Field(None, description="Drive of the train in time; default from the train")
@@ -292,6 +303,7 @@ class Remove(Declared):
     gears: tuple[Id, ...] = Field((), description="Ids of gear pairs")
     couplings: tuple[Id, ...] = Field((), description="Ids of couplings")
     revolutes: tuple[tuple[Id, Id], ...] = Field((), description="Turning pairs, each as its two links")
+    slides: tuple[tuple[Id, Id], ...] = Field((), description="Sliding pairs, each as its two links")
     outputs: tuple[Id, ...] = Field((), description="Names of outputs")
     dials: tuple[Id, ...] = Field((), description="Names of dials")
     states: tuple[Id, ...] = Field((), description="Names of states")

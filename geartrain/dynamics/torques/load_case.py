@@ -190,7 +190,7 @@ class LoadCase:
 
         The relative speed of two links may be determined even if neither speed is.
         """
-        own = self.sense(link)
+        own, carrier = self.sense(link), self.tree.reference(link, carrier)
         found = relative_speed(link, carrier, self.speeds.get, self.signs)
         if found is not None:
             return own * found
@@ -230,7 +230,7 @@ class LoadCase:
         for link in self.train.links:
             if not (friction := self.bearing(link)):
                 continue
-            carrier = self.tree.parent[link][0]
+            carrier = self.tree.borne_by(link)
             relative = self.relative(link, carrier) or Fraction(0)
             # Coulomb friction has the sign of the relative speed
             torque = friction * ((relative > 0) - (relative < 0))

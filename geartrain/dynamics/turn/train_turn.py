@@ -181,7 +181,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     known = dict(question.loads)
     for link, friction in bearings.items():
         # only the presence of friction matters here; the odd factor prevents it from cancelling a load by chance
-        for end in (link, setting.tree.parent[link][0]):
+        for end in (link, setting.tree.borne_by(link)):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
     bases = {link: setting.reacts_on(link) for link in question.links}
@@ -194,8 +194,8 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     busy = replace(
         setting, circuits=[each for each in setting.circuits if each.id in {mesh.id for mesh in balance.meshes}]
     )
-    links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, circuit.carrier)}
-    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, *bases.items())
+    links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, *circuit.subtracted)}
+    links.update(*((link, setting.tree.borne_by(link)) for link in bearings), known, *bases.items())
     teeth = {mesh.name: mesh for mesh in problem.teeth}
     motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
     positions = PositionMotion(motion, followed_pairs(busy, teeth))

@@ -55,6 +55,22 @@ class Circuit(NamedTuple):
     """Ids of the two wheels; for a coupling, links i and j."""
     note: str = ""
     """Note that the sense of rotation is only a convention; empty if it is determined."""
+    bases: tuple[str, ...] = ()
+    """Links whose speeds are subtracted from the speeds of i and j; empty if the carrier is subtracted from both.
+
+    A sliding carrier does not turn: for a link that turns, the base is the nearest link at or above the carrier that
+    turns, and for a link that slides, the nearest one that slides in the same direction (or the frame).
+    """
+
+    @property
+    def travels(self) -> bool:
+        """True if link j turns and link i slides."""
+        return self.kind != "gear" and COUPLINGS[self.kind].travels
+
+    @property
+    def subtracted(self) -> tuple[str, str]:
+        """Links whose speeds are subtracted from the speeds of links i and j."""
+        return (self.bases[0], self.bases[1]) if self.bases else (self.carrier, self.carrier)
 
     @property
     def swings(self) -> bool:
@@ -76,8 +92,14 @@ class Circuit(NamedTuple):
         """Links with non-zero coefficients of the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
-        pair without losses, and the row modulo 1 gives the phases of its teeth.
+        pair without losses, and the row modulo 1 gives the phases of its teeth. If a sliding carrier is involved, the
+        coefficients -a and -b belong to the two `bases`.
         """
+        if self.bases:
+            row: dict[str, int] = {}
+            for link, factor in zip((self.i, self.j, *self.bases), (self.a, self.b, -self.a, -self.b), strict=True):
+                row[link] = row.get(link, 0) + factor
+            return tuple((link, factor) for link, factor in row.items() if factor)
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
         # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
@@ -136,7 +158,8 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur"
         ):  # fast path for nearly all pairs, without directions
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
-            circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
+            circuit = Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair)
+            circuits.append(_turning(tree, circuit) if tree.lines else circuit)
             continue
         try:
             a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
@@ -146,7 +169,8 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
                 replace(each, what=f"gear pair '{gear.name}': {each.what}", place=place) for each in error.problems
             ]
             continue
-        circuits.append(Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note))
+        circuit = Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note)
+        circuits.append(_turning(tree, circuit) if tree.lines else circuit)
     for at, coupling in enumerate(train.couplings):
         for row in coupling.rows(wheels):
             found = _coupling_circuit(train, axes, coupling, row, at)
@@ -162,9 +186,62 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
     if carrier is None:
         return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
     labels = tree.axis_seen_from(carrier, row.driven), tree.axis_seen_from(carrier, row.driver)
+    circuit = Circuit(row.id, coupling.kind, row.driven, row.driver, carrier, row.a, row.b, (row.driven, row.driver))
+    if circuit.travels:
+        return _travel(train, axes, coupling, circuit, at)
     if not axes.are_parallel(labels):
         return _oblique_pin(train, coupling, labels, at)
-    return Circuit(row.id, coupling.kind, row.driven, row.driver, carrier, row.a, row.b, (row.driven, row.driver))
+    return _turning(tree, circuit) if tree.lines else circuit
+
+
+def _turning(tree: Tree, circuit: Circuit) -> Circuit:
+    """Return the circuit of two links that turn, without the sliding links among its members."""
+    i, j, base = (tree.moving(link, None) for link in (circuit.i, circuit.j, circuit.carrier))
+    if (i, j, base) == (circuit.i, circuit.j, circuit.carrier):
+        return circuit
+    return circuit._replace(i=i, j=j, bases=(base, base))
+
+
+def _travel(train: Train, axes: Axes, coupling: Coupling, circuit: Circuit, at: int) -> Circuit | Problem:
+    """Return the circuit of a link j that turns and a link i that slides, each relative to the carrier's motion of its
+    kind.
+    """
+    tree, carrier = axes.tree, circuit.carrier
+    along, about = tree.axis_seen_from(carrier, circuit.i), tree.axis_seen_from(carrier, circuit.j)
+    slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
+    if along not in slides or about in slides:
+        return _wrong_motion(train, coupling, circuit, at, along not in slides)
+    b = circuit.b
+    if not axes.plain:
+        declared = all(label in axes.directions for label in (along, about))
+        if declared and coupling.kind == "screw" and not axes.are_parallel((along, about)):
+            return _oblique_screw(train, coupling, (along, about), at)
+        # the sense of a screw is that of its thread; other couplings are declared about and along their own axes
+        if coupling.kind != "screw":
+            b *= axes.sign(along) * axes.sign(about)
+    line = slides[along]
+    i, j = tree.moving(circuit.i, line), tree.moving(circuit.j, None)
+    return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
+
+
+def _wrong_motion(train: Train, coupling: Coupling, circuit: Circuit, at: int, turns: bool) -> Problem:
+    link, key = (circuit.i, "slides") if turns else (circuit.j, "turns")
+    does, joints = ("turns", "slides") if turns else ("slides", "revolutes")
+    return Problem(
+        f"coupling '{coupling.name}': '{link}' {does} on '{circuit.carrier}'",
+        f"a {coupling.kind} joins a link that turns to a link that slides",
+        f"declare '{link}' under `{joints}`, or name another link as `{key}`",
+        train.place("couplings", at),
+    )
+
+
+def _oblique_screw(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
+    return Problem(
+        f"coupling '{coupling.name}': the slide '{labels[0]}' is not parallel to the axis '{labels[1]}' of the screw",
+        "a nut moves along the axis of its screw",
+        f"give both the same direction in `axes`, such as `{labels[0]}: {{direction: [1, 0, 0]}}`",
+        train.place("couplings", at),
+    )
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:

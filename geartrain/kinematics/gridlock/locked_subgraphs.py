@@ -167,8 +167,8 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
     circuits = [
         circuit._replace(
             # each link's relative speed is multiplied by its own factor, which cancels in the product around a loop
-            a=circuit.a * factor(circuit.j, circuit.carrier),
-            b=circuit.b * factor(circuit.i, circuit.carrier),
+            a=circuit.a * factor(circuit.j, circuit.subtracted[1]),
+            b=circuit.b * factor(circuit.i, circuit.subtracted[0]),
         )
         for circuit in part.circuits
     ]

@@ -221,7 +221,8 @@ def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iter
     bearing_friction = [
         circuit.id for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
     ]
-    if bare := tuple(name for name in bearing_friction if name not in setting.joints):
+    computed = {name for name in bearing_friction if couplings[name].losses is not None}
+    if bare := tuple(name for name in bearing_friction if name not in setting.joints and name not in computed):
         why = "it depends on `pin_radius` and `offset`, which are not declared"
         yield NeglectedEffect("friction of pins", bare, why)
 
@@ -236,7 +237,7 @@ def _teeth(
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
         has_friction = setting.has_friction(gear) and means[circuit.id] == MeanEfficiencies()
-        if has_friction and setting.relative(circuit.i, circuit.carrier) != 0:
+        if has_friction and setting.turn(circuit) != 0:
             bare[_NO_HELIX if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
     for why, names in bare.items():
         if names:
@@ -258,7 +259,7 @@ def _open(
         circuit.id
         for circuit in busy
         if (means[circuit.id] != MeanEfficiencies() or _at_no_speed(setting, circuit))
-        and setting.relative(circuit.i, circuit.carrier) is None
+        and setting.turn(circuit) is None
     )
     if found:
         yield NeglectedEffect("losses of pairs", found, "their driving side depends on speeds that are not determined")

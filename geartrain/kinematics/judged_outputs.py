@@ -9,6 +9,7 @@ from typing import Literal, NamedTuple, Required, TypedDict
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
 from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
@@ -118,9 +119,13 @@ class SpeedFigures(TypedDict, total=False):
     """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
 
     exact: Required[str | None]
-    """Exact speed as a string such as "2/7"; None if it was solved in floats, or is not determined."""
+    """Exact speed as a string such as "2/7" or "36 π"; None if it was solved in floats, contains π in another way, or
+    is not determined.
+    """
     value: Required[float | None]
     """Nearest float64; None beyond its range, or if the speed is not determined."""
+    unit: str
+    """Unit `mm` of the travel of a link that slides, per unit of the train or per turn; omitted for links that turn."""
     decimal: str
     """Decimal number with twelve digits, only for a speed beyond the range of float64."""
     estimate: float | None
@@ -202,6 +207,8 @@ class OutputResult(Result):
     """Comparisons with the declared targets; empty if the speed is not determined."""
     bookkeeping: bool
     """True if `speed` is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
+    slides: bool = False
+    """True if the link slides and `speed` is its travel [mm per unit of the train, or per turn]."""
 
     @property
     def found(self) -> SpeedValue | None:
@@ -212,7 +219,7 @@ class OutputResult(Result):
     @property
     def figures(self) -> SpeedFigures:
         """Speed of the output in the form of the JSON output."""
-        return speed_figures(self.speed)
+        return speed_figures(self.speed, self.slides)
 
     @property
     def expect(self) -> JudgedExpectation | None:
@@ -260,14 +267,20 @@ def magnitude(value: SpeedValue) -> SpeedValue:
     return value if value >= 0 else -value
 
 
-def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
+def speed_figures(speed: SpeedValue | None, slides: bool = False) -> SpeedFigures:
     """Return a speed in the form of the JSON output; beyond the range of float64, `value` is None and `decimal` is
-    given.
+    given. `slides` is True for a travel in mm.
     """
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
     value = as_float(speed)
-    plain: SpeedFigures = {"exact": fraction_text(speed), "value": value}
+    text: str | None = fraction_text(speed)
+    if touches_pi(speed):
+        text = pi_text(speed)
+        text = None if text.startswith("≈") else text
+    plain: SpeedFigures = {"exact": text, "value": value}
+    if slides:
+        plain["unit"] = "mm"
     if value is None:
         plain["decimal"] = decimal(speed)
     return plain
@@ -299,6 +312,7 @@ def judge_outputs(
             _published_holds(output, speed, ratio),
             tuple(_compare_with_target(train, target, speed) for target in output.targets if speed is not None),
             not is_rotation(of, base),
+            of in train.sliding,
         )
 
 

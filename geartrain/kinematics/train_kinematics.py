@@ -39,6 +39,7 @@ from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_sys
 from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.multiples_of_pi import touches_pi, with_other_pi
 from geartrain.numerics.results import Shown
 from geartrain.train import StateCase, Train
 
@@ -474,6 +475,7 @@ class TrainKinematics(Shown):
         def outputs() -> dict[str, OutputResult]:
             return {each.name: each for each in judge_outputs(declared, case, seen, self.is_rotation)}
 
+        circles = ratios is not None and any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits)
         return Answer(
             declared.name,
             case.state,
@@ -487,7 +489,19 @@ class TrainKinematics(Shown):
             {} if accuracy is None else accuracy,
             work,
             expected=case.expect,
+            sliding=declared.sliding,
+            contains_pi=LazyMapping(lambda: self._with_pi(case, speeds, seen)) if circles else {},
         )
+
+    def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:
+        """Return whether the speed of each link and output changes if another rational number replaces pi."""
+        other = [_with_other_pi(circuit) if circuit.travels else circuit for circuit in self.circuits]
+        found = solve(self._solved_part(other, tuple(self.declaration.links)), case, self.signs)
+        changes = {link: found.speeds.get(link) != speed for link, speed in speeds.items()}
+        for name, output in case.outputs.items():
+            of, base = output.links(name, self.declaration.frame)
+            changes[name] = found.relative(of, self.tree.reference(of, base)) != seen(of, base)
+        return changes
 
     @cached_property
     def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:
@@ -515,6 +529,11 @@ class TrainKinematics(Shown):
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
+
+
+def _with_other_pi(circuit: Circuit) -> Circuit:
+    ratio = with_other_pi(circuit.ratio)
+    return circuit._replace(a=ratio.denominator, b=-ratio.numerator)
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:

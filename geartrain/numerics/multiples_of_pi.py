@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from geartrain.numerics.exact import abridged_text, is_short
+from geartrain.numerics.exact import abridged_text, decimal, is_short
 
 PI = Fraction(3141592654841143, 1000000000398317)
 """Quotient of two primes that differs from pi by a factor of 1 + 1.7e-19, less than the rounding error of float64."""
@@ -20,36 +20,40 @@ OTHER_PI = Fraction(3141592654637417, 1000000000333469)
 _LONGEST = 24  # characters of the rational factor: longer factors are not printed as multiples of pi
 
 
-def has_pi(value: Fraction | int) -> bool:
-    """Return True if a number is a rational multiple of `PI` or of its inverse."""
-    value = Fraction(value)
-    return bool(value) and any(
-        top % PI.numerator == 0 and bottom % PI.denominator == 0
-        for top, bottom in ((value.numerator, value.denominator), (value.denominator, value.numerator))
-    )
+def touches_pi(value: Fraction) -> bool:
+    """Return True if a number has a prime factor of `PI`, as all of its rational multiples have."""
+    parts = value.numerator, value.denominator
+    return bool(value) and any(part % prime == 0 for part in parts for prime in (PI.numerator, PI.denominator))
 
 
-def with_other_pi(multiple: Fraction) -> Fraction:
-    """Return a multiple of pi, or a number without pi, computed with `OTHER_PI` instead of `PI`."""
-    if not has_pi(multiple):
-        return multiple
-    return multiple / PI * OTHER_PI if multiple.numerator % PI.numerator == 0 else multiple * PI / OTHER_PI
+def _factor(value: Fraction) -> tuple[Fraction, int]:
+    """Return the rational factor of a multiple of a power of pi, 1 or -1, and the power; (value, 0) for others."""
+    if value and value.numerator % PI.numerator == 0 and value.denominator % PI.denominator == 0:
+        return value / PI, 1
+    if value and value.numerator % PI.denominator == 0 and value.denominator % PI.numerator == 0:
+        return value * PI, -1
+    return value, 0
+
+
+def with_other_pi(value: Fraction) -> Fraction:
+    """Return a multiple of pi or 1/pi computed with `OTHER_PI` instead of `PI`; other numbers are unchanged."""
+    factor, power = _factor(value)
+    return factor * OTHER_PI**power
 
 
 def pi_text(value: Fraction) -> str:
-    """Format an exact number; a multiple of pi or of 1/pi is written with the letter.
+    """Format an exact number; a multiple of pi or of 1/pi with a short factor is written with the letter, other numbers
+    with a factor of `PI` as decimals.
 
-    >>> pi_text(36 * PI), pi_text(-PI), pi_text(5 / (96 * PI)), pi_text(Fraction(5, 4))
-    ('36 π', '-π', '5/(96 π)', '5/4')
+    >>> pi_text(36 * PI), pi_text(-PI), pi_text(5 / (96 * PI)), pi_text(Fraction(5, 4)), pi_text(1 + PI)
+    ('36 π', '-π', '5/(96 π)', '5/4', '≈ 4.14159265359')
     """
-    if not has_pi(value):
+    if not touches_pi(value):
         return abridged_text(value)
-    up = value.numerator % PI.numerator == 0
-    factor = value / PI if up else value * PI
-    if not is_short(factor, _LONGEST):
-        return abridged_text(value)
+    factor, power = _factor(value)
+    if not power or not is_short(factor, _LONGEST):
+        return f"≈ {decimal(value, 12)}"
     sign, top, bottom = "-" if factor < 0 else "", abs(factor.numerator), factor.denominator
-    if up:
-        head = "π" if top == 1 else f"{top} π"
-        return f"{sign}{head}" + (f"/{bottom}" if bottom > 1 else "")
+    if power > 0:
+        return f"{sign}{'' if top == 1 else f'{top} '}π" + (f"/{bottom}" if bottom > 1 else "")
     return f"{sign}{top}/" + (f"({bottom} π)" if bottom > 1 else "π")

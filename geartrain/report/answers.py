@@ -57,7 +57,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
     if result is None or result.speed is None:
         return "-"
     inverse = f" (in/out {figure(1 / result.ratio, 6)})" if result.ratio else ""
-    return f"{exact(result.speed)}{inverse}"
+    return f"{exact(result.speed)}{' mm' if result.slides else ''}{inverse}"
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
@@ -100,6 +100,8 @@ def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
         exact(result.ratio) if declared.unit_days is None and result.ratio is not None else _period(declared, speed)
     )
     target = result.targets[0] if result.targets else None
+    if result.slides and speed is not None:
+        return (result.name, f"{exact(speed)} mm", "", *_target_cells(declared, target), _fault(result))
     return (result.name, exact(speed), second, *_target_cells(declared, target), _fault(result))
 
 
@@ -199,7 +201,8 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
         mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
         # a ratio needs exactly one turning input
         ratio = speed / moving[0] if len(moving) == 1 else None
-        rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
+        unit = " mm" if link in answer.sliding else ""
+        rows.append((link + mark + _pi(answer, link), exact(speed) + unit, figure(speed) + unit, one_to(ratio)))
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
 
 
@@ -218,11 +221,12 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
     of = result.of if result.relative_to == declared.frame else f"{result.of} seen from {result.relative_to}"
     expect, published = result.output.expect, result.output.published
     sign = "; only the sign differs" if result.differs_in_sign else ""
+    unit = " mm" if result.slides and result.speed is not None else ""
     return (
         result.name,
         of + (" (sum of joint speeds)" if result.bookkeeping else ""),
-        exact(result.speed),
-        figure(result.speed),
+        exact(result.speed) + unit,
+        figure(result.speed) + unit,
         exact(result.ratio) if result.ratio is not None and result.ratio != result.speed else "",
         "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected{sign}",
         ""
@@ -338,10 +342,13 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
     """
     state = f" state {answer.state}" if answer.state is not None else ""
     place = "" if answer.verdict else f" ({answer.place})"
-    unit = f" ({answer.unit})" if answer.unit and answer.verdict else ""
+    units, declared = [answer.unit] if answer.unit else [], answer._declaration
+    if answer.sliding and declared is not None:
+        units.append(f"slides in {declared.travel_unit}{'' if answer.unit else ' per turn'}")
+    unit = f" ({', '.join(units)})" if units and answer.verdict else ""
     lines = [f"{answer.train}{state}: {answer.verdict}{place}{unit}"]
     rows = [
-        (name, result.speed, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
+        (name, result.speed, _errors(answer, result.of) + _pi(answer, name) + ("" if result.holds else "  FAILS"))
         for name, result in answer.outputs.items()
     ]
     if output is None:
@@ -351,7 +358,9 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
         rows = [(output, answer.speeds.get(output), _marks(answer, output, oblique))]
     width = max((len(name) for name, _, _ in rows), default=0)
     for name, speed, mark in rows:
-        lines.append(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
+        result = answer.outputs.get(name)
+        unit = " mm" if (result.slides if result is not None else name in answer.sliding) else ""
+        lines.append(f"  {name:<{width}}  {exact(speed) + unit:>20}  {figure(speed, 12)}{unit}{mark}")
     if answer.residual:
         row, most = max(answer.residual.items(), key=lambda each: each[1])
         if any(each.true_error is None for each in answer.accuracy.values()):
@@ -388,7 +397,15 @@ def why_floats(answer: Answer) -> str:
 
 
 def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
-    return _errors(answer, link) + ("  (sum of joint speeds)" if link in oblique else "")
+    return _errors(answer, link) + _pi(answer, link) + ("  (sum of joint speeds)" if link in oblique else "")
+
+
+def _pi(answer: Answer, name: str) -> str:
+    """Return a mark for the speed of a link or output that contains pi and is not written as a multiple of it."""
+    speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
+    if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):
+        return ""
+    return "  (not exact: contains π)"
 
 
 def _errors(answer: Answer, link: str) -> str:

@@ -132,8 +132,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     escapement = declared.escapement
     if escapement is None:
         return
-    tree = train.kinematics.tree
-    bearer = tree.reference(escapement.link, tree.top[escapement.link])
+    bearer = train.kinematics.tree.bearer(escapement.link)
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
         # beats are in seconds, so speeds need a unit of time

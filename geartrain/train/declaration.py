@@ -45,7 +45,19 @@ from geartrain.train.fields import (
     short_for,
 )
 from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
-from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolutes, Slide, Slides, Source, Thickness, Wheel
+from geartrain.train.mechanism import (
+    Axis,
+    GearPair,
+    Joint,
+    Link,
+    MaterialDensity,
+    Revolutes,
+    Slide,
+    Slides,
+    Source,
+    Thickness,
+    Wheel,
+)
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date
 from geartrain.train.reconstruction import Reconstruction
@@ -410,6 +422,7 @@ class Train(Declared):
             drive=drive,
             expect=own.expect or self.expect or "determined",
             rate=None if rate is None else as_rotation(rate),
+            sliding=self.sliding,
         )
 
     def check_state(self, state: str | None) -> None:
@@ -503,7 +516,9 @@ class Train(Declared):
         """Return True if a speed is a rational number of the train's units, False if radians are converted to turns or
         the reverse.
         """
-        return not speed.value or same_kind(as_rotation(speed).unit, None if self.unit is not None else self.input_unit or None)
+        return not speed.value or same_kind(
+            as_rotation(speed).unit, None if self.unit is not None else self.input_unit or None
+        )
 
     @cached_property
     def input_unit(self) -> str:
@@ -577,7 +592,7 @@ class Train(Declared):
         if not self.slides:
             return frozenset()
         found, reached = set(), {self.frame}
-        waiting = [*self.revolutes, *self.slides]
+        waiting: list[Joint] = [*self.revolutes, *self.slides]
         while joint := next((each for each in waiting if len(reached.intersection(each.pair)) == 1), None):
             waiting.remove(joint)
             (link,) = {*joint.pair} - reached
@@ -585,6 +600,13 @@ class Train(Declared):
             if isinstance(joint, Slide):
                 found.add(link)
         return frozenset(found)
+
+    @property
+    def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
+        """The train and its states with their paths: both have inputs, loads, fixed links, locks, outputs and drives."""
+        yield (), self
+        for name, state in self.states.items():
+            yield ("states", name), state
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
         """Yield the name and the wheel of every tooth count that is declared with a range or choices."""

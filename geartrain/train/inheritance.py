@@ -133,6 +133,10 @@ def _pair_name(node: YamlNode) -> str:
     return given.text if given else "~".join(texts(node.mapping.get("pair")))
 
 
+def _pair_ends(node: YamlNode) -> Iterator[str]:
+    return texts(node.mapping.get("pair"))
+
+
 def _coupling_name(node: YamlNode) -> str:
     given = node.mapping.get("id")
     return given.text if given else "~".join(_coupling_ends(node)[:2])
@@ -179,8 +183,8 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
         parts = {name: _without_wheels(node, wheels) for name, node in kept.mapping.items()}
         result["links"] = YamlNode(parts, kept.place, kept.keys)
     for key, ends, removed in (
-        *((key, lambda node: texts(node.mapping.get("pair")), links) for key in JOINTS),
-        ("gears", lambda node: texts(node.mapping.get("pair")), wheels),
+        *((key, _pair_ends, links) for key in JOINTS),
+        ("gears", _pair_ends, wheels),
         ("couplings", _coupling_ends, links | wheels),
     ):
         if key in result:
@@ -221,7 +225,10 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[objec
         for at, name in enumerate(names):
             if key in known and name not in known[key]:
                 if isinstance(name, frozenset):
-                    part, fix = f"{'turning' if key == 'revolutes' else 'sliding'} pair of {' and '.join(sorted(name))}", "delete this entry"
+                    part, fix = (
+                        f"{'turning' if key == 'revolutes' else 'sliding'} pair of {' and '.join(sorted(name))}",
+                        "delete this entry",
+                    )
                 else:
                     part, fix = f"part '{name}'", suggest(str(name), known[key], otherwise="delete this entry")
                 why = f"the parent has no such entry in {key}"

@@ -461,7 +461,15 @@ class Axis(Declared):
         return self
 
 
-class Revolute(Declared):
+class Joint(Declared):
+    """Turning or sliding pair of two links."""
+
+    pair: tuple[Id, Id] = Field(description="Two links that move relative to each other")
+    axis: Id = Field(description="Label of the axis")
+    note: str | None = Field(None, description="Remark for readers")
+
+
+class Revolute(Joint):
     """Turning pair of two links. Turning pairs with the same axis label are coaxial.
 
     See Also
@@ -471,13 +479,12 @@ class Revolute(Declared):
 
     pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
     axis: Id = Field(description="Label of the axis; equal labels mean coaxial joints")
-    note: str | None = Field(None, description="Remark for readers")
 
 
 Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
 
 
-class Slide(Declared):
+class Slide(Joint):
     """Sliding pair of two links. Sliding pairs with the same axis label move along the same line.
 
     See Also
@@ -487,7 +494,6 @@ class Slide(Declared):
 
     pair: tuple[Id, Id] = Field(description="Two links that slide along each other")
     axis: Id = Field(description="Label of the axis; equal labels mean travel along one line")
-    note: str | None = Field(None, description="Remark for readers")
 
 
 Slides = Annotated[tuple[Slide, ...], AlsoShort(_JOINT_SCHEMA)]

@@ -359,6 +359,8 @@ class StateCase(Shown):
     """Links of the declared brake or lock that causes an indirect one, by the links that are fixed or locked
     indirectly.
     """
+    sliding: frozenset[str] = frozenset()
+    """Links that slide, whose speeds are travels in mm."""
     problems: tuple[Problem, ...] = ()
     """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
 
@@ -370,7 +372,8 @@ class StateCase(Shown):
         link : str
             One of the inputs.
         """
-        return f"{link} = {self.shown(self.inputs[link])}"
+        unit = " mm" if link in self.sliding else ""
+        return f"{link} = {self.shown(self.inputs[link])}{unit}"
 
     def shown(self, speed: Fraction) -> str:
         """Return a speed as text: a fraction, or a decimal number if it is not exact.

@@ -53,7 +53,9 @@ class PairErrors:
         """Propagation of the errors of pairs to the requested links."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
-        ends = {name: [self.index[link] for link in (each.i, each.j, *each.subtracted)] for name, each in circuits.items()}
+        ends = {
+            name: [self.index[link] for link in (each.i, each.j, *each.subtracted)] for name, each in circuits.items()
+        }
         wanted = [self.index[link] for link in self.links]
         found = find_error_propagation(self.train.system, ends, lambda name: self._joint(circuits[name]), wanted)
         if found is None:

@@ -258,8 +258,7 @@ def _open(
     found = tuple(
         circuit.id
         for circuit in busy
-        if (means[circuit.id] != MeanEfficiencies() or _at_no_speed(setting, circuit))
-        and setting.turn(circuit) is None
+        if (means[circuit.id] != MeanEfficiencies() or _at_no_speed(setting, circuit)) and setting.turn(circuit) is None
     )
     if found:
         yield NeglectedEffect("losses of pairs", found, "their driving side depends on speeds that are not determined")

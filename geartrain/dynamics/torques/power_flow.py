@@ -313,7 +313,10 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
     for bearing in found.bearings:
         ends = ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction))
         # a bearing at rest or of undetermined speed has no torque, and its speed may be missing
-        yield PowerNode("bearing", bearing.link), [(link, -found.power(link, torque)) for link, torque in ends if torque]
+        yield (
+            PowerNode("bearing", bearing.link),
+            [(link, -found.power(link, torque)) for link, torque in ends if torque],
+        )
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:

@@ -1,4 +1,4 @@
-"""Turning and sliding pairs as a tree rooted at the frame; directions and positions of the axes, and the signs of meshes.
+"""Turning and sliding pairs as a tree rooted at the frame; directions and positions of axes, and signs of meshes.
 
 Helical wheels in mesh are checked for compatible teeth, and their senses of rotation are determined.
 
@@ -63,6 +63,12 @@ class Tree(FrozenFields):
         has a motion of the other kind, the nearest link above with a comparable motion.
         """
         return self.reference(link, self.parent[link][0])
+
+    def bearer(self, link: str) -> str:
+        """Return the link relative to which `link` moves on its axis: the link that carries the axis, or if that has a
+        motion of the other kind, the nearest link above with a comparable motion.
+        """
+        return self.reference(link, self.top[link])
 
     def axis(self, link: str) -> str | None:
         """Return the axis label of the joint between a link and its parent; None for the frame."""
@@ -416,6 +422,8 @@ class Axes:
             return None
         direction = self.direction(label)
         parts = (*direction, *cross(_vector(here), direction))
+        if label in {self.tree.axis(link) for link in self.tree.lines}:
+            parts = (Fraction(0),) * 3 + direction
         return {at: part for at, part in enumerate(parts) if part}
 
     def _crossing(self, one: str, other: str) -> tuple[float, int]:
@@ -545,7 +553,27 @@ def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase
         stops, linkages = bodies.close(across)
         problems += [_linkage(train, case, rigid) for rigid in linkages]
         case = _joint_by_joint(train.frame, case, across, stops)
+    if axes.tree.lines:
+        case = _in_coordinates(axes.tree, case)
     return replace(case, problems=tuple(problems)) if problems else case
+
+
+def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
+    """Return the prescriptions with each lock of a link to its bearer as a lock to the nearest link with a comparable
+    motion; a lock to the frame is a brake.
+    """
+    fixed, locks, causes = list(case.fixed), [], dict(case.causes)
+    for a, b in case.locks:
+        link, base = (a, b) if tree.bears(b, a) else (b, a)
+        own = tree.reference(link, base) if tree.bears(base, link) else base
+        new = (a, b) if own == base else (link,) if own == tree.frame else (link, own)
+        if new != (a, b):
+            causes[new] = causes.get((a, b), (a, b))
+        if len(new) == 1:
+            fixed.append(link)
+        else:
+            locks.append((new[0], new[1]))
+    return replace(case, fixed=tuple(dict.fromkeys(fixed)), locks=tuple(locks), causes=causes)
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:

@@ -344,7 +344,9 @@ class TrainModel:
 
     def _stops(self) -> Iterator[Stop]:
         for link, (pitch, beat) in self.case.escapements.items():
-            base = self.tree.reference(link, self.tree.top[link])  # pallets are carried by the link that bears the escape wheel
+            base = self.tree.reference(
+                link, self.tree.top[link]
+            )  # pallets are carried by the link that bears the escape wheel
             way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)

@@ -31,7 +31,10 @@ def _number(raw: object) -> object:
 
 
 def _flag(raw: object) -> object:
-    return {"true": True, "false": False}.get(raw.lower(), raw) if isinstance(raw, str) else raw
+    found = {"true": True, "false": False}.get(raw.lower()) if isinstance(raw, str) else raw
+    if not isinstance(found, bool):
+        raise bad("travel", f"'{raw}' is neither true nor false", "write true or false")
+    return found
 
 
 Number = Annotated[int, BeforeValidator(_number)]

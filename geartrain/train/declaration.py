@@ -603,7 +603,7 @@ class Train(Declared):
 
     @property
     def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
-        """The train and its states with their paths: both have inputs, loads, fixed links, locks, outputs and drives."""
+        """The train and its states with their paths: both have inputs, loads, fixed links, locks and outputs."""
         yield (), self
         for name, state in self.states.items():
             yield ("states", name), state

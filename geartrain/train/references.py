@@ -15,7 +15,7 @@ from geartrain.train.outputs import Output, Target
 from geartrain.train.periods import period_table, suggested_period
 from geartrain.train.reconstruction import NEW_ARBOR
 from geartrain.train.sliding_links import sliding_problems
-from geartrain.train.states import Drive, State
+from geartrain.train.states import Drive
 
 # ----------------------------------------------------------------------------------------------------- unit consistency
 

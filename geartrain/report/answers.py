@@ -134,7 +134,7 @@ def _error_text(error: float | None) -> str:
 def _fault(result: OutputResult) -> str:
     """Return the expectations, published figures and tolerances that an output fails, as a string."""
     expect, published = result.output.expect, result.output.published
-    sign = "; only the sign differs" if result.differs_in_sign else ""
+    sign = only_sign(result)
     parts = []
     if published is not None and not result.published_holds:
         parts.append(f"FAILS: {published.value} {published.as_} is printed, {result_words(result)}{sign}")
@@ -217,7 +217,7 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
     declared = train.declaration
     of = result.of if result.relative_to == declared.frame else f"{result.of} seen from {result.relative_to}"
     expect, published = result.output.expect, result.output.published
-    sign = "; only the sign differs" if result.differs_in_sign else ""
+    sign = only_sign(result)
     return (
         result.name,
         of + (" (sum of joint speeds)" if result.bookkeeping else ""),
@@ -235,12 +235,26 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 def result_words(result: OutputResult) -> str:
     """Return the computed value that corresponds to a published figure as a string, exact and in decimals."""
+    published = result.output.published
     if result.found is None:
-        ratio = result.output.published is not None and result.output.published.as_ != "speed"
-        open_ = result.speed is None or not ratio
-        return "undetermined" if open_ else "undefined: a ratio needs exactly one turning input, and a turning output"
+        if result.speed is None or published is None or published.as_ == "speed":
+            return "undetermined"
+        if published.as_ == "period":
+            return "no period: the output is at rest"
+        return "undefined: a ratio needs exactly one turning input, and a turning output"
+    if result.found_text is not None:
+        return f"found {result.found_text}"
     text, near = exact(result.found), figure(result.found)
     return f"found {text}" + (f" = {near}" if near != text else "")
+
+
+def only_sign(result: OutputResult) -> str:
+    """Return a remark if an output has the expected magnitude in the opposite sense, and its remedy; otherwise ""."""
+    if not result.differs_in_sign:
+        return ""
+    published = result.output.published
+    ignored = published is not None and published.as_ != "period" and result.published_holds is False
+    return "; only the sign differs" + (" (`magnitude: true` ignores it)" if ignored else "")
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:

@@ -16,6 +16,8 @@ from geartrain.train.periods import period_table
 from geartrain.train.printed_period import PrintedPeriod, year_seconds
 
 DAYS_PER_CENTURY = 36525  # days in a Julian century
+SECONDS_PER_DAY = 86400
+SECONDS_PER_YEAR = 31556952  # 365.2425 d, the mean year of the Gregorian calendar
 SpeedValue = Fraction | float
 Relative = Callable[[str, str], SpeedValue | None]
 """Function that returns the speed of a link relative to another, about the axis of the first; None if undetermined."""
@@ -74,6 +76,9 @@ class TargetResult(Result):
         "compared",
         "ppm",
         "days_per_century",
+        "seconds_per_day",
+        "seconds_per_year",
+        "days_to_one_day",
         "degrees_per_unit",
         "met",
     )
@@ -114,6 +119,21 @@ class TargetResult(Result):
     def ppm(self) -> float | None:
         """Relative error [ppm]; None if the target is 0, or if the value exceeds the range of float64."""
         return as_plain_product(self.error, 10**6) if self.speed else None
+
+    @property
+    def seconds_per_day(self) -> float | None:
+        """Time that a clock gains on the target [s/d]; None if `days_per_century` is None."""
+        return None if self.days_per_century is None else as_plain_product(self.error, SECONDS_PER_DAY)
+
+    @property
+    def seconds_per_year(self) -> float | None:
+        """Time that a clock gains on the target [s per 365.2425 d]; None if `days_per_century` is None."""
+        return None if self.days_per_century is None else as_plain_product(self.error, SECONDS_PER_YEAR)
+
+    @property
+    def days_to_one_day(self) -> float | None:
+        """Time after which the error is one day [d]; None without an error, or if `days_per_century` is None."""
+        return abs(1 / self.days_per_century) * DAYS_PER_CENTURY if self.days_per_century else None
 
 
 class SpeedFigures(TypedDict, total=False):

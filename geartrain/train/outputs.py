@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Annotated, Any, ClassVar, Literal
@@ -11,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Figure, Share, Span, above_zero, bad, checked
+from geartrain.numerics.quantity import Figure, RelativeError, Span, above_zero, bad, checked
 from geartrain.train.fields import AlsoShort, Boolean, Declared, Id, exactly_one, short_for, whole_number
 from geartrain.train.printed_period import PrintedPeriod, is_printed_period
 
@@ -232,6 +233,22 @@ _TOLERANCE = checked(
 )
 
 
+_CALENDAR_PERIOD = re.compile(r"\s*([\d./]+)\s*(year|yr|y|month)s?\s*", re.ASCII)
+
+
+def _check_calendar_unit(raw: object) -> object:
+    """Return a period unchanged; raise an error with the target to write if it is in years or months."""
+    if found := _CALENDAR_PERIOD.fullmatch(str(raw)[:100]):
+        name = "month_synodic_J2000" if found[2] == "month" else "year_tropical_J2000"
+        fix = f"write `{{name: {name}, turns: 1/{found[1]}}}` or another name of `geartrain periods`, or a time in days"
+        raise PydanticCustomError(
+            "unit",
+            "'{text}' has an unknown unit",
+            {"text": str(raw), "why": "years and months have several lengths", "fix": fix},
+        )
+    return raw
+
+
 class Target(Declared):
     """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single string
     instead of a mapping is its name.
@@ -248,9 +265,10 @@ class Target(Declared):
     SHORT: ClassVar = {"type": "string"}
 
     name: str | None = Field(None, description="Name of an astronomical period; `geartrain periods` lists them")
-    period: Annotated[Span, above_zero(f"give a period {_RETROGRADE}", "a period")] | None = Field(
-        None, description="Time or length of `turns` turns, above 0"
-    )
+    period: (
+        Annotated[Span, BeforeValidator(_check_calendar_unit), above_zero(f"give a period {_RETROGRADE}", "a period")]
+        | None
+    ) = Field(None, description="Time or length of `turns` turns, above 0")
     speed: Figure | None = Field(
         None, description="Speed in the train's unit with its sign; 0 is compared by difference"
     )
@@ -260,10 +278,10 @@ class Target(Declared):
     turns: Annotated[Figure, _TURNS] = Field(
         Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0"
     )
-    tolerance: Annotated[Share, _TOLERANCE] | None = Field(
+    tolerance: Annotated[RelativeError, _TOLERANCE] | None = Field(
         None,
-        description="Maximum relative error, above which `geartrain check` fails; for a speed of 0 the maximum "
-        "difference, as a number in the train's unit; default the error is only reported",
+        description="Maximum relative error, such as 20 ppm or 5 s/d, above which `geartrain check` fails; for a speed "
+        "of 0 the maximum difference, as a number in the train's unit; default the error is only reported",
     )
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")

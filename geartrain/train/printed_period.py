@@ -89,7 +89,9 @@ class PrintedPeriod(Figure):
         for unit, size in sizes[:-1]:
             count, rest = divmod(rest, size)
             words.append(f"{count} {unit}")
-        return " ".join([*words, f"{nearest_float(rest / last):.{decimals}f}".rstrip("0").rstrip(".") + f" {sizes[-1][0]}"])
+        return " ".join(
+            [*words, f"{nearest_float(rest / last):.{decimals}f}".rstrip("0").rstrip(".") + f" {sizes[-1][0]}"]
+        )
 
 
 def is_printed_period(raw: object) -> bool:

@@ -2,4 +2,6 @@
 
 pins                pins in slots, pins in holes, links kept parallel
 pin_transmission    transmission functions of a pin in a slot
+steps               Geneva drives, fingers and stars, ratchets, mutilated wheels
+step_transmission   transmission functions of couplings that move by steps
 """

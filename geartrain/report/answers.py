@@ -407,6 +407,9 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
         if any(each.true_error is None for each in answer.accuracy.values()):
             lines.append(f"  {why_floats(answer)}")
         lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
+    if output is None and answer._declaration is not None:
+        remarks = ((each.name, each.remark) for each in answer._declaration.couplings)
+        lines += [f"  coupling '{name}' {remark}: speeds are means" for name, remark in remarks if remark]
     return "\n".join(lines)
 
 

@@ -76,9 +76,10 @@ def _outputs(train: Train, loc: Loc, part: Train | State) -> Iterator[Problem]:
             elif not slides and value.unit is not None:
                 what = f"'{name}' turns, but `{key}` is the length {value}"
                 yield Problem(what, "a turning link has a speed in turns", "give a number", train.place(*place, key))
-        if slides and any(target.speed is None for target in output.targets):
+        printed = output.published is not None and output.published.as_ == "period"
+        if slides and (printed or any(target.speed is None for target in output.targets)):
             fix = "give a travel per unit of the train, such as `{speed: 5 mm}`"
-            yield Problem(f"'{name}' slides and has no period", _PER_UNIT, fix, train.place(*place, "targets"))
+            yield Problem(f"'{name}' slides and has no period", _PER_UNIT, fix, train.place(*place))
         if slides and output.dial is not None:
             what, why = f"'{name}' slides and cannot be read on a dial", "the hand of a dial turns"
             yield Problem(

@@ -242,12 +242,10 @@ class OutputResult(Result):
 
     @property
     def period(self) -> SpeedValue | None:
-        """Time of one turn [s]; None for a link at rest or that slides, an undetermined speed, or without a unit of time."""
-        return (
-            None
-            if self.slides or not self.unit_seconds or not self.speed
-            else self.unit_seconds / magnitude(self.speed)
-        )
+        """Time of one turn [s]; None for a link that rests or slides, an undetermined speed or no unit of time."""
+        if self.slides or not self.unit_seconds or not self.speed:
+            return None
+        return self.unit_seconds / magnitude(self.speed)
 
     @property
     def found(self) -> SpeedValue | None:

@@ -38,7 +38,7 @@ def _inputs(train: Train, loc: Loc, inputs: Mapping[str, Quantity]) -> Iterator[
             fix = f"give a length: `{link}: {number} mm`, or a velocity: `{link}: {number} mm/s`"
             yield Problem(f"'{link}' slides, but its speed '{speed}' is not a travel", _PER_UNIT, fix, place)
         elif link not in train.sliding and travels:
-            what = f"'{link}' turns, but its speed '{speed}' is a travel"
+            what = f"'{speed}' is a {speed.dimension}, but a speed is required, because '{link}' turns"
             fix = f"give a number or a speed of rotation, or declare '{link}' under `slides`"
             yield Problem(what, "a turning link has a speed in turns", fix, place)
         elif train.sliding and speed.unit and not travels and not speed.unit.startswith(_IN_TURNS):

@@ -220,20 +220,29 @@ class _RunResults:
     @cached_property
     def _way(self) -> int:
         """Sign of the reported link's mean speed about its own axis."""
-        setting, link = self.run.train.setting, self.run.train.requested[self._row]
+        setting, link = self.run.train.setting, self._link
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
         """Return the torque at the reported link, positive in its mean sense, in the solution with minimum loss."""
-        return np.asarray(self._way * found.torque[self._row])
+        return np.asarray(self._way * found.torque[self._row] / self._arm)
 
     def _highest(self, found: PositionTorques) -> Floats:
         """Return the torque at the reported link, positive in its mean sense, in the solution with maximum loss."""
-        return np.asarray(self._way * found.highest[self._row])
+        return np.asarray(self._way * found.highest[self._row] / self._arm)
+
+    @property
+    def _link(self) -> str:
+        return self.run.train.requested[self._row]
+
+    @property
+    def _arm(self) -> float:
+        """Lever arm of the force on a reported link that slides [m]; 1 for a torque."""
+        return float(self.run.train.setting.arms.get(self._link, 1))
 
     def cycle(self) -> TorqueCycle:
         train, found = self.run.train, self.run.found
-        link = train.requested[self._row]
+        link = self._link
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         maximum = None if locked else self._extreme(1, False)
         torque, neglected, period = self._torque(found), self._neglected(), train.motion.period
@@ -267,6 +276,7 @@ class _RunResults:
             self._stretches(),
             train.complete,
             neglected,
+            link in train.setting.arms,
         )
 
     def _neglected(self) -> tuple[NeglectedEffect, ...]:

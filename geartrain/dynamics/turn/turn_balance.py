@@ -501,8 +501,8 @@ class TurnBalance:
         found: dict[int, Floats] = {}
         for mesh in column.meshes:
             first, second = self._for_planet(mesh.id, force)
-            i, j, k = mesh.senses
-            members = i * first, j * second, -k * (first + second)
+            reactions = (-first - second,) if len(mesh.links) == 3 else (-first, -second)
+            members = [sense * each for sense, each in zip(mesh.senses, (first, second, *reactions), strict=True)]
             for row, member, factor in self.balance.places(mesh):
                 found[row] = found.get(row, 0.0) + float(factor) * members[member]
         return found

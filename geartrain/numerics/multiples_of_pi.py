@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from geartrain.numerics.exact import abridged_text, decimal, is_short
+from geartrain.numerics.exact import abridged_text, decimal, fraction_text, is_short
 
 PI = Fraction(3141592654841143, 1000000000398317)
 """Quotient of two primes that differs from pi by a factor of 1 + 1.7e-19, less than the rounding error of float64."""
@@ -39,6 +39,22 @@ def with_other_pi(value: Fraction) -> Fraction:
     """Return a multiple of pi or 1/pi computed with `OTHER_PI` instead of `PI`; other numbers are unchanged."""
     factor, power = _factor(value)
     return factor * OTHER_PI**power
+
+
+def integer_factors(number: int, pi: str = "π") -> list[str]:
+    """Return the factors of a positive coefficient as texts: an integer, unless it is 1, and the letter pi.
+
+    In a quotient of polynomials with powers of `PI`, all terms have the same total number of factors that are its
+    numerator or denominator, so that the denominator stands for 1.
+
+    >>> integer_factors(36 * PI.numerator), integer_factors(PI.denominator), integer_factors(6)
+    (['36', 'π'], [], ['6'])
+    """
+    letters = []
+    for prime, letter in ((PI.numerator, [pi]), (PI.denominator, [])):
+        while number >= prime and number % prime == 0:
+            number, letters = number // prime, letters + letter
+    return [fraction_text(number)] * (number != 1) + letters
 
 
 def pi_text(value: Fraction) -> str:

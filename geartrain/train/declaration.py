@@ -479,7 +479,8 @@ class Train(Declared):
     def has_inertia(self) -> bool:
         """True if the inertia of at least one link is declared, or follows from the density of its wheels."""
         wheels = (wheel.density is not None for _, wheel in self.wheels.values())
-        return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
+        heavy = any(link.inertia or (link.mass and name in self.sliding) for name, link in self.links.items())
+        return self.density is not None or heavy or any(wheels)
 
     def has_torque_units(self, state: str | None) -> bool:
         """Return True if one state has loads or bearing torques other than 0, and all of these torques have units.

@@ -107,7 +107,11 @@ def find_separation(
     rates, places, narrowest = _minimum_rates(contacts, kinks, turns)
     leaping = _jump_positions(contacts, kinks, narrowest)
     found = []
+    # racks, screws and drums have no flanks that separate
+    travels = {circuit.id for circuit in moving.circuits if circuit.travels}
     for pair, name in enumerate(contacts.pairs):
+        if name in travels:
+            continue
         rate, at = (0.0, leaping[pair]) if pair in leaping else (float(rates[pair]), float(places[pair]))
         found.append(PairSeparation(name, None if rate == inf else rate / tau, at, pair in leaping))
     found.sort(key=lambda each: (inf if each.rate is None else each.rate, each.pair))

@@ -25,7 +25,7 @@ from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
-from geartrain.scene.context import SceneContext, exact, rounded
+from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
 from geartrain.scene.layout import WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke
@@ -356,13 +356,13 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     return Pointer(
         output=name,
         body=stage.body[of],
-        base=stage.body[base],
+        base=stage.body[seen],
         dial=dials.index(key) if key in dials else None,
         speed=exact(ratio),
-        shown=stage.shown(speed),
-        decimal=rounded(speed),
+        shown=stage.shown(speed, of),
+        decimal=stage.rounded(speed, of),
         sense=sense,
-        text=_as_read(sense, speed),
+        text="" if of in stage.train.kinematics.tree.lines else _as_read(sense, speed),
         pairs=tuple(pairs),
         bodies=tuple(bodies),
         wheels=tuple(wheels),

@@ -375,7 +375,9 @@ def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     for tally in tallies:
         # a mean speed of 0 cannot be the divisor
         # rounding of a speed of 0 must not print a sign
-        speeds = "..".join(f"{round(each, 5) + 0.0:.5f}" for each in tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
+        speeds = "..".join(f"{round(each, 5) + 0.0:.5f}" for each in tally.speeds) + (
+            "" if tally.ratio else " (divided by the input's)"
+        )
         rows.append((tally.name, figure(tally.ratio, 9), *_degrees(tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
 

@@ -222,21 +222,36 @@ class LoadCase:
 
     @cached_property
     def bearings(self) -> tuple[BearingTorque, ...]:
-        """Friction torque of every bearing with friction, against the rotation of its link: equation (10).
+        """Friction torque of every bearing with friction, against the rotation of its link: equation (10). It includes
+        the mean torque of jumpers on the link.
 
         The torque is 0 if the speed in the joint is 0 or undetermined.
         """
         found = []
-        for link in self.train.links:
-            if not (friction := self.bearing(link)):
-                continue
-            carrier = self.tree.parent[link][0]
+        for (link, carrier), friction in self._rubbing.items():
             relative = self.relative(link, carrier) or Fraction(0)
             # Coulomb friction has the sign of the relative speed
             torque = friction * ((relative > 0) - (relative < 0))
             reaction = Fraction(0) if carrier == self.train.frame else self.sense(carrier) * torque
             found.append(BearingTorque(link, carrier, -self.sense(link) * torque, reaction, torque * relative))
         return tuple(found)
+
+    @property
+    def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
+        """Friction torques above 0 that do not depend on the load, by the link and the link that carries it."""
+        own = (
+            (link, self.tree.parent[link][0], friction) for link in self.train.links if (friction := self.bearing(link))
+        )
+        jumpers = (
+            (each.i, each.carrier, self.couplings[each.id].friction_torque)
+            for each in self.circuits
+            if each.kind != "gear"
+        )
+        found: dict[tuple[str, str], Fraction] = {}
+        for link, carrier, friction in (*own, *jumpers):
+            if friction:
+                found[link, carrier] = found.get((link, carrier), Fraction(0)) + friction
+        return found
 
     def bearing(self, link: str) -> Fraction:
         """Return the friction torque of a link's bearing, 0 if none is declared [N m, or number without a unit]."""

@@ -355,7 +355,7 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
     requested.
     """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
-    if not loads and not any(map(setting.bearing, setting.train.links)):
+    if not loads and not any(map(setting.bearing, setting.train.links)) and not setting.train.has_jumpers:
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     question = _requested(setting, loads, solve_for)

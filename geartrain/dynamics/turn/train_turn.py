@@ -197,11 +197,22 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, circuit.carrier)}
     links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, *bases.items())
     teeth = {mesh.name: mesh for mesh in problem.teeth}
+    _refuse_jumps(busy)
     motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
     positions = PositionMotion(motion, followed_pairs(busy, teeth))
     contacts = find_contacts(busy, positions, teeth)
     loads = {link: float(torque) for link, torque in question.loads.items()}
     return TurnBalance(busy, positions, balance, contacts, loads, bearings)
+
+
+def _refuse_jumps(setting: LoadCase) -> None:
+    """Raise `QuestionError` if a coupling that transmits torque moves at once."""
+    for circuit in setting.circuits:
+        joint = setting.joints.get(circuit.id)
+        if joint is not None and joint.transmission.jumps:
+            what = f"the torque of '{circuit.id}' over a turn is not defined"
+            why = "a step at once has no force; only the mean torque is known"
+            raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
 
 
 @dataclass

@@ -271,6 +271,7 @@ class TrainModel:
         if circuit.id in self._couplings:
             joint = self._couplings[circuit.id]
             if not isinstance(joint, PinMesh):
+                _refuse_jump(circuit.id, joint.transmission)
                 front = tabled_angle(joint.transmission)
                 return front, front, None, joint.transmission
             transmission = joint.transmission
@@ -376,6 +377,14 @@ class TrainModel:
             tuple(self._stops()),
             tuple(self._springs()),
         )
+
+
+def _refuse_jump(name: str, transmission: TransmissionFunction) -> None:
+    """Raise `QuestionError` if a coupling moves its driven link at once."""
+    if transmission.jumps:
+        what = f"the dynamics of coupling '{name}' cannot be simulated"
+        why = "a step at once has no force"
+        raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
 
 
 def _sparse(form: Floats) -> dict[int, float]:

@@ -73,6 +73,8 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "N s/mm": ("damping", Fraction(1000)),
     "%": ("fraction", Fraction(1, 100)),
     "ppm": ("fraction", Fraction(1, 10**6)),
+    "s/d": ("clock rate", Fraction(1, 86400)),
+    "s/year": ("clock rate", 1 / (86400 * Fraction("365.2425"))),  # of the Gregorian calendar
 }
 # a radian is an irrational fraction of a turn: these two scales have 50 digits, so they are in a table of their own
 _TURNS_PER_RADIAN = 1 / (2 * Fraction("3.14159265358979323846264338327950288419716939937511"))
@@ -117,6 +119,9 @@ SPELT = {
     "N/µm": "N/um",
     "N/μm": "N/um",
     "Nms/rad": "N m s/rad",
+    "s/day": "s/d",
+    "s/y": "s/year",
+    "s/yr": "s/year",
 }
 
 
@@ -482,6 +487,8 @@ MeshStiffness = Annotated[Quantity, Dimension("torsional stiffness or stiffness"
 TorsionalDamping = Annotated[Quantity, Dimension("torsional damping")]
 MeshDamping = Annotated[Quantity, Dimension("torsional damping or damping")]
 Share = Annotated[Quantity, Dimension("fraction", plain=True)]
+RelativeError = Annotated[Quantity, Dimension("fraction or clock rate", plain=True)]
+"""Relative error of a speed: a number, a percentage, ppm, or the rate of a clock (s/d, s/year)."""
 
 
 def above_zero(fix: str, noun: str = "the value") -> AfterValidator:

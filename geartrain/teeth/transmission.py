@@ -380,6 +380,14 @@ class TransmissionFunction(Shown, ABC):
         """
         return self
 
+    def mirrored(self) -> TransmissionFunction:
+        """Return the transmission function of a coupling whose driver's mean motion is against the declared sense of
+        its angle; by default this function itself.
+
+        Its error at S is minus the error of this function at -S. Override it in functions whose error is not odd.
+        """
+        return self
+
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
         """Return the transmission function for selected columns of an array of angles.
 
@@ -477,6 +485,20 @@ class ExactRatio(TransmissionFunction):
         import numpy as np
 
         return np.full(np.shape(S), value)
+
+
+class LosslessTransmission(TransmissionFunction):
+    """Transmission function without a model of friction: the only losses are those of a declared efficiency."""
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Return the efficiency at driver angles S, which is 1."""
+        import numpy as np
+
+        return np.ones(np.shape(S))
+
+    def efficiency_minimum(self) -> float:
+        """Return the minimum efficiency, which is 1."""
+        return 1.0
 
 
 class DerivedTransmission(TransmissionFunction):

@@ -450,6 +450,7 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
             yield from _output_references(train, name, output, (*loc, "outputs", name))
     if train.escapement is not None:
         yield "link", train.escapement.link, ("escapement", "link")
+        yield "link", train.escapement.on, ("escapement", "on")
     yield "link", train.crank, ("crank",)
     yield "link", train.solve_for, ("solve_for",)
     for name, clutch in train.clutches.items():

@@ -13,7 +13,7 @@ from functools import cached_property
 
 from geartrain.dynamics.gear_meshes import CouplingMesh
 from geartrain.dynamics.torques.torque_results import BearingTorque
-from geartrain.kinematics.circuits import Axes, Circuit, Tree
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, pallet_link
 from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate
@@ -211,10 +211,10 @@ class LoadCase:
     def reacts_on(self, link: str) -> str:
         """Return the link on which the reaction of an unknown torque acts: usually the frame.
 
-        For the escape wheel it is the link that carries this wheel, because the pallets are mounted there.
+        For the escape wheel it is the link on which the pallets are mounted.
         """
         escapement = self.train.escapement
-        return self.train.frame if escapement is None or link != escapement.link else self.bearer(link)
+        return self.train.frame if escapement is None or link != escapement.link else pallet_link(escapement, self.tree)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
         """Return the speed of a circuit's first link relative to its carrier; at 0 no power flows through the pair."""

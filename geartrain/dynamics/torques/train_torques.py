@@ -47,9 +47,8 @@ def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]
 
 
 def _without_rests(train: TrainMechanics, torques: Torques) -> Torques:
-    """Return the torques; with the verdict `self-locking` if power flows back through a coupling whose driven link rests.
-
-    The lock of such a coupling holds the driven link during its rest.
+    """Return the torques, with the verdict `self-locking` if power flows back through a coupling with a lock, which
+    holds its driven link at rest.
     """
     wheels = train.declaration.wheels
     locked = {

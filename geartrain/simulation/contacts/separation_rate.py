@@ -127,7 +127,7 @@ def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
     coupling moves at once.
     """
     declared = train.declaration
-    if any(each.transmission.jumps for each in train.couplings):
+    if any(each.transmission.at_once for each in train.couplings):
         return False
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False

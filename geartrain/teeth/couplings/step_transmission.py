@@ -151,21 +151,21 @@ class StepTransmission(SteppingTransmission):
         self.teeth, self.moves, self.times, self.over = teeth, tuple(moves), times, over
         self.ratio = Fraction(times * sum(moves), len(moves) * teeth)
         self.period = 2 * pi * len(moves) / times
-        self.jumps = not over
+        self.at_once = not over
         self.dwell = 1 - over * times * Fraction(sum(1 for each in moves if each), len(moves))
         self._starts = np.arange(len(moves)) * (2 * pi / times)
-        # a driver that comes to rest where an engagement begins, as a star on a star does, has begun it despite rounding
-        self._early = _EARLY * 2 * pi / times if self.jumps else 0.0
+        # a driver that comes to rest where an engagement begins has begun it, despite rounding of its angle
+        self._early = _EARLY * 2 * pi / times if self.at_once else 0.0
         self._pitch = 2 * pi / teeth
         self._moved = np.array([*accumulate(moves, initial=0)])
 
     def _engagement(self, S: ArrayLike) -> tuple[Floats, Floats, Floats]:
-        """Return, at driver angles S [rad], the index of the last engagement, the angle modulo the period [rad], and the
-        completed fraction of the engagement, 0 to 1.
+        """Return, at driver angles S [rad], the index of the last engagement, the angle modulo the period [rad], and
+        the completed fraction of the engagement, 0 to 1.
         """
         u = np.mod(np.asarray(S, dtype=float) + self._early, self.period)
         at = np.searchsorted(self._starts, u, side="right") - 1
-        if self.jumps:
+        if self.at_once:
             return at, u - self._early, np.ones_like(u)
         return at, u, np.minimum((u - self._starts[at]) / (2 * pi * float(self.over)), 1.0)
 
@@ -178,7 +178,7 @@ class StepTransmission(SteppingTransmission):
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at driver angles S [rad]: 0 at rest, and 0 at the instants of steps at once."""
         at, u, done = self._engagement(S)
-        if self.jumps:
+        if self.at_once:
             return np.zeros_like(u)
         return np.where(done < 1, np.asarray(self._ratios)[at], 0.0)
 
@@ -213,7 +213,7 @@ class StepTransmission(SteppingTransmission):
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
         """Return the upward steps of the speed ratio at the beginnings of engagements; None for steps at once."""
-        if self.jumps:
+        if self.at_once:
             return None
         rests = self.over * self.times < 1
         earlier = [0.0] * len(self.moves) if rests else [self._ratios[-1], *self._ratios[:-1]]

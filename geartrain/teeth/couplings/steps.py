@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
-from geartrain.numerics.quantity import Angle, Energy, Quantity, bad, not_below_zero
+from geartrain.numerics.quantity import Angle, Energy, bad, not_below_zero
 from geartrain.teeth.coupling import Coupling
 
 if TYPE_CHECKING:

@@ -111,7 +111,7 @@ def find_separation(
     held = {
         each.id
         for each in contacts.motion._forward.sources
-        if each.transmission.dwell and each.transmission.steepest_fall() == inf
+        if each.transmission.dwell and each.transmission.steepest_fall() is None
     }
     for pair, name in enumerate(contacts.pairs):
         if name in held:

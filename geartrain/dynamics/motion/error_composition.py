@@ -284,7 +284,9 @@ class ErrorComposition:
             value, tau = source.transmission.error_and_speed(S[0])
             error[own] = source.sense * value
             rate[own] = source.sense * (tau - float(source.transmission.ratio)) * turning[0]
-        yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < -REST * source.mean)
+        yield from (
+            source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < -REST * source.mean
+        )
 
     def _coupled(self, step: CompositionStep) -> CoupledErrors:
         sources = [self.sources[at] for at in step.sources]

@@ -60,6 +60,7 @@ class TableTransmission(LosslessTransmission):
         self.halves = np.diff(edges) / 2
         powers = np.arange(1, len(coefficients))[:, None]
         self.slopes = powers * coefficients[1:] / self.halves
+        self.at_once = self.jumps
 
     def mirrored(self) -> TableTransmission:
         """Return the function for a driver whose forward sense is reversed: minus the deviation at minus the angle."""

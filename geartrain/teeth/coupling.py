@@ -38,6 +38,8 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "pin_follower": CouplingKind("pins", "PinFollower", varies=True),
     "pins_in_holes": CouplingKind("pins", "PinsInHoles"),
     "parallel": CouplingKind("pins", "Parallel"),
+    "belt": CouplingKind("belt", "Belt"),
+    "ratio": CouplingKind("ratio", "Ratio"),
 }
 """Kinds of couplings by the value of `kind` in declarations."""
 
@@ -66,6 +68,10 @@ class CouplingRow(NamedTuple):
     """Coefficient of link i, above 0."""
     b: int
     """Coefficient of link j, -m a."""
+    wheels: tuple[str, str] | None = None
+    """Wheels of links i and j if a and b are their tooth counts, apart from the sign; else None."""
+    carrier: str | None = None
+    """Link k as declared; None for the transfer vertex of links i and j."""
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
@@ -84,6 +90,12 @@ class Coupling(BaseModel):
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
     """True if the coupling may join each of several equal links to one other link."""
+    PARALLEL: ClassVar[str] = "its parts must move in the same plane"
+    """Reason why the axes of the links must be parallel; "" if they may have any directions."""
+    NEEDS_DISTANCE: ClassVar[bool] = True
+    """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
+    UNKNOWN: ClassVar[str] = ""
+    """What is not known or not modelled of a coupling of this kind, as a clause for reports."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -107,6 +119,26 @@ class Coupling(BaseModel):
     def name(self) -> str:
         """Declared id; default the names of its first two ends, joined by `~`."""
         return self.id or "~".join(self.ends[:2])
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """Names of the rows that the coupling adds to the Willis system."""
+        return (self.name,)
+
+    @property
+    def about(self) -> str:
+        """Sizes of the coupling as declared, as text for reports; "" if there are none."""
+        return ""
+
+    def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
+        """Yield what is wrong with the coupling, why, and how to correct it, from its links and wheels.
+
+        wheels   wheel -> its link and its declaration; all parts that the coupling names are declared
+        """
+        links = self.links(wheels)
+        if twice := next((link for link in links if links.count(link) > 1), None):
+            why = f"{' and '.join(dict.fromkeys(self.SIDES))} must be on different links"
+            yield f"coupling '{self.name}' joins '{twice}' to itself", why, "name the other link"
 
     @property
     def mean(self) -> Fraction:

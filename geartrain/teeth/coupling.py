@@ -95,7 +95,7 @@ class Coupling(BaseModel):
     NEEDS_DISTANCE: ClassVar[bool] = True
     """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
     UNKNOWN: ClassVar[str] = ""
-    """What is not known or not modelled of a coupling of this kind, as a clause for reports."""
+    """What is not known or not modelled of a coupling of this kind, as nouns for reports."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -144,6 +144,11 @@ class Coupling(BaseModel):
     def mean(self) -> Fraction:
         """Exact mean speed of the driven side divided by the speed of the driving side, relative to the carrier."""
         return Fraction(1)
+
+    @property
+    def bounds(self) -> tuple[Fraction, Fraction] | None:
+        """Minimum and maximum of `mean` if it is known with a tolerance; None for an exact mean ratio."""
+        return None
 
     @property
     def transmission(self) -> TransmissionFunction | None:

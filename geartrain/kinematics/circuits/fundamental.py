@@ -54,7 +54,7 @@ class Circuit(NamedTuple):
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling without teeth, links i and j."""
     note: str = ""
-    """Note that the sense of rotation is only a convention; empty if it is determined."""
+    """Remark: the sense of rotation is only a convention, or the links turn as one body; empty without a remark."""
     by_teeth: bool = True
     """True if a and b are the tooth counts of `wheels`, apart from the sign; False for couplings without teeth."""
 
@@ -85,6 +85,13 @@ class Circuit(NamedTuple):
         # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
+    def with_ratio(self, factor: Fraction) -> Circuit:
+        """Return the circuit of a coupling whose mean ratio, driven speed divided by driver speed, is multiplied by
+        `factor`.
+        """
+        ratio = self.ratio * factor
+        return self._replace(a=ratio.denominator, b=-ratio.numerator)
+
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
         """Return the circuit of the same pair with other tooth counts; the senses of rotation are unchanged.
 
@@ -97,6 +104,9 @@ class Circuit(NamedTuple):
             return self
         a, b = (counts.get(wheel, abs(old)) for wheel, old in zip(self.wheels, (self.a, self.b), strict=True))
         return self._replace(a=a if self.a > 0 else -a, b=b if self.b > 0 else -b)
+
+
+_SOLID = "with a ratio of 1, these coaxial links turn as one body, whatever the carrier: that is a lock"
 
 
 class WillisEquation(NamedTuple):
@@ -197,7 +207,8 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
     elif not axes.are_parallel(labels):
         return _oblique(train, coupling, row, labels, at)
     ends = (row.driven, row.driver)
-    return Circuit(row.id, coupling.kind, *ends, carrier, row.a, b, row.wheels or ends, "", row.wheels is not None)
+    note = _SOLID if row.a + b == 0 and _shared_axis(tree, *ends) is not None else ""
+    return Circuit(row.id, coupling.kind, *ends, carrier, row.a, b, row.wheels or ends, note, row.wheels is not None)
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:

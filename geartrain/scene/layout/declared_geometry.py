@@ -217,10 +217,12 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
     stretches = _stretches(train)
     for circuit in train.circuits:
         ends = tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
-        if circuit.kind != "gear":
+        if circuit.id in couplings:
             offset = couplings[circuit.id].offset
             apart = None if offset is None else millimetres(offset)
             ties.append(PinSlotTie((circuit.j, circuit.i), ends[::-1], apart, circuit.b != 0))
+        # other couplings do not determine where their axes are
+        if circuit.kind != "gear":
             continue
         for wheel, end in zip(circuit.wheels, ends, strict=True):
             if axis.setdefault(wheel, end) != end:

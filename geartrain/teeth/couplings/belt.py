@@ -1,8 +1,8 @@
 """Belts, chains and cables around two or more pulleys on parallel axes, as a train declares them.
 
 The belt does not slip, so all pulleys have the same circumferential speed relative to their carrier k:
-d_i (w_i - w_k) = s d_j (w_j - w_k). Here d are pitch diameters, or the tooth counts of toothed wheels. s is 1 for pulleys
-that the belt turns in the same sense, and -1 for a pulley of a crossed belt, or one that the back of the belt touches.
+d_i (w_i - w_k) = s d_j (w_j - w_k). Here d are pitch diameters, or the tooth counts of toothed wheels. The sign s is 1
+for pulleys that the belt turns in the same sense, and -1 for a crossed belt, or a pulley that the belt's back touches.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Belt(Coupling):
     ENDS = ("around",)
     SIDES = ("pulley", "pulley")
     PARALLEL = "a belt runs in one plane"
-    UNKNOWN = "without slip, creep and stretch"
+    UNKNOWN = "slip, creep and stretch"
 
     kind: Literal["belt"] = Field(description="Belt, chain or cable: all pulleys have one circumferential speed")
     around: Pulleys = Field(

@@ -1,8 +1,8 @@
 """Pairs and planetary sets of which only the ratio is known, as a train declares them.
 
 The ratio p/q is the speed of the first link divided by the speed of the second, both relative to their carrier k:
-q (w_1 - w_k) = p (w_2 - w_k). Links on two axes have their carrier from the turning pairs. Links on one axis may have any
-other link of this axis as carrier; their row then is the Willis equation of a planetary set with the basic ratio p/q.
+q (w_1 - w_k) = p (w_2 - w_k). Links on two axes have their carrier from the turning pairs. Links on one axis may have
+any other link of this axis as carrier; their row then is the Willis equation of a planetary set with basic ratio p/q.
 """
 
 from __future__ import annotations
@@ -11,7 +11,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, model_serializer, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    model_serializer,
+    model_validator,
+)
 
 from geartrain.numerics.quantity import Figure, above_zero, bad
 from geartrain.teeth.coupling import Coupling, CouplingRow, ratio_row
@@ -50,18 +58,19 @@ class Ratio(Coupling):
 
     PARALLEL = ""
     NEEDS_DISTANCE = False
-    UNKNOWN = "no tooth counts, so no sizes, mesh frequency, backlash or transmission error"
+    UNKNOWN = "tooth counts, sizes, mesh frequency, backlash and transmission error"
 
-    kind: Literal["ratio"] = Field("ratio", description="Pair or planetary set of which only the ratio is known")
-    pair: tuple[str, str] = Field(description="The two links, of which the first has the speed `ratio` times the other")
+    kind: Literal["ratio"] = Field(
+        "ratio", description="Pair or planetary set of which only the ratio is known; this key may be omitted"
+    )
+    pair: tuple[str, str] = Field(description="First and second link of the ratio")
     ratio: DeclaredRatio = Field(
         description="Speed of the first link divided by that of the second, relative to the carrier, with its sign: an "
         "exact number, or `{value, tolerance}`"
     )
     carrier: str | None = Field(
         None,
-        description="Carrier of a coaxial pair, a link on the same axis; default the link that bears the axis. Other "
-        "pairs have their carrier from the turning pairs",
+        description="Carrier of a coaxial pair, a link on the same axis; default the link that bears the axis",
     )
 
     @model_validator(mode="after")
@@ -88,6 +97,14 @@ class Ratio(Coupling):
     def mean(self) -> Fraction:
         """Exact speed of the second link divided by the speed of the first, relative to the carrier: 1/ratio."""
         return 1 / self.ratio.value.value
+
+    @property
+    def bounds(self) -> tuple[Fraction, Fraction] | None:
+        """Bounds of `mean` for a ratio with tolerance; None for an exact ratio."""
+        if self.ratio.tolerance is None:
+            return None
+        ratio, tolerance = self.ratio.value.value, self.ratio.tolerance.value
+        return 1 / (ratio + tolerance), 1 / (ratio - tolerance)
 
     @property
     def about(self) -> str:

@@ -506,9 +506,10 @@ class TrainKinematics(Shown):
             return None
 
         def changed(coupling: Coupling, mean: Fraction) -> Relative:
-            circuits = [
-                each.with_ratio(mean / coupling.mean) if each.id == coupling.name else each for each in self.circuits
-            ]
+            circuits = list(self.circuits)
+            at = next(at for at, each in enumerate(circuits) if each.id == coupling.name)
+            ratio = circuits[at].ratio * mean / coupling.mean
+            circuits[at] = circuits[at]._replace(a=ratio.denominator, b=-ratio.numerator)
             return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
 
         @cache

@@ -85,13 +85,6 @@ class Circuit(NamedTuple):
         # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
-    def with_ratio(self, factor: Fraction) -> Circuit:
-        """Return the circuit of a coupling whose mean ratio, driven speed divided by driver speed, is multiplied by
-        `factor`.
-        """
-        ratio = self.ratio * factor
-        return self._replace(a=ratio.denominator, b=-ratio.numerator)
-
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
         """Return the circuit of the same pair with other tooth counts; the senses of rotation are unchanged.
 

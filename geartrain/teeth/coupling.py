@@ -40,6 +40,8 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "parallel": CouplingKind("pins", "Parallel"),
     "belt": CouplingKind("belt", "Belt"),
     "ratio": CouplingKind("ratio", "Ratio"),
+    "geneva": CouplingKind("steps", "Geneva", varies=True),
+    "step": CouplingKind("steps", "Step", varies=True),
 }
 """Kinds of couplings by the value of `kind` in declarations."""
 
@@ -159,6 +161,11 @@ class Coupling(BaseModel):
     def periods_per_turn(self) -> Fraction:
         """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
         return Fraction(1)
+
+    @property
+    def remark(self) -> str:
+        """Predicate that describes motion about the mean, such as "moves 1/4 of the time"; empty if there is none."""
+        return ""
 
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
         """Return the links that the coupling joins, the driving link first.

@@ -140,11 +140,16 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
     return sum(halves) if len(halves) == len(wheels) else None
 
 
-def find_couplings(train: Train) -> tuple[CouplingMesh, ...]:
-    """Return all couplings that have a transmission function."""
+def find_couplings(train: Train, axes_angle: Callable[[Coupling], float | None]) -> tuple[CouplingMesh, ...]:
+    """Return all couplings that have a transmission function.
+
+    axes_angle   function that returns the angle between the axes of a coupling whose axes need not be parallel [rad]
+    """
     pins = {each.name for each in train.pin_couplings}
     found: list[CouplingMesh] = []
     for coupling in train.couplings:
+        if coupling.OBLIQUE and (angle := axes_angle(coupling)) is not None:
+            coupling = coupling.on_axes(angle)
         if (transmission := coupling.transmission) is not None:
             found.append((PinMesh if coupling.name in pins else CouplingMesh)(coupling, transmission))  # type: ignore[arg-type]
     return tuple(found)

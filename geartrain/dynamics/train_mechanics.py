@@ -176,8 +176,10 @@ class TrainMechanics(Shown):
         if not self.declaration.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import find_couplings
+        from geartrain.kinematics.circuits.fundamental import coupling_angle
 
-        return find_couplings(self.declaration)
+        train, tree = self.declaration, self.tree
+        return find_couplings(train, lambda coupling: coupling_angle(train, tree, coupling))
 
     @property
     def pins(self) -> tuple[PinMesh, ...]:

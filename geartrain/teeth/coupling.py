@@ -38,6 +38,10 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "pin_follower": CouplingKind("pins", "PinFollower", varies=True),
     "pins_in_holes": CouplingKind("pins", "PinsInHoles"),
     "parallel": CouplingKind("pins", "Parallel"),
+    "universal_joint": CouplingKind("laws", "UniversalJoint", varies=True),
+    "elliptical": CouplingKind("laws", "EllipticalPair", varies=True),
+    "pitch_curve": CouplingKind("laws", "PitchCurvePair", varies=True),
+    "law": CouplingKind("laws", "TabledLaw", varies=True),
 }
 """Kinds of couplings by the value of `kind` in declarations."""
 
@@ -84,6 +88,10 @@ class Coupling(BaseModel):
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
     """True if the coupling may join each of several equal links to one other link."""
+    OBLIQUE: ClassVar[bool] = False
+    """True if the axes of the two links need not be parallel."""
+    NEGLECTED: ClassVar[tuple[str, str] | None] = None
+    """Effect on torques that is not computed, and the reason; None if there is no such effect."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -117,6 +125,16 @@ class Coupling(BaseModel):
     def transmission(self) -> TransmissionFunction | None:
         """Transmission function with the first end driving; None if the ratio is constant, or its data are missing."""
         return None
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q as a function of the driver's angle S in closed form; empty if there is none."""
+        return ""
+
+    def on_axes(self, angle: float) -> Self:
+        """Return the coupling with the angle between its axes [rad] filled in where it is needed and not declared."""
+        del angle
+        return self
 
     @property
     def periods_per_turn(self) -> Fraction:

@@ -140,6 +140,10 @@ class TransmissionFunction(Shown, ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
+    waves: int = 1
+    """Number of periods of the fastest component of the transmission error between kinks, in one period."""
+    jumps: bool = False
+    """True if the driven angle jumps, so that no finite torque moves it."""
     slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
 
@@ -502,6 +506,7 @@ class DerivedTransmission(TransmissionFunction):
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
+        self.waves, self.jumps = transmission.waves, transmission.jumps
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

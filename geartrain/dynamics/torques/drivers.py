@@ -322,7 +322,7 @@ def _driver_of(setting: LoadCase, circuit: Circuit, way: FlowDirections, source:
     if turn is None:
         return _open(setting, circuit, "the relative speed of its two sides is not determined")
     if not turn:
-        what = "its slot only oscillates" if circuit.swings else "its two sides have no relative motion"
+        what = "its driven side only oscillates" if circuit.swings else "its two sides have no relative motion"
         return _open(setting, circuit, f"{what}, so no power flows on average")
     return _open(setting, circuit, "no power flows through it")
 

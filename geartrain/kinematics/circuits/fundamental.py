@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
-from math import atan2, sqrt
+from math import atan2, degrees, pi, sqrt
 from typing import NamedTuple
 
 from geartrain.errors import DeclarationError, GearTrainError, Problem, RangeError
@@ -162,9 +162,45 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
     if carrier is None:
         return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
     labels = tree.axis_seen_from(carrier, row.driven), tree.axis_seen_from(carrier, row.driver)
-    if not axes.are_parallel(labels):
-        return _oblique_pin(train, coupling, labels, at)
-    return Circuit(row.id, coupling.kind, row.driven, row.driver, carrier, row.a, row.b, (row.driven, row.driver))
+    b = row.b
+    if coupling.OBLIQUE:
+        if problem := _wrong_angle(train, axes, coupling, labels, at):
+            return problem
+        # both sides turn in the same sense about directions less than 90 degrees apart
+        b *= axes.sense(labels)
+    elif not axes.are_parallel(labels):
+        return _oblique_pair(train, coupling, labels, at)
+    return Circuit(row.id, coupling.kind, row.driven, row.driver, carrier, row.a, b, (row.driven, row.driver))
+
+
+def coupling_angle(train: Train, tree: Tree, coupling: Coupling) -> float | None:
+    """Return the angle between the axes of a coupling of two links [rad], 0 to pi/2; None if no direction of the two is
+    declared, or if they have no carrier.
+    """
+    driver, driven = coupling.links(train.wheels)
+    carrier = _carrier(tree, driven, driver)
+    if carrier is None:
+        return None
+    labels = tree.axis_seen_from(carrier, driven), tree.axis_seen_from(carrier, driver)
+    return Axes(train, tree).angle(labels)
+
+
+def _wrong_angle(train: Train, axes: Axes, coupling: Coupling, labels: tuple[str, str], at: int) -> Problem | None:
+    """Return the problem of a joint whose axes do not have its angle, or are perpendicular; None if they fit."""
+    between, place = axes.angle(labels), train.place("couplings", at)
+    if between is None:
+        return None
+    if between > pi / 2 - _SAME_ANGLE:
+        what = f"coupling '{coupling.name}': the axes '{labels[1]}' and '{labels[0]}' are perpendicular"
+        return Problem(what, "a joint at 90 deg does not turn", "declare directions less than 90 deg apart", place)
+    declared = getattr(coupling, "angle", None)
+    if declared is not None and abs(declared.si - between) > _SAME_ANGLE:
+        what = (
+            f"coupling '{coupling.name}': its angle is {declared.text}, but its axes are at {degrees(between):.6g} deg"
+        )
+        fix = "omit `angle`, which follows from `axes`, or correct a direction"
+        return Problem(what, "both declare the same angle", fix, place)
+    return None
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
@@ -208,11 +244,13 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 
-def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
+def _oblique_pair(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
+    driven, driver = coupling.SIDES
     return Problem(
-        f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
-        "a pin and its slot or hole must move in the same plane",
-        "declare parallel directions in `axes`, or join the links by bevel wheels",
+        f"coupling '{coupling.name}': the axes '{labels[1]}' of its {driver} and '{labels[0]}' of its {driven} are not "
+        "parallel",
+        f"both sides of a coupling of kind {coupling.kind} move in the same plane",
+        "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels",
         train.place("couplings", at),
     )
 
@@ -227,6 +265,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     )
 
 
+_SAME_ANGLE = 1e-3  # rad: tolerance of the angle of a joint, because written directions are rounded
 _MEET = 1e-3  # relative to the distance between two declared points: closer axes intersect, as positions are rounded
 
 

@@ -1,6 +1,9 @@
 """Couplings of links other than gear pairs, one file a family; `teeth/coupling.py` has their base class and names.
 
+laws                  universal joints, non-circular wheels, couplings by a table or harmonics
 pins                  pins in slots, pins in holes, links kept parallel
 pin_transmission      transmission functions of a pin in a slot
+pitch_curves          centre distance and transmission function of non-circular wheels
 series_transmission   transmission function of pins in slots, universal joints, elliptical and lobed wheels
+table_transmission    transmission functions by a table or harmonics
 """

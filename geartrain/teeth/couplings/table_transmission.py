@@ -60,6 +60,9 @@ class TableTransmission(LosslessTransmission):
         self.halves = np.diff(edges) / 2
         powers = np.arange(1, len(coefficients))[:, None]
         self.slopes = powers * coefficients[1:] / self.halves
+        before, after = self._at_edges(coefficients)
+        scale = np.ptp(coefficients[0]) + np.abs(coefficients[1:]).max()
+        self.jumps = bool((np.abs(after - before) > _SLIGHT * scale).any())
 
     def mirrored(self) -> TableTransmission:
         """Return the function for a driver whose forward sense is reversed: minus the deviation at minus the angle."""
@@ -119,13 +122,6 @@ class TableTransmission(LosslessTransmission):
             return 0.0
         bends = np.arange(1, len(self.slopes))[:, None] * self.slopes[1:] / self.halves
         return max(0.0, -extremes(bends)[0])
-
-    @property
-    def jumps(self) -> bool:
-        """True if the driven angle jumps at an edge."""
-        before, after = self._at_edges(self.coefficients)
-        low, high = self.error_range()
-        return bool((np.abs(after - before) > _SLIGHT * (high - low)).any())
 
     @staticmethod
     def _at_edges(coefficients: Floats) -> tuple[Floats, Floats]:

@@ -140,16 +140,14 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
     return sum(halves) if len(halves) == len(wheels) else None
 
 
-def find_couplings(train: Train, axes_angle: Callable[[Coupling], float | None]) -> tuple[CouplingMesh, ...]:
-    """Return all couplings that have a transmission function.
+def find_couplings(train: Train, couplings: Iterable[Coupling]) -> tuple[CouplingMesh, ...]:
+    """Return the couplings of a train that have a transmission function.
 
-    axes_angle   function that returns the angle between the axes of a coupling whose axes need not be parallel [rad]
+    couplings   couplings with the angles between their axes, as `couplings_on_axes` returns them
     """
     pins = {each.name for each in train.pin_couplings}
     found: list[CouplingMesh] = []
-    for coupling in train.couplings:
-        if coupling.OBLIQUE and (angle := axes_angle(coupling)) is not None:
-            coupling = coupling.on_axes(angle)
+    for coupling in couplings:
         if (transmission := coupling.transmission) is not None:
             found.append((PinMesh if coupling.name in pins else CouplingMesh)(coupling, transmission))  # type: ignore[arg-type]
     return tuple(found)

@@ -176,10 +176,9 @@ class TrainMechanics(Shown):
         if not self.declaration.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import find_couplings
-        from geartrain.kinematics.circuits.fundamental import coupling_angle
+        from geartrain.kinematics.circuits.fundamental import couplings_on_axes
 
-        train, tree = self.declaration, self.tree
-        return find_couplings(train, lambda coupling: coupling_angle(train, tree, coupling))
+        return find_couplings(self.declaration, couplings_on_axes(self.declaration, self.tree))
 
     @property
     def pins(self) -> tuple[PinMesh, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.buildability import build_errors
 from geartrain.kinematics.willis_system import relative_speed
-from geartrain.report.answers import expectations_met, result_words
+from geartrain.report.answers import expectations_met, only_sign, result_words
 from geartrain.report.document import exact, figure, ppm
 
 if TYPE_CHECKING:
@@ -175,4 +175,4 @@ def _wanted(result: OutputResult) -> str:
         if target.met is False:
             off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
             words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")
-    return "; " + ", ".join(words) + ("; only the sign differs" if result.differs_in_sign else "")
+    return "; " + ", ".join(words) + only_sign(result)

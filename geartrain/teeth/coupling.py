@@ -42,6 +42,8 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "elliptical": CouplingKind("laws", "EllipticalPair", varies=True),
     "pitch_curve": CouplingKind("laws", "PitchCurvePair", varies=True),
     "law": CouplingKind("laws", "TabledLaw", varies=True),
+    "geneva": CouplingKind("steps", "Geneva", varies=True),
+    "step": CouplingKind("steps", "Step", varies=True),
 }
 """Kinds of couplings by the value of `kind` in declarations."""
 
@@ -140,6 +142,11 @@ class Coupling(BaseModel):
     def periods_per_turn(self) -> Fraction:
         """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
         return Fraction(1)
+
+    @property
+    def remark(self) -> str:
+        """Predicate that describes motion about the mean, such as "moves 1/4 of the time"; empty if there is none."""
+        return ""
 
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
         """Return the links that the coupling joins, the driving link first.

@@ -142,10 +142,12 @@ class TransmissionFunction(Shown, ABC):
     friction: float = 0.0
     waves: int = 1
     """Number of periods of the fastest component of the transmission error between kinks, in one period."""
-    jumps: bool = False
-    """True if the driven angle jumps, so that no finite torque moves it."""
     slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
+    dwell: Fraction = Fraction(0)
+    """Fraction of the period during which the driven side is at rest; 1 for steps at once."""
+    jumps: bool = False
+    """True if the driven side moves at once, so that the transmission error is discontinuous."""
 
     def _summary(self) -> str:
         return f"ratio {self.ratio}, period {degrees(self.period):.6g} deg, friction {self.friction:g}"
@@ -506,7 +508,7 @@ class DerivedTransmission(TransmissionFunction):
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
-        self.waves, self.jumps = transmission.waves, transmission.jumps
+        self.waves, self.dwell, self.jumps = transmission.waves, transmission.dwell, transmission.jumps
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

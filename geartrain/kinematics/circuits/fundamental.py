@@ -161,7 +161,7 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
     carrier = _carrier(tree, row.driven, row.driver)
     if carrier is None:
         return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
-    labels = tree.axis_seen_from(carrier, row.driven), tree.axis_seen_from(carrier, row.driver)
+    labels = _labels(tree, carrier, row.driven, row.driver)
     b = row.b
     if coupling.OBLIQUE:
         if problem := _wrong_angle(train, axes, coupling, labels, at):
@@ -173,16 +173,22 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
     return Circuit(row.id, coupling.kind, row.driven, row.driver, carrier, row.a, b, (row.driven, row.driver))
 
 
-def coupling_angle(train: Train, tree: Tree, coupling: Coupling) -> float | None:
-    """Return the angle between the axes of a coupling of two links [rad], 0 to pi/2; None if no direction of the two is
-    declared, or if they have no carrier.
-    """
-    driver, driven = coupling.links(train.wheels)
-    carrier = _carrier(tree, driven, driver)
-    if carrier is None:
-        return None
-    labels = tree.axis_seen_from(carrier, driven), tree.axis_seen_from(carrier, driver)
-    return Axes(train, tree).angle(labels)
+def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
+    """Return the couplings of a train, with the angle between their axes filled in where it follows from `axes`."""
+    axes = Axes(train, tree)
+    found = []
+    for coupling in train.couplings:
+        if coupling.OBLIQUE:
+            driver, driven = coupling.links(train.wheels)
+            carrier = _carrier(tree, driven, driver)
+            if carrier is not None and (angle := axes.angle(_labels(tree, carrier, driven, driver))) is not None:
+                coupling = coupling.on_axes(angle)
+        found.append(coupling)
+    return tuple(found)
+
+
+def _labels(tree: Tree, carrier: str, driven: str, driver: str) -> tuple[str, str]:
+    return tree.axis_seen_from(carrier, driven), tree.axis_seen_from(carrier, driver)
 
 
 def _wrong_angle(train: Train, axes: Axes, coupling: Coupling, labels: tuple[str, str], at: int) -> Problem | None:

@@ -5,5 +5,7 @@ pins                  pins in slots, pins in holes, links kept parallel
 pin_transmission      transmission functions of a pin in a slot
 pitch_curves          centre distance and transmission function of non-circular wheels
 series_transmission   transmission function of pins in slots, universal joints, elliptical and lobed wheels
+step_transmission     transmission functions of couplings that move by steps
+steps                 Geneva drives, fingers and stars, ratchets, mutilated wheels
 table_transmission    transmission functions by a table or harmonics
 """

@@ -6,7 +6,7 @@ axes. `phase` is added to S. Losses are those of a declared `efficiency`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import degrees, pi, sqrt, tan
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
@@ -27,20 +27,16 @@ from geartrain.numerics.quantity import (
 from geartrain.teeth.coupling import Coupling
 
 if TYPE_CHECKING:
+    from geartrain.numerics.periodic_function import Interpolation, PeriodicFunction
     from geartrain.teeth.couplings.series_transmission import SeriesTransmission
     from geartrain.teeth.couplings.table_transmission import TableTransmission
 
+_INTERPOLATIONS: Mapping[str, Interpolation] = {"smooth": "cubic", "straight": "linear", "steps": "steps"}
 _FEWEST, _MOST = 4, 10_000  # points of a smooth table
 _MOST_LOBES = _MOST_ORDER = 100
 
 
-def _whole(raw: object) -> object:
-    """Convert a decimal string to an integer, since a declaration gives numbers as strings."""
-    return int(raw) if isinstance(raw, str) and raw.isdecimal() and len(raw) < 10 else raw
-
-
-Whole = Annotated[int, BeforeValidator(_whole)]
-Lobes = Annotated[Whole, Field(ge=1, le=_MOST_LOBES)]
+Lobes = Annotated[int, Field(ge=1, le=_MOST_LOBES)]
 
 
 class _VaryingPair(Coupling):
@@ -58,6 +54,14 @@ class _VaryingPair(Coupling):
     def start(self) -> float:
         """Angle of the driver at the start [rad]."""
         return 0.0 if self.phase is None else self.phase.si
+
+    @property
+    def remark(self) -> str:
+        """Range of the deviation from uniform motion, in words."""
+        if self.transmission is None:
+            return "has an unknown angle"
+        low, high = self.transmission.error_range()
+        return f"swings by {degrees(high - low):.3g} deg"
 
 
 class UniversalJoint(_VaryingPair):
@@ -231,9 +235,11 @@ class PitchCurvePair(_VaryingPair):
     @property
     def transmission(self) -> TableTransmission:
         """Transmission function by quadrature of the ratio r/(C - r)."""
-        from geartrain.teeth.couplings.pitch_curves import pitch_curve_transmission
+        from geartrain.teeth.couplings.pitch_curves import PitchCurveDeviation
+        from geartrain.teeth.couplings.table_transmission import TableTransmission
 
-        return pitch_curve_transmission(self._values, self.distance, -self.mean, self.lobes[0], self.start)
+        deviation = PitchCurveDeviation(self._values, self.distance, 2 * pi / self.lobes[0])
+        return TableTransmission(-self.mean, deviation, self.start)
 
     @property
     def formula(self) -> str:
@@ -261,7 +267,7 @@ class TabledLaw(_VaryingPair):
     kind: Literal["law"] = Field(description="Driven angle by a mean ratio and a periodic deviation from it")
     mean_ratio: Figure = Field(alias="mean", description="Exact mean speed of the driven link over that of the driver")
     unit: Angle = Field(description="Angle of the driven link for a deviation of 1")
-    harmonics: dict[Whole, Harmonic] | None = Field(
+    harmonics: dict[int, Harmonic] | None = Field(
         None,
         description="Deviation by harmonics: order k in `per` turns -> amplitude A, or [A, angle], for a term "
         "A sin(k S + angle)",
@@ -302,15 +308,20 @@ class TabledLaw(_VaryingPair):
     @property
     def transmission(self) -> TableTransmission:
         """Transmission function; with a negative mean, angles of the driven side are forward angles."""
-        from geartrain.teeth.couplings.table_transmission import harmonic_transmission, table_transmission
+        from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicTable
+        from geartrain.teeth.couplings.table_transmission import TableTransmission
 
         scale = self.unit.si * (-1 if self.mean < 0 else 1)
-        ratio, period = abs(self.mean), 2 * pi * float(self.per.value)
+        period = 2 * pi * float(self.per.value)
+        deviation: PeriodicFunction
         if self.table is not None:
             values = [scale * float(each.value) for each in self.table]
-            return table_transmission(ratio, values, period, self.between, self.start)
-        terms = {k: (scale * float(size.value), angle.si) for k, (size, angle) in (self.harmonics or {}).items()}
-        return harmonic_transmission(ratio, terms, period, self.start)
+            steps = [at * period / len(values) for at in range(len(values))]
+            deviation = PeriodicTable(steps, values, period, _INTERPOLATIONS[self.between])
+        else:
+            terms = [(k, scale * float(size.value), angle.si) for k, (size, angle) in (self.harmonics or {}).items()]
+            deviation = HarmonicSeries(terms, period)
+        return TableTransmission(abs(self.mean), deviation, self.start)
 
     @property
     def formula(self) -> str:

@@ -1,98 +1,106 @@
-"""Centre distance and transmission function of a non-circular wheel with its conjugate mate, by quadrature.
+"""Centre distance and transmission function of a non-circular wheel with its conjugate mate.
 
-Wheels with the pitch radii r and C - r roll on each other with the speed ratio r/(C - r).
+Wheels with the pitch radii r and C - r roll on each other with the speed ratio r/(C - r). Its integral over the angle
+of the driver is the driven angle, by adaptive Chebyshev interpolation.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.polynomial_pieces import extremes, fitted, value
+from geartrain.numerics.periodic_function import PeriodicFunction, PeriodicTable
+from geartrain.numerics.polynomial_pieces import fitted, value_alone
 from geartrain.numerics.roots import root
-from geartrain.teeth.couplings.table_transmission import TableTransmission, spline_pieces
 
 if TYPE_CHECKING:
-    from fractions import Fraction
+    from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.numerics.polynomial_pieces import PolynomialPiece
 
-_NEAR = 1e-9  # relative: distance of the mate's axis from the pitch curve at which the search for C begins
+_HALVINGS = 12  # of the distance between the pitch curve and the axis of its mate in the search for C
+
+
+class PitchCurveDeviation(PeriodicFunction):
+    """Deviation from uniform motion of the mate of a wheel with the radii r of its pitch curve, 0 at its first radius.
+
+    radii      radii at equal angles over one lobe, joined by a periodic cubic spline
+    distance   distance C between the axes
+    period     angle of one lobe [rad]
+    """
+
+    def __init__(self, radii: tuple[float, ...], distance: float, period: float) -> None:
+        self.curve, self.distance, self.period = pitch_curve(radii, period), distance, period
+        ends = pairwise([*self.curve.breakpoints.tolist(), period])
+        pieces = [piece for low, high in ends for piece in fitted(self._ratio, low, high)]
+        self.breakpoints = np.array([piece.start for piece in pieces])
+        self._halves = np.diff(self.breakpoints, append=period) / 2
+        ratio = np.array([piece.coefficients[:, 0] for piece in pieces]).T
+        # antiderivative on each piece, 0 at its start
+        powers = np.arange(1, len(ratio) + 1)[:, None]
+        rising = np.concatenate([np.zeros((1, len(pieces))), ratio / powers]) * self._halves
+        rising[0] = -(np.where(powers % 2, -1.0, 1.0) * rising[1:]).sum(axis=0)
+        passed = np.cumsum(rising.sum(axis=0))
+        rising[0, 1:] += passed[:-1]
+        self._angle = rising
+        self.mean = float(passed[-1]) / period
+        """Mean speed ratio."""
+
+    def _ratio(self, x: Floats) -> Floats:
+        # one-sided limits are not needed: the spline is twice differentiable
+        r = self.curve(x)
+        return np.asarray((r / (self.distance - r))[None])
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the deviation) to 3 at any positions."""
+        x = np.mod(np.asarray(x, dtype=float), self.period)
+        if order == 0:
+            piece = np.searchsorted(self.breakpoints, x, side="right") - 1
+            u = (x - self.breakpoints[piece]) / self._halves[piece] - 1
+            return value_alone(self._angle, piece, u) - self.mean * x
+        r, slope, bend = (self.curve.derivative(x, each) for each in range(3))
+        C, rest = self.distance, self.distance - r
+        if order == 1:
+            return np.asarray(r / rest - self.mean)
+        if order == 2:
+            return np.asarray(C * slope / rest**2)
+        return np.asarray(C * bend / rest**2 + 2 * C * slope**2 / rest**3)
+
+
+def pitch_curve(radii: tuple[float, ...], period: float) -> PeriodicTable:
+    """Return the radius of a pitch curve as a function of the angle [rad], a spline through radii at equal angles."""
+    steps = (np.arange(len(radii)) * (period / len(radii))).tolist()
+    return PeriodicTable(steps, radii, period, "cubic")
 
 
 @lru_cache(maxsize=32)
 def mate_distance(radii: tuple[float, ...], ratio: float) -> float:
     """Return the distance C between the axes for which the mean of r/(C - r) over a lobe is `ratio`.
 
-    radii   radii at equal angles over one lobe of the driver, joined by a periodic cubic spline
+    radii   radii at equal angles over one lobe of the driver
 
     Raises `RangeError` if the spline reaches radius 0, or if no mate closes.
     """
-    low, high = extremes(spline_pieces(np.array(radii)))
+    low, high = pitch_curve(radii, 2 * pi).extremes()
     if low <= 0:
-        what, why = (
-            "the pitch curve passes through its own axis",
-            f"the spline through its radii has the minimum {low:g}",
-        )
+        what = "the pitch curve passes through its own axis"
+        why = f"the spline through its radii has the minimum {low:g}"
         raise RangeError(Problem(what, why, "give more radii, or radii that vary less"))
-    if high - low < _NEAR * high:
-        return high * (1 + 1 / ratio)
-    # the mean decreases with C, without bound towards the maximum radius
-    start, end = max(low * (1 + 1 / ratio), high * (1 + _NEAR)), high * (1 + 1 / ratio)
 
-    def excess(C: float) -> float:
-        return sum(_mean(piece) * (piece.end - piece.start) for piece in _ratio(radii, C)) / len(radii) - ratio
+    def excess(distance: float) -> float:
+        return PitchCurveDeviation(radii, distance, 2 * pi).mean - ratio
 
-    at = excess(start), excess(end)
-    if at[0] < 0:
-        what, why = "no mate of the pitch curve closes", "its pitch curve would reach the driver's longest radius"
-        raise RangeError(Problem(what, why, "give radii that vary less, or more lobes of the driven wheel"))
-    return root(excess, start, end, *at)
-
-
-def pitch_curve_transmission(
-    radii: tuple[float, ...], distance: float, ratio: Fraction, lobes: int, phase: float
-) -> TableTransmission:
-    """Return the transmission function of a wheel with a given pitch curve that drives its conjugate mate.
-
-    The deviation from uniform motion is 0 at the first radius.
-
-    radii      radii at equal angles over one of the `lobes` of the driver
-    distance   distance between the axes
-    phase      angle of the driver at S = 0 [rad]
-    """
-    step = 2 * pi / (lobes * len(radii))
-    pieces = _ratio(radii, distance)
-    edges = step * np.array([*(piece.start for piece in pieces), float(len(radii))])
-    halves = np.diff(edges) / 2
-    slopes = np.array([piece.coefficients[:, 0] for piece in pieces]).T
-    slopes[0] -= float(ratio)
-    # antiderivative on each piece, 0 at its start
-    powers = np.arange(1, len(slopes) + 1)[:, None]
-    rising = np.concatenate([np.zeros((1, len(halves))), slopes / powers]) * halves
-    rising[0] = -(np.where(powers % 2, -1.0, 1.0) * rising[1:]).sum(axis=0)
-    ends = np.cumsum(rising.sum(axis=0))
-    rising[0] += np.concatenate([[0.0], ends[:-1]])
-    return TableTransmission(ratio, edges, rising, phase)
-
-
-def _ratio(radii: tuple[float, ...], distance: float) -> list[PolynomialPiece]:
-    """Return the ratio r/(C - r) as pieces of a polynomial in the angle, in steps of the radii."""
-    spline = spline_pieces(np.array(radii))
-
-    def curve(x: Floats, at: int) -> Floats:
-        r = value(spline, np.full(len(x), at), 2 * (x - at) - 1)[0]
-        return np.asarray((r / (distance - r))[None])
-
-    return [piece for at in range(len(radii)) for piece in fitted(lambda x, at=at: curve(x, at), at, at + 1)]
-
-
-def _mean(piece: PolynomialPiece) -> float:
-    """Return the mean of a piece."""
-    powers = np.arange(len(piece.coefficients))
-    return float((piece.coefficients[:, 0] * np.where(powers % 2, 0.0, 1 / (powers + 1.0))).sum())
+    # the mean decreases with C, from no bound at the maximum radius
+    far = high * (1 + 1 / ratio)
+    for halving in range(_HALVINGS):
+        near = high + (far - high) / 2 ** (halving + 1)
+        if (at := excess(near)) >= 0:
+            return root(excess, near, far, at, min(excess(far), 0.0))
+        far = near
+    what, why = "no mate of the pitch curve closes", "its axis would lie on the driver's pitch curve"
+    raise RangeError(Problem(what, why, "give radii that vary less, or more lobes of the driven wheel"))

@@ -58,7 +58,7 @@ class PitchCurveDeviation(PeriodicFunction):
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
         """Return the derivative of an order from 0 (the deviation) to 3 at any positions."""
-        x = np.mod(np.asarray(x, dtype=float), self.period)
+        x = np.asarray(np.mod(np.asarray(x, dtype=float), self.period), dtype=float)
         if order == 0:
             piece = np.searchsorted(self.breakpoints, x, side="right") - 1
             u = (x - self.breakpoints[piece]) / self._halves[piece] - 1

@@ -271,6 +271,9 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.requested)
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
+    lines += [
+        f"The reaction to the torque on '{link}' acts on '{base}'." for link, (base, _) in found.reactions.items()
+    ]
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     yield Section(head, lines, tuple(tables))
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))

@@ -94,6 +94,8 @@ class Coupling(BaseModel):
     """True if the axes of the two links need not be parallel."""
     NEGLECTED: ClassVar[tuple[str, str] | None] = None
     """Effect on torques that is not computed, and the reason; None if there is no such effect."""
+    LOCKS_BACK: ClassVar[bool] = False
+    """True if the driven side cannot drive, because the device locks it."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -148,6 +150,13 @@ class Coupling(BaseModel):
         """Predicate that describes motion about the mean, such as "moves 1/4 of the time"; empty if there is none."""
         return ""
 
+    @property
+    def friction_torque(self) -> Fraction:
+        """Mean friction torque [N m] on the driven link against its motion relative to the carrier, such as the
+        torque of a jumper; it does not depend on the load.
+        """
+        return Fraction(0)
+
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
         """Return the links that the coupling joins, the driving link first.
 
@@ -173,6 +182,12 @@ class Coupling(BaseModel):
             else:
                 yield from (("link", each, (key, each if isinstance(value, Mapping) else at))
                             for at, each in enumerate(value))  # fmt: skip
+
+    @property
+    def torques(self) -> Iterator[Quantity]:
+        """Declared energies, such as the loss of a jumper; all torques of the train then have units."""
+        values = (getattr(self, name) for name in type(self).model_fields)
+        return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 
     @property
     def lengths(self) -> Iterator[Quantity]:

@@ -55,6 +55,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
         ((*loc, "loads", link), torque) for loc, part in _cases(train) for link, torque in (part.loads or {}).items()
     ]
     found += [(("links", name, "bearing"), part.bearing.sliding) for name, part in train.links.items() if part.bearing]
+    found += [(("couplings", at), each) for at, coupling in enumerate(train.couplings) for each in coupling.torques]
     found += [(loc, torque) for loc, drive in declared_drives(train) for torque in drive.torques]
     named = next((torque for _, torque in found if torque.unit is not None), None)
     for loc, torque in found:
@@ -449,6 +450,7 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
             yield from _output_references(train, name, output, (*loc, "outputs", name))
     if train.escapement is not None:
         yield "link", train.escapement.link, ("escapement", "link")
+        yield "link", train.escapement.on, ("escapement", "on")
     yield "link", train.crank, ("crank",)
     yield "link", train.solve_for, ("solve_for",)
     for name, clutch in train.clutches.items():

@@ -19,6 +19,7 @@ import numpy as np
 from geartrain.dynamics.gear_meshes import CouplingMesh, PinMesh
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
@@ -291,10 +292,7 @@ class TrainModel:
     ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
         """Return `_flanks` of a coupling without backlash, with the losses of its declared efficiency."""
         label = f"coupling '{joint.coupling.name}'"
-        if transmission.jumps:
-            why = "its driven side would need an infinite torque"
-            fix = "give a law with `between: straight` or smooth"
-            raise QuestionError(Problem(f"{label} jumps, so it cannot be simulated in time", why, fix))
+        _refuse_jump(label, transmission)
         front, ways = tabled_angle(transmission), joint.coupling.efficiency
         declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
         return front, front, efficiency_arms(transmission, *declared, label), transmission
@@ -353,8 +351,10 @@ class TrainModel:
         return found
 
     def _stops(self) -> Iterator[Stop]:
+        escapement = self.train.escapement
         for link, (pitch, beat) in self.case.escapements.items():
-            base = self.tree.top[link]  # pallets are carried by the link that bears the escape wheel
+            assert escapement is not None  # it is the only stop
+            base = pallet_link(escapement, self.tree)
             way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
@@ -389,6 +389,13 @@ class TrainModel:
             tuple(self._stops()),
             tuple(self._springs()),
         )
+
+
+def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
+    """Raise `QuestionError` if a coupling moves its driven link at once."""
+    if transmission.at_once:
+        fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
+        raise QuestionError(Problem(f"the dynamics of {label} cannot be simulated", "a step at once has no force", fix))
 
 
 def _sparse(form: Floats) -> dict[int, float]:

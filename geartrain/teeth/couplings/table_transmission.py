@@ -39,7 +39,7 @@ class TableTransmission(LosslessTransmission):
         self.ratio, self.deviation, self.phase, self.way = ratio, deviation, phase, way
         self.period = deviation.period
         self.waves = max(1, ceil(deviation.waves))
-        self.jumps = bool(self._leaps(0).any())
+        self.at_once = bool(self._leaps(0).any())
 
     def mirrored(self) -> TableTransmission:
         """Return the function for a driver whose forward sense is reversed."""
@@ -94,7 +94,7 @@ class TableTransmission(LosslessTransmission):
 
     def steepest_fall(self) -> float | None:
         """Return the maximum rate at which the speed ratio decreases [1/rad]; None if it decreases abruptly."""
-        if self.jumps or (self.way * self._leaps(1) < 0).any():
+        if self.at_once or (self.way * self._leaps(1) < 0).any():
             return None
         low, high = self.deviation.extremes(2)
         return max(0.0, -low if self.way > 0 else high)

@@ -108,6 +108,8 @@ class Coupling(BaseModel):
     """True if the axes of the two links need not be parallel."""
     NEGLECTED: ClassVar[tuple[str, str] | None] = None
     """Effect on torques that is not computed, and the reason; None if there is no such effect."""
+    HOLDS: ClassVar[bool] = False
+    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")

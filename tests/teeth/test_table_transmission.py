@@ -64,10 +64,10 @@ def test_straight_lines_have_corners_and_steps_jump() -> None:
     assert [(leap.before, leap.after) for leap in lines.speed_leaps()] == [(0.0, 2.0)]
     assert [(leap.before, leap.after) for leap in lines.mirrored().speed_leaps()] == [(0.0, 2.0)]
     assert lines.steepest_fall() is None
-    assert not lines.jumps
+    assert not lines.at_once
     steps = tabled([0.0, 1.0, 0.0, -1.0], 4.0, "steps", phase=0.5)
     assert np.allclose(steps.error([0.4, 0.6, 2.6, -0.6]), [0, 1, -1, -1])
-    assert steps.jumps
+    assert steps.at_once
     assert steps.speed_range() == (0.0, 0.0)
     assert steps.error_moments() == pytest.approx((0.0, 0.5**0.5), abs=1e-12)
 
@@ -81,7 +81,7 @@ def test_the_equation_of_time_has_the_figures_of_case_l7() -> None:
     assert [round(each * a_day, 9) for each in found.speed_range()] == [-28.082794405, 22.487142756]
     assert found.waves == 2
     assert found.kinks() == []
-    assert not found.jumps
+    assert not found.at_once
 
 
 def test_the_phase_of_a_table_is_where_its_driver_starts() -> None:

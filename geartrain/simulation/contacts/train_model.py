@@ -292,7 +292,7 @@ class TrainModel:
     ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
         """Return `_flanks` of a coupling without backlash, with the losses of its declared efficiency."""
         label = f"coupling '{joint.coupling.name}'"
-        _refuse_jump(joint.coupling.name, transmission)
+        _refuse_jump(label, transmission)
         front, ways = tabled_angle(transmission), joint.coupling.efficiency
         declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
         return front, front, efficiency_arms(transmission, *declared, label), transmission
@@ -391,13 +391,11 @@ class TrainModel:
         )
 
 
-def _refuse_jump(name: str, transmission: TransmissionFunction) -> None:
+def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
     """Raise `QuestionError` if a coupling moves its driven link at once."""
     if transmission.at_once:
-        what = f"the dynamics of coupling '{name}' cannot be simulated"
-        why = "a step at once has no force"
-        fix = "give `over`, the angle of the driver during a step, or a law with `between: straight` or smooth"
-        raise QuestionError(Problem(what, why, fix))
+        fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
+        raise QuestionError(Problem(f"the dynamics of {label} cannot be simulated", "a step at once has no force", fix))
 
 
 def _sparse(form: Floats) -> dict[int, float]:

@@ -70,7 +70,7 @@ class UniversalJoint(_VaryingPair):
     S is the angle of the driver's fork from the plane of both shafts. The mean ratio is 1.
     """
 
-    OBLIQUE = True
+    OBLIQUE = HOLDS = True
     NEGLECTED = "side loads of joints", "forces and bending moments on the shafts of a joint are not computed"
 
     kind: Literal["universal_joint"] = Field(description="Universal joint: mean ratio 1, periods of half a turn")

@@ -219,33 +219,6 @@ def _check_points(
             raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
 
 
-class PeriodicLines(PeriodicFunction):
-    """Periodic function of straight lines, which may jump between them.
-
-    Parameters
-    ----------
-    edges : sequence of float, (n + 1,)
-        Ascending ends of the lines over one period.
-    ends : sequence of (float, float), (n, 2)
-        Values at the beginning and at the end of each line.
-    """
-
-    def __init__(self, edges: Sequence[float], ends: Sequence[tuple[float, float]]) -> None:
-        self.breakpoints, self.period = np.array(edges[:-1], dtype=float), float(edges[-1] - edges[0])
-        self._starts, last = np.array(ends, dtype=float).T
-        self._slopes = (last - self._starts) / np.diff(np.array(edges, dtype=float))
-
-    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
-        places = self.breakpoints - self.breakpoints[0]
-        u = np.asarray(np.mod(np.asarray(x, dtype=float) - self.breakpoints[0], self.period))
-        line = np.searchsorted(places, u, side="right") - 1
-        if order > 1:
-            return np.zeros(u.shape)
-        slope: Floats = self._slopes[line]
-        return slope if order else self._starts[line] + slope * (u - places[line])
-
-
 class HarmonicSeries(PeriodicFunction):
     """Sum of a constant and of the harmonics amplitude sin(2 pi n x / period + phase).
 

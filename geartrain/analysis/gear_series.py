@@ -212,12 +212,14 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
         names.setdefault(frozenset(state.engaged), []).append(name)
     inputs = next(iter(declared.states.values())).inputs
     # smallest size first: further closed elements would be redundant or lock the train
-    for size in range(len(declared.clutches) + 1):
-        if (number := comb(len(declared.clutches), size)) > MOST_COMBINATIONS:
-            what = f"{size} of {len(declared.clutches)} shift elements have too many combinations: {number:,}"
+    # one-way clutches are in force in every gear
+    elements = [name for name, each in declared.clutches.items() if each.one_way is None]
+    for size in range(len(elements) + 1):
+        if (number := comb(len(elements), size)) > MOST_COMBINATIONS:
+            what = f"{size} of {len(elements)} shift elements have too many combinations: {number:,}"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
-        choices = list(combinations(declared.clutches, size))
+        choices = list(combinations(elements, size))
         states = {_JOINER.join(each) or "none": State(engaged=each, inputs=inputs) for each in choices}
         answers = list(GearTrain(declared.model_copy(update={"states": states})).answers())
         gears: list[PossibleGear] = []
@@ -232,7 +234,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
             locked = tuple(choice for choice, kind in kinds if kind in ("locked", "contradictory"))
             gears.sort(key=_rank)
             return GearSearch(train.name, declared.title, source, link, size, number, tuple(gears), free, locked)
-    return GearSearch(train.name, declared.title, source, link, len(declared.clutches), 1, ())
+    return GearSearch(train.name, declared.title, source, link, len(elements), 1, ())
 
 
 # ------------------------------------------------------------------------------------------------- series, as paths

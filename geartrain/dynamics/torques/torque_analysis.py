@@ -370,6 +370,17 @@ def torques_unknown(state: str | None) -> Torques:
     return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
 
 
+def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
+    """Compute the torques under given torques on links while power enters at the inputs; bearing friction is
+    neglected.
+    """
+    if (verdict := _without_axis(setting, drag)) is not None:
+        return Torques(setting.case.state, verdict)
+    links = power_inputs(setting)
+    question = TorqueQuestion(drag, links, len(links) == len(setting.case.inputs) and not setting.forms)
+    return _balanced(setting, question, bearings=False, flows_only=True)
+
+
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
     """Compute the torques while a unit of power leaves at `load` and the link `source` drives; bearing friction is
     neglected.
@@ -467,6 +478,13 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     question = LoadedBalance(balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
+    if setting.case.senses and flows:
+        overrunning = [_overrunning(setting, flow) for flow in flows]
+        if all(overrunning):
+            names = overrunning[0]
+            text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
+            return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
+        flows = [flow for flow, names in zip(flows, overrunning, strict=True) if not names]
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
     neglected: tuple[NeglectedEffect, ...] = ()
@@ -480,6 +498,12 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
         verdict = _with_reason(unknown, verdict)
         return Torques(state, verdict, unknown.links, neglected=neglected)
     return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
+
+
+def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
+    """Return the one-way clutches that hold but have a torque in the sense in which they overrun."""
+    held = ((each.clutch, each.torques, setting.case.senses.get(each.links)) for each in _held(setting, flow))
+    return tuple(name for name, torques, sense in held if name and sense and torques and sense * torques[-1] < 0)
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:

@@ -168,8 +168,8 @@ def find_gears(
     Raises
     ------
     QuestionError
-        If the train is not a gearbox, has no input that turns or no output, or has too many combinations of closed
-        elements.
+        If the train is not a gearbox, has no input that turns or no output, has one-way clutches, or has too many
+        combinations of closed elements.
 
     Examples
     --------
@@ -179,6 +179,10 @@ def find_gears(
     [2.455, 1.455, 1.0]
     """
     source, link = gearbox_ends(train.declaration, output)
+    if one_way := [name for name, each in train.declaration.clutches.items() if each.one_way is not None]:
+        what = f"the search for gears does not include the one-way clutches {', '.join(one_way)}"
+        why = "they close by themselves, so that gears have different numbers of closed elements"
+        raise QuestionError(Problem(what, why, "declare them without `one_way`, as clutches that hold both ways"))
     found = _all_gears(train, source, link)
     forward = [each for each in found.gears if each.ratio is not None and each.ratio > 0]
     if gears < 2:
@@ -212,14 +216,12 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
         names.setdefault(frozenset(state.engaged), []).append(name)
     inputs = next(iter(declared.states.values())).inputs
     # smallest size first: further closed elements would be redundant or lock the train
-    # one-way clutches are in force in every gear
-    elements = [name for name, each in declared.clutches.items() if each.one_way is None]
-    for size in range(len(elements) + 1):
-        if (number := comb(len(elements), size)) > MOST_COMBINATIONS:
-            what = f"{size} of {len(elements)} shift elements have too many combinations: {number:,}"
+    for size in range(len(declared.clutches) + 1):
+        if (number := comb(len(declared.clutches), size)) > MOST_COMBINATIONS:
+            what = f"{size} of {len(declared.clutches)} shift elements have too many combinations: {number:,}"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
-        choices = list(combinations(elements, size))
+        choices = list(combinations(declared.clutches, size))
         states = {_JOINER.join(each) or "none": State(engaged=each, inputs=inputs) for each in choices}
         answers = list(GearTrain(declared.model_copy(update={"states": states})).answers())
         gears: list[PossibleGear] = []
@@ -234,7 +236,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
             locked = tuple(choice for choice, kind in kinds if kind in ("locked", "contradictory"))
             gears.sort(key=_rank)
             return GearSearch(train.name, declared.title, source, link, size, number, tuple(gears), free, locked)
-    return GearSearch(train.name, declared.title, source, link, len(elements), 1, ())
+    return GearSearch(train.name, declared.title, source, link, len(declared.clutches), 1, ())
 
 
 # ------------------------------------------------------------------------------------------------- series, as paths

@@ -232,9 +232,7 @@ def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
 def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> GearState:
     declared, state = train.declaration, answer.state or ""
     case = declared.case(state)
-    engaged, given = case.engaged, case.inputs
-    # a one-way clutch beside a brake may hold without torque
-    bearing = [name for name in engaged if name not in {each.name for each in case.one_way if each.torque == 0}]
+    engaged, given = case.closed, case.inputs
     # unit of speed: the input, or another input if the input is at rest
     drive = next((name for name in (source, *given) if answer.speeds.get(name)), "")
     unit = Fraction(answer.speeds[drive]) if drive else 1
@@ -254,11 +252,11 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
         drive,
         speeds,
         slips,
-        {} if load is None else _torques(load, source, {name: declared.clutches[name].links for name in bearing}),
+        {} if load is None else _torques(load, source, {name: declared.clutches[name].links for name in engaged}),
         None if load is None else load.efficiency,
         None if load is None or shared is None else _circulation(shared),
         None if load is None or shared is None else shared.circulating,
-        tuple(each.name for each in case.one_way if each.holds and each.torque != 0),
+        tuple(each.name for each in case.one_way if each.name in engaged),
     )
 
 

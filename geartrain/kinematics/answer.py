@@ -173,7 +173,10 @@ class Answer(FrozenFields, Tabular, TrainResult):
         "exact": "Speed of the link as a fraction; empty for floats.",
     }
 
-    KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs", Key("", "row_residuals"), Key("", "clutch_actions"))
+    KEYS = (
+        *("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs"),
+        *(Key("", "row_residuals"), Key("", "clutch_actions")),
+    )
 
     train: str
     """Name of the train."""

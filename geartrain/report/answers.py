@@ -44,7 +44,7 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
     rows = []
     for answer in answers:
-        engaged = declared.case(answer.state).engaged
+        engaged = declared.case(answer.state).closed
         marks = [closed_mark(declared, clutch) if clutch in engaged else "" for clutch in clutches]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))

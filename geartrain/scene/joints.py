@@ -103,8 +103,8 @@ def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftEle
         text = f"{name} {'brakes' if brakes else 'joins'} {' and '.join(links)}"
         if name in actions:
             text += f" one way ({'holds' if actions[name].holds else 'overruns'})"
-        kind = "brake" if brakes else "clutch"
-        found.append(SceneShiftElement(name, kind, bodies, name in case.engaged, text, name in actions))
+        closed, one_way = name in case.engaged, name in actions
+        found.append(SceneShiftElement(name, "brake" if brakes else "clutch", bodies, closed, text, one_way))
     return tuple(found)
 
 

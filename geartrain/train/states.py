@@ -257,8 +257,8 @@ class Clutch(Declared):
     locks: tuple[Id, Id] | None = Field(None, description="Two links that the clutch locks together")
     one_way: Annotated[Literal["forward", "backward"] | None, BeforeValidator(_read_sense)] = Field(
         None,
-        description="Sense in which a one-way clutch overruns: the fixed link may turn only forward or backward, or the "
-        "second of the locked links may turn only forward or backward relative to the first",
+        description="Sense in which a one-way clutch overruns: the fixed link may turn only forward or backward; the "
+        "second of two locked links may turn only forward or backward relative to the first",
     )
     teeth: Count | None = Field(None, description="Tooth count of a ratchet, which takes hold within one tooth")
 
@@ -451,6 +451,12 @@ class StateCase(Shown):
     """One-way clutches in force, in the order of declaration."""
     notes: tuple[str, ...] = ()
     """Notes on the one-way clutches, such as what happens if the output drives."""
+
+    @property
+    def closed(self) -> tuple[str, ...]:
+        """Names in `engaged` without the one-way clutches that hold without torque."""
+        idle = {each.name for each in self.one_way if each.torque == 0}
+        return tuple(name for name in self.engaged if name not in idle)
 
     def given(self, link: str) -> str:
         """Return the prescribed speed of a link as text, such as `sun = 1400`.

@@ -170,16 +170,16 @@ class _Decision:
             kinds = [each.verdict for load in self._loads if (each := self._torques(pattern, load)) is not None]
             wrong = {name for each in kinds if each.kind == "overrunning" for name in each.candidates}
             missing = sum(each.kind == "unbalanced" for each in kinds)
-            found.append((len(wrong) + missing, len(pattern.holding), pattern.holding, self._members(pattern, wrong)))
-        _, _, holding, released = min(found)
+            released = self._members(pattern, wrong)
+            # of equal numbers, a pattern that names what lets go, then the one with the fewest holding clutches
+            found.append((len(wrong) + missing, not released, len(pattern.holding), pattern.holding, released))
+        *_, holding, released = min(found)
         return self._patterns[tuple(name for name in holding if name not in released)], released
 
     def _members(self, pattern: ClutchPattern, named: set[str]) -> tuple[str, ...]:
         """Return the holding clutches of a pattern that occur in names such as `A and B` of clutches on one link."""
         joined = {pattern.case.clutches[links] for links in pattern.case.senses} & named
-        return tuple(
-            name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined
-        )
+        return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
 
     def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
         """Yield a note for each load that releases a clutch if it drives the train, instead of being driven."""

@@ -615,6 +615,7 @@ def _torques(
         setting.bearings if bearing_friction else (),
         _held(setting, flow),
         neglected,
+        {each.name: each.slip for each in setting.case.one_way if not each.holds},
     )
 
 

@@ -332,6 +332,10 @@ class Torques(FrozenFields, Tabular, TrainResult):
     """Brakes and locks with the torques that they exert."""
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that the torques do not include."""
+    overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
+    """Speed at which each one-way clutch overruns, without torque and loss [unit of the train], by clutch; None if
+    undetermined.
+    """
 
     def _meaning(self, column: str) -> str:
         text = self.MEANINGS[column]

@@ -12,13 +12,14 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import permutations
 from math import isfinite
 from sys import float_info
 from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
 from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
-from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, check_pallets, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import (
     OutputResult,
@@ -40,7 +41,7 @@ from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.results import Shown
-from geartrain.train import StateCase, Train
+from geartrain.train import GearPair, StateCase, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
@@ -50,22 +51,37 @@ if TYPE_CHECKING:
 # ----------------------------------------------------------------------------------------------------------------- lint
 
 
+_CONTINUOUS = 20  # teeth of a mate with which a wheel of two teeth may still drive continuously
+
+
 def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
-    """Yield a note for each pair whose sense of rotation is only a convention, and for each drive with intermittent
-    motion.
+    """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
+    and for each coupling that does not move uniformly.
     """
     at = {gear.name: position for position, gear in enumerate(train.gears)}
     for circuit in circuits:
         if circuit.note:
             yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
-    why = "the mean ratio is exact; the motion is intermittent"
+    why = "the mean ratio is exact; the motion is intermittent: a finger moves by steps, declare it as `kind: step`"
     for position, gear in enumerate(train.gears):
-        for name in gear.pair:
-            wheel = train.wheels[name][1]
-            # teeth of helical wheels overlap
-            if wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None:
-                what = f"wheel '{name}' has one tooth, which cannot drive continuously"
+        for name, mate in permutations(gear.pair):
+            if _is_finger(train, gear, name, mate):
+                teeth = "one tooth" if train.wheels[name][1].count == 1 else "two teeth"
+                what = f"wheel '{name}' has {teeth}, which cannot drive continuously"
                 yield Problem(what, why, "", train.place("gears", position))
+    for position, coupling in enumerate(train.couplings):
+        if coupling.remark:
+            yield Problem(f"'{coupling.name}' {coupling.remark}", "", "", train.place("couplings", position))
+
+
+def _is_finger(train: Train, gear: GearPair, name: str, mate: str) -> bool:
+    """Return True if a spur wheel of a pair has too few teeth for continuous motion: one, or two that meet more than
+    20.
+    """
+    wheel, other = train.wheels[name][1], train.wheels[mate][1]
+    # teeth of helical wheels overlap
+    straight = wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
+    return straight and (wheel.count == 1 or (wheel.count == 2 and (other.count or 0) > _CONTINUOUS))
 
 
 # ----------------------------------------------------------------------------------------------------- train kinematics
@@ -99,6 +115,7 @@ class TrainKinematics(Shown):
         tree = find_tree(self.declaration)
         if has_copies(self.declaration):
             check_copies(self.declaration, tree)
+        check_pallets(self.declaration, tree)
         return tree
 
     @cached_property

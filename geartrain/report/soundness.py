@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.buildability import build_errors
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import relative_speed
-from geartrain.report.answers import expectations_met, result_words
+from geartrain.report.answers import expectations_met, only_sign, result_words
 from geartrain.report.document import exact, figure, ppm
 
 if TYPE_CHECKING:
@@ -125,14 +126,13 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     """Yield the states in which the escape wheel's speed does not match the declared beat.
 
-    The beat depends on the speed of the escape wheel relative to the link that bears it, because that link carries the
-    pallets.
+    The beat depends on the speed of the escape wheel relative to the link with the pallets.
     """
     declared = train.declaration
     escapement = declared.escapement
     if escapement is None:
         return
-    bearer = train.kinematics.tree.top[escapement.link]
+    bearer = pallet_link(escapement, train.kinematics.tree)
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
         # beats are in seconds, so speeds need a unit of time
@@ -175,4 +175,4 @@ def _wanted(result: OutputResult) -> str:
         if target.met is False:
             off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
             words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")
-    return "; " + ", ".join(words) + ("; only the sign differs" if result.differs_in_sign else "")
+    return "; " + ", ".join(words) + only_sign(result)

@@ -271,6 +271,9 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.requested)
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
+    lines += [
+        f"The reaction to the torque on '{link}' acts on '{base}'." for link, (base, _) in found.reactions.items()
+    ]
     if found.overrunning:
         slips = ", ".join(f"{name} at {figure(slip, 6)}" for name, slip in found.overrunning.items())
         lines.append(f"One-way clutches that overrun, without torque and loss: {slips}.")

@@ -38,6 +38,8 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "pin_follower": CouplingKind("pins", "PinFollower", varies=True),
     "pins_in_holes": CouplingKind("pins", "PinsInHoles"),
     "parallel": CouplingKind("pins", "Parallel"),
+    "geneva": CouplingKind("steps", "Geneva", varies=True),
+    "step": CouplingKind("steps", "Step", varies=True),
 }
 """Kinds of couplings by the value of `kind` in declarations."""
 
@@ -84,6 +86,8 @@ class Coupling(BaseModel):
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
     """True if the coupling may join each of several equal links to one other link."""
+    LOCKS_BACK: ClassVar[bool] = False
+    """True if the driven side cannot drive, because the device locks it."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -123,6 +127,18 @@ class Coupling(BaseModel):
         """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
         return Fraction(1)
 
+    @property
+    def remark(self) -> str:
+        """Predicate that describes motion about the mean, such as "moves 1/4 of the time"; empty if there is none."""
+        return ""
+
+    @property
+    def friction_torque(self) -> Fraction:
+        """Mean friction torque [N m] on the driven link against its motion relative to the carrier, such as the
+        torque of a jumper; it does not depend on the load.
+        """
+        return Fraction(0)
+
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
         """Return the links that the coupling joins, the driving link first.
 
@@ -148,6 +164,12 @@ class Coupling(BaseModel):
             else:
                 yield from (("link", each, (key, each if isinstance(value, Mapping) else at))
                             for at, each in enumerate(value))  # fmt: skip
+
+    @property
+    def torques(self) -> Iterator[Quantity]:
+        """Declared energies, such as the loss of a jumper; all torques of the train then have units."""
+        values = (getattr(self, name) for name in type(self).model_fields)
+        return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 
     @property
     def lengths(self) -> Iterator[Quantity]:

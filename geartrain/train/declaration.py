@@ -505,7 +505,13 @@ class Train(Declared):
         """
         bearings = (part.bearing.sliding for part in self.links.values() if part.bearing is not None)
         torques = [torque for torque in (*self.loads_in(state).values(), *bearings) if torque.value]
-        return bool(torques) and all(torque.unit is not None for torque in torques)
+        # friction of a jumper has a unit
+        return bool(torques or self.has_jumpers) and all(torque.unit is not None for torque in torques)
+
+    @property
+    def has_jumpers(self) -> bool:
+        """True if a coupling has friction that does not depend on the load."""
+        return any(coupling.friction_torque for coupling in self.couplings)
 
     def is_loaded(self, state: str | None) -> bool:
         """Return True if torques are declared in a state, by loads or by friction of bearings.
@@ -515,7 +521,7 @@ class Train(Declared):
         state : str or None
             A declared state; None for a train without states.
         """
-        return bool(self.loads_in(state)) or any(link.bearing for link in self.links.values())
+        return bool(self.loads_in(state)) or self.has_jumpers or any(link.bearing for link in self.links.values())
 
     def _speed(self, speed: Quantity) -> Fraction:
         """Convert a prescribed speed to the train's unit."""

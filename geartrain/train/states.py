@@ -170,7 +170,7 @@ class Drive(Declared):
 class Escapement(Declared):
     """Escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
-    Angles are relative to the link that carries the escape wheel, on which the pallets are mounted.
+    Angles are relative to the link on which the pallets are mounted, by default the link that carries the escape wheel.
 
     See Also
     --------
@@ -186,6 +186,9 @@ class Escapement(Declared):
 
     link: Id = Field(description="Link of the escape wheel")
     teeth: Count = Field(description="Tooth count of the escape wheel")
+    on: Id | None = Field(
+        None, description="Link with the pallets; default the link that carries the axis of the escape wheel"
+    )
     beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
         description="Time between beats, each of which lets half a tooth pass"
     )

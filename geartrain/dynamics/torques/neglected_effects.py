@@ -198,6 +198,8 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
         *_teeth(setting, setting.circuits, all_mean_efficiencies(setting)),
         *_inertia(setting),
     ]
+    if jumpers := tuple(each.name for each in setting.train.couplings if each.friction_torque):
+        found.append(NeglectedEffect("friction of jumpers", jumpers, "it is known as a mean over a turn only"))
     if at_means:
         why = "these pairs are redundant, so the phase of their teeth is not known: mean efficiencies are used"
         found.append(NeglectedEffect("variation within a turn", tuple(at_means), why))
@@ -309,8 +311,12 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
         declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
         if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.has_friction and not declared))):
             found.append(circuit.id)
-    if found:
-        yield NeglectedEffect("variation within a turn", tuple(found), f"{_MEAN}, about which they vary with position")
+    resting = [name for name in found if name in setting.joints and setting.joints[name].transmission.dwell]
+    if moving := tuple(name for name in found if name not in resting):
+        yield NeglectedEffect("variation within a turn", moving, f"{_MEAN}, about which they vary with position")
+    if resting:
+        why = f"{_MEAN}; at rest the driver carries no torque, and the driven link is held by its lock on the carrier"
+        yield NeglectedEffect("variation within a turn", tuple(resting), why)
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:

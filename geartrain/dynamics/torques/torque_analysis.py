@@ -355,7 +355,7 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
     requested.
     """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
-    if not loads and not any(map(setting.bearing, setting.train.links)):
+    if not loads and not any(map(setting.bearing, setting.train.links)) and not setting.train.has_jumpers:
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     question = _requested(setting, loads, solve_for)
@@ -544,7 +544,18 @@ def build_balance(
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
         find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
         shares,
+        _reactions(setting, requested),
     )
+
+
+def _reactions(setting: LoadCase, requested: Iterable[str]) -> dict[str, tuple[str, int]]:
+    """Return, for each unknown torque whose reaction does not act on the frame, the link of the reaction and the
+    reaction to a unit torque.
+    """
+    bases = ((link, setting.reacts_on(link)) for link in requested)
+    return {
+        link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases if base != setting.train.frame
+    }
 
 
 def _brakes(setting: LoadCase) -> tuple[str, ...]:
@@ -599,6 +610,13 @@ def _torques(
     for found in (solved.external, solved.brakes):
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
+    reactions = {
+        link: (base, way * solved.external[link])
+        for link, (base, way) in balance.reactions.items()
+        if solved.external.get(link)
+    }
+    for base, torque in reactions.values():
+        external[base] = external.get(base, Fraction(0)) + torque
     # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
     for link, torque in bearing_friction.items():
         external[link] -= torque
@@ -615,6 +633,7 @@ def _torques(
         setting.bearings if bearing_friction else (),
         _held(setting, flow),
         neglected,
+        reactions,
         {each.name: each.slip for each in setting.case.one_way if not each.holds},
     )
 

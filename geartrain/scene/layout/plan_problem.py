@@ -101,7 +101,8 @@ def _chosen_distances(
             if tie.encloses:
                 found[pair] = _ENCLOSED * min(radius[end] for end in pair)
             elif joined.are_apart(*pair):
-                found[pair] = _TIED * radius[tie.axes[0]]
+                clear = 1.1 * sum(radius[end] for end in pair)
+                found[pair] = _TIED * radius[tie.axes[0]] if tie.wish is None else max(tie.wish, clear)
             joined.join(*pair)
     for label, pivot in pivots.items():
         if pivot in radius and joined.are_apart(label, pivot):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 from geartrain.dynamics.pair_speeds import radians_per_second
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import pallet_link
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -87,7 +88,7 @@ def find_time_case(
     given = {gear.name: train.restitution_of(gear) for gear in train.gears}
     given |= {row.id: train.restitution_of(each) for each in train.couplings for row in each.rows(train.wheels)}
     escapement = train.escapement
-    passed = None if escapement is None else problem.seen_ratio(escapement.link, tree.top[escapement.link])
+    passed = None if escapement is None else problem.seen_ratio(escapement.link, pallet_link(escapement, tree))
     turning = rate if rate is not None else _declared_rate(train, case, problem, passed, scale)
     bounces = {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()}
     if escapement is not None:

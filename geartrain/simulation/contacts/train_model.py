@@ -19,6 +19,7 @@ import numpy as np
 from geartrain.dynamics.gear_meshes import CouplingMesh, PinMesh
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
@@ -271,6 +272,7 @@ class TrainModel:
         if circuit.id in self._couplings:
             joint = self._couplings[circuit.id]
             if not isinstance(joint, PinMesh):
+                _refuse_jump(circuit.id, joint.transmission)
                 front = tabled_angle(joint.transmission)
                 return front, front, None, joint.transmission
             transmission = joint.transmission
@@ -340,8 +342,10 @@ class TrainModel:
         return found
 
     def _stops(self) -> Iterator[Stop]:
+        escapement = self.train.escapement
         for link, (pitch, beat) in self.case.escapements.items():
-            base = self.tree.top[link]  # pallets are carried by the link that bears the escape wheel
+            assert escapement is not None  # it is the only stop
+            base = pallet_link(escapement, self.tree)
             way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
@@ -376,6 +380,14 @@ class TrainModel:
             tuple(self._stops()),
             tuple(self._springs()),
         )
+
+
+def _refuse_jump(name: str, transmission: TransmissionFunction) -> None:
+    """Raise `QuestionError` if a coupling moves its driven link at once."""
+    if transmission.at_once:
+        what = f"the dynamics of coupling '{name}' cannot be simulated"
+        why = "a step at once has no force"
+        raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
 
 
 def _sparse(form: Floats) -> dict[int, float]:

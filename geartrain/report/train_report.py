@@ -19,6 +19,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE, adjacency_kinds, adjacency_labels, edge_rows
 from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
+from geartrain.report.couplings import coupling_sections
 from geartrain.report.document import (
     MOST_ROWS,
     CitedText,
@@ -107,6 +108,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
             yield from formulas
     yield from _structure(train)
     yield _circuits(train)
+    yield from coupling_sections(train)
     yield from _phasing(found.closure)
     if len(declared.links) <= MOST_SQUARE:
         others = "gear pairs and couplings" if declared.couplings else "gear pairs"
@@ -280,7 +282,7 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
 
     def teeth(circuit: Circuit, side: int) -> str:
         name = circuit.wheels[side]
-        if circuit.kind != "gear":
+        if not circuit.by_teeth:
             return coupling_model(circuit.kind).SIDES[side]
         return f"{name} {wheels[name][1].count}"
 

@@ -19,14 +19,14 @@ from functools import cached_property
 from itertools import combinations
 
 from geartrain.dynamics.torques.drivers import drag_torques
-from geartrain.dynamics.torques.load_case import LoadCase
+from geartrain.dynamics.torques.load_case import PRESCRIBED, LoadCase
 from geartrain.dynamics.torques.torque_analysis import find_torques, power_inputs, resist
 from geartrain.dynamics.torques.torque_results import Torques, TorqueVerdict
 from geartrain.dynamics.train_mechanics import TrainMechanics
 from geartrain.errors import DeclarationError, Problem
 from geartrain.kinematics.circuits.joint_tree import close_joints, rigid_across_axes
 from geartrain.kinematics.train_kinematics import TrainKinematics
-from geartrain.numerics.elimination import LinearForm, add_into, eliminate
+from geartrain.numerics.elimination import LinearForm, add_into, eliminate, feasible
 from geartrain.train import Clutch, StateCase, Train
 from geartrain.train.states import OneWayAction
 
@@ -47,6 +47,9 @@ class ClutchPattern:
     slips: Mapping[str, Fraction | None]
     """Speed at which each other clutch overruns [unit of the train]; None if undetermined."""
 
+    moves: bool
+    """True if the other clutches can overrun together, for some values of the undetermined speeds."""
+
     @property
     def stopped(self) -> tuple[str, ...]:
         """Clutches that are assumed to overrun but do not."""
@@ -60,6 +63,20 @@ def decide_case(train: Train, state: str | None) -> StateCase:
     clutch between links on different axes, and for more than `MOST_CLUTCHES` clutches.
     """
     return _Decision(TrainMechanics(TrainKinematics(train)), state, train.one_way_clutches(state)).case()
+
+
+def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
+    """Return True if linear forms can all be positive for the same values of the unknowns.
+
+    column   column that no form uses
+
+    The forms are made homogeneous: with a factor t >= 1 of the constants, positive values can be scaled to 1 or more.
+    """
+    scaled: list[LinearForm] = [{column: Fraction(1), PRESCRIBED: Fraction(-1)}]
+    for form in forms:
+        unknowns = {at: value for at, value in form.items() if at != PRESCRIBED}
+        scaled.append({**unknowns, column: form.get(PRESCRIBED, Fraction(0)), PRESCRIBED: Fraction(-1)})
+    return feasible(scaled)
 
 
 @dataclass(frozen=True)
@@ -88,8 +105,13 @@ class _Decision:
 
     @cached_property
     def _patterns(self) -> Mapping[tuple[str, ...], ClutchPattern]:
-        sizes = range(len(self.names) + 1)
-        return {some: self._pattern(some) for size in sizes for some in combinations(self.names, size)}
+        found: dict[tuple[str, ...], ClutchPattern] = {}
+        for some in (each for size in range(len(self.names) + 1) for each in combinations(self.names, size)):
+            fewer = (found.get(some[:at] + some[at + 1 :]) for at in range(len(some)))
+            # contradictory speeds remain contradictory if more clutches hold
+            if all(each is not None and each.setting is not None for each in fewer):
+                found[some] = self._pattern(some)
+        return found
 
     def _pattern(self, holding: tuple[str, ...]) -> ClutchPattern:
         own = self.train
@@ -97,7 +119,10 @@ class _Decision:
         setting = own.make_load_case(case)
         others = [name for name in self.names if name not in holding]
         slips = {name: None if setting is None else self._slip(setting, name) for name in others}
-        return ClutchPattern(holding, case, setting, slips)
+        moves = setting is not None and all(slip is None or slip > 0 for slip in slips.values())
+        if setting is not None and moves and setting.forms:
+            moves = can_be_positive([self._slip_form(setting, name) for name in others], len(setting.forms))
+        return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
         """Return a clutch, its first link (the frame for a brake), its second link and its sense."""
@@ -111,20 +136,29 @@ class _Decision:
         relative = setting.relative(second, first)
         return None if relative is None else sense * setting.sense(second) * relative
 
+    def _slip_form(self, setting: LoadCase, name: str) -> LinearForm:
+        """Return the slip of a clutch as a linear form of the undetermined speeds."""
+        _, first, second, sense = self._clutch(name)
+        form: LinearForm = {}
+        add_into(form, setting.forms[second], sense)
+        add_into(form, setting.forms[first], -sense * setting.sense(first) * setting.sense(second))
+        return form
+
     @cached_property
     def _moving(self) -> Sequence[ClutchPattern]:
         """Patterns whose speeds satisfy all conditions."""
-        return [each for each in self._patterns.values() if each.setting is not None and not each.stopped]
+        return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a pattern with contradictory speeds, reached by stopping the clutches that would turn the wrong
-        way.
+        """Return a pattern with contradictory speeds, if possible one that is reached by stopping the clutches that
+        would turn the wrong way.
         """
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:
             held = {*pattern.holding, *pattern.stopped}
-            pattern = self._patterns[tuple(name for name in self.names if name in held)]
-        return pattern
+            pattern = self._pattern(tuple(name for name in self.names if name in held))
+        others = (each for each in self._patterns.values() if each.setting is None)
+        return pattern if pattern.setting is None else next(others, pattern)
 
     # ----------------------------------------------------------------------------------------------------------- loads
 

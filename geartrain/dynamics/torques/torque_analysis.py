@@ -475,16 +475,13 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
+    if balance.senses and not found and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
+        names = _overrunning(setting, any_way[0])
+        text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
+        return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
     question = LoadedBalance(balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
-    if setting.case.senses and flows:
-        overrunning = [_overrunning(setting, flow) for flow in flows]
-        if all(overrunning):
-            names = overrunning[0]
-            text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
-            return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
-        flows = [flow for flow, names in zip(flows, overrunning, strict=True) if not names]
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
     neglected: tuple[NeglectedEffect, ...] = ()
@@ -501,9 +498,13 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
 
 
 def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
-    """Return the one-way clutches that hold but have a torque in the sense in which they overrun."""
-    held = ((each.clutch, each.torques, setting.case.senses.get(each.links)) for each in _held(setting, flow))
-    return tuple(name for name, torques, sense in held if name and sense and torques and sense * torques[-1] < 0)
+    """Return the one-way clutches that hold but have a torque in the sense in which they overrun; if there are none,
+    those with an undetermined torque.
+    """
+    senses = setting.case.senses
+    held = [each for each in _held(setting, flow) if each.links in senses]
+    wrong = [each for each in held if each.torques and senses[each.links] * each.torques[-1] < 0]
+    return tuple(each.clutch or "" for each in wrong or held if wrong or each.torques is None)
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
@@ -545,6 +546,7 @@ def build_balance(
         find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
         shares,
         _reactions(setting, requested),
+        case.senses,
     )
 
 

@@ -19,6 +19,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE, adjacency_kinds, adjacency_labels, edge_rows
 from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
+from geartrain.report.couplings import coupling_sections, varying_section
 from geartrain.report.document import (
     MOST_ROWS,
     CitedText,
@@ -109,6 +110,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
             yield from formulas
     yield from _structure(train)
     yield _circuits(train)
+    yield from coupling_sections(train)
     yield from _phasing(found.closure)
     if len(declared.links) <= MOST_SQUARE:
         others = "gear pairs and couplings" if declared.couplings else "gear pairs"
@@ -150,10 +152,12 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 def _loaded(found: TrainReport) -> Iterator[Section]:
     """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
-    if found.teeth or found.pins or found.couplings:
+    if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
-        yield from teeth_sections(found.train, found.teeth, found.pins, found.couplings)
+        yield from teeth_sections(found.train, found.teeth, found.pins)
+    if found.couplings:
+        yield varying_section(found.couplings)
     yield from _fusees(found.train)
     if found.torques:
         from geartrain.report.torque_report import loaded_sections
@@ -311,7 +315,7 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
 
     def teeth(circuit: Circuit, side: int) -> str:
         name = circuit.wheels[side]
-        if circuit.kind != "gear":
+        if not circuit.by_teeth:
             return coupling_model(circuit.kind).SIDES[side]
         return f"{name} {wheels[name][1].count}"
 

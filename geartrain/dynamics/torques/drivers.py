@@ -332,7 +332,8 @@ def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
 
 
 def _assumed_driver(train: Train, circuit: Circuit) -> str:
-    """Return the assumed driver of a pair whose driver is undetermined: the pin, or the wheel with fewer teeth.
+    """Return the assumed driver of a pair whose driver is undetermined: the driving link of a coupling as declared,
+    or the wheel with fewer teeth.
 
     An external wheel precedes a ring gear, and wheels with equal tooth counts are ordered by name.
     """

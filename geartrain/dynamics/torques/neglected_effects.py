@@ -210,10 +210,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Yield the friction of pins in followers, and of pins in slots without declared dimensions."""
-    couplings = setting.couplings
-    bearing_friction = [
-        circuit for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
-    ]
+    bearing_friction = _rubbing_pins(setting, busy)
     if swinging := tuple(circuit.id for circuit in bearing_friction if not circuit.b):
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
@@ -230,13 +227,15 @@ def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglec
 
 
 def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    couplings = setting.couplings
-    bearing_friction = [
-        circuit.id for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
-    ]
-    if bare := tuple(name for name in bearing_friction if name not in setting.joints):
+    if bare := tuple(circuit.id for circuit in _rubbing_pins(setting, busy) if circuit.id not in setting.joints):
         why = "it depends on `pin_radius` and `offset`, which are not declared"
         yield NeglectedEffect("friction of pins", bare, why)
+
+
+def _rubbing_pins(setting: LoadCase, busy: Sequence[Circuit]) -> list[Circuit]:
+    """Return the circuits of pins with friction."""
+    pins = {pin.name for pin in setting.train.pin_couplings if setting.has_friction(pin)}
+    return [circuit for circuit in busy if circuit.id in pins]
 
 
 def _teeth(

@@ -200,7 +200,7 @@ def _nodes(
             edges.append([])
         return found
 
-    for at, (_, _, i, j, k, a, b, _, _, bases) in enumerate(circuits):
+    for at, (_, _, i, j, k, a, b, _, _, _, bases) in enumerate(circuits):
         first, second = bases or (k, k)
         here = node(index[i], index[first])
         # a follower prescribes the slot's relative speed 0, and relates no two nodes

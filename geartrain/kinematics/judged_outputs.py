@@ -154,6 +154,8 @@ class SpeedFigures(TypedDict, total=False):
     """Estimated absolute error of a speed that was solved in floats [unit of the train]."""
     true_error: float | None
     """Difference between a speed solved in floats and the exact speed, if the latter is known [unit of the train]."""
+    tolerance: float
+    """Tolerance of a speed that depends on a coupling with an approximate `ratio` [unit of the train]."""
     condition: float | None
     """Component-wise condition number of a speed that was solved in floats [1]; None for a link at rest, omitted in
     trains of more than 400 links.
@@ -236,6 +238,8 @@ class OutputResult(Result):
     """True if `speed` is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
     unit_seconds: Fraction | None
     """Time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
+    tolerance: Fraction = Fraction(0)
+    """Tolerance of the speed due to couplings with an approximate `ratio` [unit of the train]; 0 if it is exact."""
 
     slides: bool = False
     """True if the link slides and `speed` is its travel [mm per unit of the train, or per turn]."""
@@ -275,7 +279,8 @@ class OutputResult(Result):
     @property
     def figures(self) -> SpeedFigures:
         """Speed of the output in the form of the JSON output."""
-        return speed_figures(self.speed, self.slides)
+        plain = speed_figures(self.speed, self.slides)
+        return plain | {"tolerance": float(self.tolerance)} if self.tolerance else plain
 
     @property
     def expect(self) -> JudgedExpectation | None:
@@ -378,7 +383,7 @@ def judge_outputs(
             tuple(_compare_with_target(train, target, speed) for target in output.targets if speed is not None),
             not is_rotation(of, base),
             unit_seconds(train),
-            of in train.sliding,
+            slides=of in train.sliding,
         )
 
 

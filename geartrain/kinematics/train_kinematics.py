@@ -7,19 +7,19 @@ mean values in the answers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import permutations
 from math import isfinite
 from sys import float_info
 from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
-from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
+from geartrain.errors import DeclarationError, Loc, Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
-from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, check_pallets, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import (
     OutputResult,
@@ -47,6 +47,7 @@ from geartrain.train import GearPair, StateCase, Train
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds, Mobility
+    from geartrain.teeth.coupling import Coupling
 
 
 # ----------------------------------------------------------------------------------------------------------------- lint
@@ -59,10 +60,11 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
     """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
     and for each coupling that does not move uniformly.
     """
-    at = {gear.name: position for position, gear in enumerate(train.gears)}
+    places: dict[str, Loc] = {gear.name: ("gears", at) for at, gear in enumerate(train.gears)}
+    places |= {name: ("couplings", at) for at, each in enumerate(train.couplings) for name in each.row_names}
     for circuit in circuits:
         if circuit.note:
-            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
+            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place(*places[circuit.id]))
     why = "the mean ratio is exact; the motion is intermittent: a finger moves by steps, declare it as `kind: step`"
     for position, gear in enumerate(train.gears):
         for name, mate in permutations(gear.pair):
@@ -116,6 +118,7 @@ class TrainKinematics(Shown):
         tree = find_tree(self.declaration)
         if has_copies(self.declaration):
             check_copies(self.declaration, tree)
+        check_pallets(self.declaration, tree)
         return tree
 
     @cached_property
@@ -257,7 +260,17 @@ class TrainKinematics(Shown):
         state : str, optional
             A declared state; None only for a train without states.
         """
-        return self._system(self.whole, self.case(state))
+        return self.case_equations(self.case(state))
+
+    def case_equations(self, case: StateCase) -> WillisSystem:
+        """Return the Willis equations with the given prescriptions, which may differ from the declared ones.
+
+        Parameters
+        ----------
+        case : StateCase
+            Prescriptions with locks joint by joint, as in `cases`.
+        """
+        return self._system(self.whole, case)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Return speeds and evaluated outputs in one state; see `GearTrain.solve`.
@@ -305,8 +318,7 @@ class TrainKinematics(Shown):
         case = self.case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            found = solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs)
-            return lambda of, base: found.relative(of, self.tree.reference(of, base))
+            return self._solved_with(circuits, case)
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
@@ -485,11 +497,19 @@ class TrainKinematics(Shown):
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
 
-        def seen(of: str, base: str) -> SpeedValue | None:
-            return relative(of, self.tree.reference(of, base))
+        seen = self._seen(relative)
+        deviation = self._ratio_tolerance(case, seen)
 
         def outputs() -> dict[str, OutputResult]:
-            return {each.name: each for each in judge_outputs(declared, case, seen, self.is_rotation)}
+            found = judge_outputs(declared, case, seen, self.is_rotation)
+            if deviation is not None:
+                found = (replace(each, tolerance=deviation(each.of, each.relative_to)) for each in found)
+            return {each.name: each for each in found}
+
+        def tolerances() -> dict[str, Fraction]:
+            assert deviation is not None
+            found = {link: deviation(link, declared.frame) for link in speeds}
+            return {link: tolerance for link, tolerance in found.items() if tolerance}
 
         circles = ratios is not None and any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits)
         return Answer(
@@ -504,20 +524,61 @@ class TrainKinematics(Shown):
             "floats" if ratios is None else "exact",
             {} if accuracy is None else accuracy,
             work,
+            tolerances={} if deviation is None else LazyMapping(tolerances),
             expected=case.expect,
             sliding=declared.sliding,
             contains_pi=LazyMapping(lambda: self._with_pi(case, speeds, seen)) if circles else {},
+            one_way=case.one_way,
+            notes=case.notes,
         )
+
+    def _seen(self, relative: Relative) -> Relative:
+        """Return the function for relative speeds with the comparable motion of the second link: a turning link turns
+        relative to a sliding one as it does relative to what carries that.
+        """
+        return lambda of, base: relative(of, self.tree.reference(of, base))
+
+    def _solved_with(self, circuits: Sequence[Circuit], case: StateCase) -> Relative:
+        """Return the function for relative speeds if `circuits` replace the circuits of the train."""
+        return self._seen(solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative)
 
     def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:
         """Return whether the speed of each link and output changes if another rational number replaces pi."""
         other = [_with_other_pi(circuit) if circuit.travels else circuit for circuit in self.circuits]
-        found = solve(self._solved_part(other, tuple(self.declaration.links)), case, self.signs)
-        changes = {link: found.speeds.get(link) != speed for link, speed in speeds.items()}
+        found, frame = self._solved_with(other, case), self.declaration.frame
+        changes = {link: found(link, frame) != speed for link, speed in speeds.items()}
         for name, output in case.outputs.items():
-            of, base = output.links(name, self.declaration.frame)
-            changes[name] = found.relative(of, self.tree.reference(of, base)) != seen(of, base)
+            of, base = output.links(name, frame)
+            changes[name] = found(of, base) != seen(of, base)
         return changes
+
+    def _ratio_tolerance(self, case: StateCase, relative: Relative) -> Callable[[str, str], Fraction] | None:
+        """Return a function that sums the changes of a relative speed as each approximate ratio changes by its
+        tolerance; None if all ratios are exact.
+        """
+        approximate = [each for each in self.declaration.couplings if each.bounds is not None]
+        if not approximate:
+            return None
+
+        def changed(coupling: Coupling, mean: Fraction) -> Relative:
+            circuits = list(self.circuits)
+            at = next(at for at, each in enumerate(circuits) if each.id == coupling.name)
+            ratio = circuits[at].ratio * mean / coupling.mean
+            circuits[at] = circuits[at]._replace(a=ratio.denominator, b=-ratio.numerator)
+            return self._solved_with(circuits, case)
+
+        @cache
+        def moved() -> list[list[Relative]]:
+            return [[changed(each, mean) for mean in each.bounds or ()] for each in approximate]
+
+        def deviation(of: str, base: str) -> Fraction:
+            here = relative(of, base)
+            if here is None:
+                return Fraction(0)
+            most = [max(abs(Fraction((there(of, base) or 0) - here)) for there in each) for each in moved()]
+            return sum(most, Fraction(0))
+
+        return deviation
 
     @cached_property
     def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:

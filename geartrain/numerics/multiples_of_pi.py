@@ -50,7 +50,7 @@ def integer_factors(number: int, pi: str = "π") -> list[str]:
     >>> integer_factors(36 * PI.numerator), integer_factors(PI.denominator), integer_factors(6)
     (['36', 'π'], [], ['6'])
     """
-    letters = []
+    letters: list[str] = []
     for prime, letter in ((PI.numerator, [pi]), (PI.denominator, [])):
         while number >= prime and number % prime == 0:
             number, letters = number // prime, letters + letter

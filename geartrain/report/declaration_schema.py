@@ -34,6 +34,8 @@ _MERGED = (
     "PinFollower",
     "PinsInHoles",
     "Parallel",
+    "Belt",
+    "Ratio",
     "Source",
     "Published",
 )

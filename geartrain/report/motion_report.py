@@ -375,8 +375,11 @@ def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     for tally in tallies:
         # a mean speed of 0 cannot be the divisor
         # rounding of a speed of 0 must not print a sign
-        speeds = "..".join(f"{round(each, 5) + 0.0:.5f}" for each in tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
-        rows.append((tally.name, figure(tally.ratio, 9) + (" mm" if tally.slides else ""), *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds))
+        speeds = "..".join(f"{round(each, 5) + 0.0:.5f}" for each in tally.speeds) + (
+            "" if tally.ratio else " (divided by the input's)"
+        )
+        mean = figure(tally.ratio, 9) + (" mm" if tally.slides else "")
+        rows.append((tally.name, mean, *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
 
 
@@ -392,7 +395,7 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"The driver of {names} temporarily turns backwards. Then the other flanks drive, and the crossing of the "
             "backlash is not simulated."
         )
-    if jumping := [source.id for source in run.motion._forward.used if source.transmission.jumps]:
+    if jumping := [source.id for source in run.motion._forward.used if source.transmission.at_once]:
         yield f"{', '.join(jumping)} moves at once: the speeds of outputs are the speeds between these steps."
     if not all(tally.searched for tally in run.statistics):
         from geartrain.dynamics.motion.superposition import Superposition
@@ -439,7 +442,7 @@ def _steps(motion: Motion) -> Iterator[Section]:
     for source in motion._forward.used:
         transmission = source.transmission
         if transmission.dwell:
-            peak = "at once" if transmission.jumps else f"{transmission.speed_range()[1]:.8g}"
+            peak = "at once" if transmission.at_once else f"{transmission.speed_range()[1]:.8g}"
             rows.append((source.id, str(transmission.dwell), str(transmission.ratio), peak))
     if rows:
         text = "Couplings that move by steps: speeds of the driven link relative to the driver, seen from the carrier."

@@ -68,6 +68,11 @@ class PairErrorSource:
         return self.phase - self.set_back
 
     @property
+    def pace(self) -> float:
+        """Mean number of periods of the fastest component of the transmission function per revolution of the input."""
+        return float(self.cycles) * self.transmission.waves
+
+    @property
     def mean(self) -> float:
         """Mean forward speed of the driver divided by the speed of the input [1]."""
         return float(self.cycles) * self.transmission.period / (2 * np.pi)
@@ -284,7 +289,9 @@ class ErrorComposition:
             value, tau = source.transmission.error_and_speed(S[0])
             error[own] = source.sense * value
             rate[own] = source.sense * (tau - float(source.transmission.ratio)) * turning[0]
-        yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < -REST * source.mean)
+        yield from (
+            source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < -REST * source.mean
+        )
 
     def _coupled(self, step: CompositionStep) -> CoupledErrors:
         sources = [self.sources[at] for at in step.sources]

@@ -97,7 +97,7 @@ class Coupling(BaseModel):
     NEEDS_DISTANCE: ClassVar[bool] = True
     """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
     UNKNOWN: ClassVar[str] = ""
-    """What is not known or not modelled of a coupling of this kind, as nouns for reports."""
+    """Properties of this kind that are not known or not modelled, as nouns for reports."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")

@@ -394,7 +394,7 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"The driver of {names} temporarily turns backwards. Then the other flanks drive, and the crossing of the "
             "backlash is not simulated."
         )
-    if jumping := [source.id for source in run.motion._forward.used if source.transmission.jumps]:
+    if jumping := [source.id for source in run.motion._forward.used if source.transmission.at_once]:
         yield f"{', '.join(jumping)} moves at once: the speeds of outputs are the speeds between these steps."
     if not all(tally.searched for tally in run.statistics):
         from geartrain.dynamics.motion.superposition import Superposition
@@ -440,7 +440,7 @@ def _steps(motion: Motion) -> Iterator[Section]:
     for source in motion._forward.used:
         transmission = source.transmission
         if transmission.dwell:
-            peak = "at once" if transmission.jumps else f"{transmission.speed_range()[1]:.8g}"
+            peak = "at once" if transmission.at_once else f"{transmission.speed_range()[1]:.8g}"
             rows.append((source.id, str(transmission.dwell), str(transmission.ratio), peak))
     if rows:
         text = "Couplings that move by steps: speeds of the driven link relative to the driver, seen from the carrier."

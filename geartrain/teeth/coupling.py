@@ -40,6 +40,10 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "parallel": CouplingKind("pins", "Parallel"),
     "belt": CouplingKind("belt", "Belt"),
     "ratio": CouplingKind("ratio", "Ratio"),
+    "universal_joint": CouplingKind("laws", "UniversalJoint", varies=True),
+    "elliptical": CouplingKind("laws", "EllipticalPair", varies=True),
+    "pitch_curve": CouplingKind("laws", "PitchCurvePair", varies=True),
+    "law": CouplingKind("laws", "TabledLaw", varies=True),
     "geneva": CouplingKind("steps", "Geneva", varies=True),
     "step": CouplingKind("steps", "Step", varies=True),
 }
@@ -92,12 +96,20 @@ class Coupling(BaseModel):
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
     """True if the coupling may join each of several equal links to one other link."""
+    LOCKS_BACK: ClassVar[bool] = False
+    """True if the driven side cannot drive, because the device locks it."""
     PARALLEL: ClassVar[str] = "its parts must move in the same plane"
     """Reason why the axes of the links must be parallel; "" if they may have any directions."""
     NEEDS_DISTANCE: ClassVar[bool] = True
     """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
     UNKNOWN: ClassVar[str] = ""
     """Properties of this kind that are not known or not modelled, as nouns for reports."""
+    OBLIQUE: ClassVar[bool] = False
+    """True if the axes of the two links need not be parallel."""
+    NEGLECTED: ClassVar[tuple[str, str] | None] = None
+    """Effect on torques that is not computed, and the reason; None if there is no such effect."""
+    HOLDS: ClassVar[bool] = False
+    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -158,6 +170,16 @@ class Coupling(BaseModel):
         return None
 
     @property
+    def formula(self) -> str:
+        """Driven angle q as a function of the driver's angle S in closed form; empty if there is none."""
+        return ""
+
+    def on_axes(self, angle: float) -> Self:
+        """Return the coupling with the angle between its axes [rad] filled in where it is needed and not declared."""
+        del angle
+        return self
+
+    @property
     def periods_per_turn(self) -> Fraction:
         """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
         return Fraction(1)
@@ -166,6 +188,13 @@ class Coupling(BaseModel):
     def remark(self) -> str:
         """Predicate that describes motion about the mean, such as "moves 1/4 of the time"; empty if there is none."""
         return ""
+
+    @property
+    def friction_torque(self) -> Fraction:
+        """Mean friction torque [N m] on the driven link against its motion relative to the carrier, such as the
+        torque of a jumper; it does not depend on the load.
+        """
+        return Fraction(0)
 
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
         """Return the links that the coupling joins, the driving link first.
@@ -192,6 +221,12 @@ class Coupling(BaseModel):
             else:
                 yield from (("link", each, (key, each if isinstance(value, Mapping) else at))
                             for at, each in enumerate(value))  # fmt: skip
+
+    @property
+    def torques(self) -> Iterator[Quantity]:
+        """Declared energies, such as the loss of a jumper; all torques of the train then have units."""
+        values = (getattr(self, name) for name in type(self).model_fields)
+        return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 
     @property
     def lengths(self) -> Iterator[Quantity]:

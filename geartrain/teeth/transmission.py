@@ -140,11 +140,13 @@ class TransmissionFunction(Shown, ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
+    waves: int = 1
+    """Number of periods of the fastest component of the transmission error between kinks, in one period."""
     slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
     dwell: Fraction = Fraction(0)
     """Fraction of the period during which the driven side is at rest; 1 for steps at once."""
-    jumps: bool = False
+    at_once: bool = False
     """True if the driven side moves at once, so that the transmission error is discontinuous."""
 
     def _summary(self) -> str:
@@ -506,7 +508,7 @@ class DerivedTransmission(TransmissionFunction):
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
-        self.dwell, self.jumps = transmission.dwell, transmission.jumps
+        self.waves, self.dwell, self.at_once = transmission.waves, transmission.dwell, transmission.at_once
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import accumulate
-from math import acos, inf, pi, sin, sqrt, tan
+from itertools import accumulate, pairwise
+from math import acos, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.transmission import SpeedLeap, TransmissionFunction
+from geartrain.numerics.periodic_function import PeriodicPieces
+from geartrain.teeth.couplings.table_transmission import TableTransmission
+from geartrain.teeth.transmission import LosslessTransmission
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -18,27 +20,12 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_EARLY = 1e-9  # of the angle between engagements: a step at once is complete if rounding leaves less than this to it
+_EARLY = Fraction(
+    1, 10**9
+)  # of the angle between engagements: a step at once is complete if rounding leaves less than this to it
 
 
-class SteppingTransmission(TransmissionFunction):
-    """Transmission function without losses whose driven side rests during a part of each period."""
-
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad], which is 1."""
-        return np.ones(np.shape(S))
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation from the mean [rad], by Gauss-Legendre
-        quadrature over the smooth pieces.
-        """
-        S, weights = self.graded_nodes(lambda S: self.error(S) ** 2)
-        error = self.error(S)
-        mean = float(weights @ error)
-        return mean, sqrt(float(weights @ (error - mean) ** 2))
-
-
-class GenevaTransmission(SteppingTransmission):
+class GenevaTransmission(LosslessTransmission):
     """Transmission function of a Geneva drive, from S = 0 in the middle of a step.
 
     There a pin is on the line of centres: nearest to the other axis for an external drive, farthest for an internal
@@ -104,8 +91,11 @@ class GenevaTransmission(SteppingTransmission):
         return -most, most
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error, which is 0 by symmetry, and its rms value [rad]."""
-        return 0.0, super().error_moments()[1]
+        """Return the mean of the transmission error, which is 0 by symmetry, and its rms value [rad], by Gauss-Legendre
+        quadrature over the smooth pieces.
+        """
+        S, weights = self.graded_nodes(lambda S: self.error(S) ** 2)
+        return 0.0, sqrt(float(weights @ self.error(S) ** 2))
 
     def kinks(self) -> list[float]:
         """Return the driver angles at which a step begins and ends [rad], where the acceleration jumps."""
@@ -124,7 +114,7 @@ class GenevaTransmission(SteppingTransmission):
         return self.rho * (1 - square) * sqrt(1 - cos**2) / (1 - 2 * self.rho * cos + square) ** 2
 
 
-class StepTransmission(SteppingTransmission):
+class StepTransmission(TableTransmission):
     """Transmission function of engagements that move whole teeth, at once or evenly over an angle of the driver.
 
     The first engagement begins at S = 0. The driven angle counts from its position before this engagement.
@@ -143,85 +133,27 @@ class StepTransmission(SteppingTransmission):
     Examples
     --------
     >>> transmission = StepTransmission(24, [12], 1, Fraction(2, 5))
-    >>> transmission.ratio, transmission.speed_range(), transmission.dwell
-    (Fraction(1, 2), (0.0, 1.25), Fraction(3, 5))
+    >>> transmission.ratio, [float(speed) for speed in transmission.speed([1, 3])], transmission.dwell
+    (Fraction(1, 2), [1.25, 0.0], Fraction(3, 5))
     """
 
     def __init__(self, teeth: int, moves: Sequence[int], times: int = 1, over: Fraction = Fraction(0)) -> None:
-        self.teeth, self.moves, self.times, self.over = teeth, tuple(moves), times, over
-        self.ratio = Fraction(times * sum(moves), len(moves) * teeth)
-        self.period = 2 * pi * len(moves) / times
-        self.jumps = not over
+        mean, spacing = Fraction(times * sum(moves), len(moves) * teeth), Fraction(1, times)
+        # a driver that comes to rest where an engagement begins has begun it, despite rounding of its angle
+        early = 0 if over else _EARLY * spacing
+        starts, lines = [], []  # in revolutions: starts of the pieces, and slope and initial value of the deviation
+        for at, (before, after) in enumerate(pairwise(accumulate(moves, initial=0))):
+            start, end = at * spacing - early, (at + 1) * spacing - early
+            for low, high, first, last in ((start, start + over, before, after), (start + over, end, after, after)):
+                if high > low:
+                    starts.append(low)
+                    rise = Fraction(last - first, teeth) / (high - low)
+                    lines.append((rise - mean, 2 * pi * (Fraction(first, teeth) - mean * low)))
+        coefficients = np.vstack([np.zeros((2, len(lines))), np.array(lines, dtype=float).T])
+        period = 2 * pi * float(len(moves) * spacing)
+        super().__init__(mean, PeriodicPieces(2 * pi * np.array(starts, dtype=float), coefficients, period))
         self.dwell = 1 - over * times * Fraction(sum(1 for each in moves if each), len(moves))
-        self._starts = np.arange(len(moves)) * (2 * pi / times)
-        # a driver that comes to rest where an engagement begins, as a star on a star does, has begun it despite rounding
-        self._early = _EARLY * 2 * pi / times if self.jumps else 0.0
-        self._pitch = 2 * pi / teeth
-        self._moved = np.array([*accumulate(moves, initial=0)])
 
-    def _engagement(self, S: ArrayLike) -> tuple[Floats, Floats, Floats]:
-        """Return, at driver angles S [rad], the index of the last engagement, the angle modulo the period [rad], and the
-        completed fraction of the engagement, 0 to 1.
-        """
-        u = np.mod(np.asarray(S, dtype=float) + self._early, self.period)
-        at = np.searchsorted(self._starts, u, side="right") - 1
-        if self.jumps:
-            return at, u - self._early, np.ones_like(u)
-        return at, u, np.minimum((u - self._starts[at]) / (2 * pi * float(self.over)), 1.0)
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven side] at driver angles S [rad]."""
-        at, u, done = self._engagement(S)
-        teeth = self._moved[at] + np.asarray(self.moves)[at] * done
-        return np.asarray(teeth * self._pitch - float(self.ratio) * u)
-
-    def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S [rad]: 0 at rest, and 0 at the instants of steps at once."""
-        at, u, done = self._engagement(S)
-        if self.jumps:
-            return np.zeros_like(u)
-        return np.where(done < 1, np.asarray(self._ratios)[at], 0.0)
-
-    @property
-    def _ratios(self) -> list[float]:
-        """Speed ratio during each engagement; infinite for steps at once."""
-        return [each / self.teeth / float(self.over) if self.over else inf if each else 0.0 for each in self.moves]
-
-    def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio; the maximum is infinite for steps at once."""
-        return min(self._ratios) if self.over * self.times == 1 else 0.0, max(self._ratios)
-
-    def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], before and after an engagement."""
-        teeth = list(accumulate(self.moves, initial=0))
-        # exact, in revolutions
-        starts = [Fraction(at, self.times) for at in range(len(self.moves))]
-        before = (Fraction(moved, self.teeth) - self.ratio * at for moved, at in zip(teeth[:-1], starts, strict=True))
-        after = [
-            Fraction(moved, self.teeth) - self.ratio * (at + self.over)
-            for moved, at in zip(teeth[1:], starts, strict=True)
-        ]
-        errors = [*before, *after]
-        return 2 * pi * float(min(errors)), 2 * pi * float(max(errors))
-
-    def kinks(self) -> list[float]:
-        """Return the driver angles at which an engagement begins, and at which it ends [rad]."""
-        starts = (self._starts - self._early).tolist()
-        # without rests an engagement ends where the next one begins
-        rests = 0 < self.over * self.times < 1
-        return [*starts, *(self._starts + 2 * pi * float(self.over)).tolist()] if rests else starts
-
-    def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return the upward steps of the speed ratio at the beginnings of engagements; None for steps at once."""
-        if self.jumps:
-            return None
-        rests = self.over * self.times < 1
-        earlier = [0.0] * len(self.moves) if rests else [self._ratios[-1], *self._ratios[:-1]]
-        return tuple(SpeedLeap(*each) for each in zip(earlier, self._ratios, strict=True) if each[1] > each[0])
-
-    def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad]: infinite, because it drops at once,
-        unless the speed ratio is constant.
-        """
-        low, high = self.speed_range()
-        return inf if high > low else 0.0
+    def mirrored(self) -> StepTransmission:
+        """Return the function itself: an engagement begins at S = 0 in either sense of the driver."""
+        return self

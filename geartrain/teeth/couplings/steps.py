@@ -42,7 +42,7 @@ def _at_least_0(moves: Sequence[int]) -> Sequence[int]:
 class SteppingCoupling(Coupling):
     """Coupling that moves its driven link by steps, base class of all kinds."""
 
-    SIDES = ("driven", "driver")
+    LOCKS_BACK = True
 
     pair: tuple[str, str] = Field(description="Driving link, and the link that moves by steps")
     internal: bool = Field(
@@ -171,10 +171,8 @@ class Step(SteppingCoupling):
 
     @property
     def friction_torque(self) -> Fraction:
-        """Mean torque on the driven link against its motion by which the jumper's energy is lost [N m].
-
-        A wheel of z teeth loses z times the energy of one tooth in a revolution.
-        """
+        """Mean torque [N m] on the driven link against its motion, by which the jumper's energy is lost."""
+        # a wheel of z teeth loses z times the energy of one tooth in a revolution
         return Fraction(0) if self.loss is None else self.teeth * self.loss.base / (2 * Fraction(pi))
 
     @property

@@ -250,3 +250,12 @@ class Coupling(BaseModel):
             else:
                 changed[key] = tuple(names.get(each, each) for each in value)
         return self.model_copy(update=changed)
+
+
+def unmodelled_properties(couplings: Sequence[Coupling]) -> list[str]:
+    """Return the properties of couplings that are not known or not modelled, with the names of the couplings."""
+    named: dict[str, list[str]] = {}
+    for each in couplings:
+        if each.UNKNOWN:
+            named.setdefault(each.UNKNOWN, []).append(each.name)
+    return [f"{what} of {', '.join(names)}" for what, names in named.items()]

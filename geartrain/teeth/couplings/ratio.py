@@ -58,6 +58,7 @@ class Ratio(Coupling):
 
     PARALLEL = ""
     NEEDS_DISTANCE = False
+    HOLDS = True
     UNKNOWN = "tooth counts, sizes, mesh frequency, backlash and transmission error"
 
     kind: Literal["ratio"] = Field(

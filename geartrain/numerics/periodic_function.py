@@ -112,7 +112,38 @@ class PeriodicFunction(ABC):
         return self.derivative(self.breakpoints - inset, order), self.derivative(self.breakpoints + inset, order)
 
 
-class PeriodicTable(PeriodicFunction):
+class PeriodicPieces(PeriodicFunction):
+    """Periodic function with a cubic polynomial on each piece.
+
+    Parameters
+    ----------
+    breakpoints : ndarray, (pieces,)
+        Ascending positions at which the pieces begin.
+    coefficients : ndarray, (4, pieces)
+        Coefficients of the powers of the distance from the start of the piece, from the highest power.
+    period : float
+        Period, at least the difference of the last and the first breakpoint.
+    """
+
+    def __init__(self, breakpoints: Floats, coefficients: Floats, period: float) -> None:
+        self.breakpoints, self._coefficients, self.period = breakpoints, coefficients, period
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        first = self.breakpoints[0]
+        u = np.mod(np.asarray(x, dtype=float) - first, self.period)
+        # the comparison is with the differences, so that each point is in the piece that it begins
+        starts = self.breakpoints - first
+        piece = np.searchsorted(starts, u, side="right") - 1
+        u = u - starts[piece]
+        found = np.zeros(u.shape)
+        for power in range(3, order - 1, -1):
+            factor = [1, power, power * (power - 1), power * (power - 1) * (power - 2)][order]
+            found = found * u + factor * self._coefficients[3 - power][piece]
+        return found
+
+
+class PeriodicTable(PeriodicPieces):
     """Periodic function through points.
 
     Parameters
@@ -141,23 +172,8 @@ class PeriodicTable(PeriodicFunction):
         interpolation: Interpolation = "pchip",
     ) -> None:
         _check_points(positions, values, period, interpolation)
-        self.period, self.breakpoints = period, np.array(positions, dtype=float)
-        closed = np.append(np.array(values, dtype=float), values[0])
-        self._coefficients = _cubics(np.append(self.breakpoints, positions[0] + period), closed, interpolation)
-
-    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
-        first = self.breakpoints[0]
-        u = np.mod(np.asarray(x, dtype=float) - first, self.period)
-        # the comparison is with the differences, so that each point is in the piece that it begins
-        starts = self.breakpoints - first
-        piece = np.searchsorted(starts, u, side="right") - 1
-        u = u - starts[piece]
-        found = np.zeros(u.shape)
-        for power in range(3, order - 1, -1):
-            factor = [1, power, power * (power - 1), power * (power - 1) * (power - 2)][order]
-            found = found * u + factor * self._coefficients[3 - power][piece]
-        return found
+        starts, closed = np.array(positions, dtype=float), np.append(np.array(values, dtype=float), values[0])
+        super().__init__(starts, _cubics(np.append(starts, positions[0] + period), closed, interpolation), period)
 
 
 def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
@@ -201,33 +217,6 @@ def _check_points(
         if at and x <= positions[at - 1]:
             what = f"the position of point {at + 1}, {x:.10g}, is not above that of the point before it"
             raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
-
-
-class PeriodicLines(PeriodicFunction):
-    """Periodic function of straight lines, which may jump between them.
-
-    Parameters
-    ----------
-    edges : sequence of float, (n + 1,)
-        Ascending ends of the lines over one period.
-    ends : sequence of (float, float), (n, 2)
-        Values at the beginning and at the end of each line.
-    """
-
-    def __init__(self, edges: Sequence[float], ends: Sequence[tuple[float, float]]) -> None:
-        self.breakpoints, self.period = np.array(edges[:-1], dtype=float), float(edges[-1] - edges[0])
-        self._starts, last = np.array(ends, dtype=float).T
-        self._slopes = (last - self._starts) / np.diff(np.array(edges, dtype=float))
-
-    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
-        places = self.breakpoints - self.breakpoints[0]
-        u = np.asarray(np.mod(np.asarray(x, dtype=float) - self.breakpoints[0], self.period))
-        line = np.searchsorted(places, u, side="right") - 1
-        if order > 1:
-            return np.zeros(u.shape)
-        slope: Floats = self._slopes[line]
-        return slope if order else self._starts[line] + slope * (u - places[line])
 
 
 class HarmonicSeries(PeriodicFunction):

@@ -38,12 +38,12 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "pin_follower": CouplingKind("pins", "PinFollower", varies=True),
     "pins_in_holes": CouplingKind("pins", "PinsInHoles"),
     "parallel": CouplingKind("pins", "Parallel"),
+    "belt": CouplingKind("belt", "Belt"),
+    "ratio": CouplingKind("ratio", "Ratio"),
     "universal_joint": CouplingKind("laws", "UniversalJoint", varies=True),
     "elliptical": CouplingKind("laws", "EllipticalPair", varies=True),
     "pitch_curve": CouplingKind("laws", "PitchCurvePair", varies=True),
     "law": CouplingKind("laws", "TabledLaw", varies=True),
-    "belt": CouplingKind("belt", "Belt"),
-    "ratio": CouplingKind("ratio", "Ratio"),
     "geneva": CouplingKind("steps", "Geneva", varies=True),
     "step": CouplingKind("steps", "Step", varies=True),
 }
@@ -96,12 +96,6 @@ class Coupling(BaseModel):
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
     """True if the coupling may join each of several equal links to one other link."""
-    OBLIQUE: ClassVar[bool] = False
-    """True if the ratio depends on the angle between the axes, which need not be parallel."""
-    NEGLECTED: ClassVar[tuple[str, str] | None] = None
-    """Effect on torques that is not computed, and the reason; None if there is no such effect."""
-    HOLDS: ClassVar[bool] = False
-    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
     LOCKS_BACK: ClassVar[bool] = False
     """True if the driven side cannot drive, because the device locks it."""
     PARALLEL: ClassVar[str] = "its parts must move in the same plane"
@@ -110,6 +104,12 @@ class Coupling(BaseModel):
     """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
     UNKNOWN: ClassVar[str] = ""
     """What is not known or not modelled of a coupling of this kind, as nouns for reports."""
+    OBLIQUE: ClassVar[bool] = False
+    """True if the axes of the two links need not be parallel."""
+    NEGLECTED: ClassVar[tuple[str, str] | None] = None
+    """Effect on torques that is not computed, and the reason; None if there is no such effect."""
+    HOLDS: ClassVar[bool] = False
+    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")

@@ -16,7 +16,7 @@ from fractions import Fraction
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
 from geartrain.numerics.quantity import Angle, Energy, bad, not_below_zero
 from geartrain.teeth.coupling import Coupling
@@ -37,6 +37,14 @@ def _at_least_0(moves: Sequence[int]) -> Sequence[int]:
     if not any(moves) or min(moves) < 0:
         raise bad("step", "the driven link never moves", "give `moves` of 0 or more, and at least one above 0")
     return moves
+
+
+_Moves = Annotated[
+    tuple[Annotated[int, Field(ge=0)], ...],
+    BeforeValidator(_moves),
+    AfterValidator(_at_least_0),
+    WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "array", "items": {"type": "integer"}}]}),
+]
 
 
 class SteppingCoupling(Coupling):
@@ -123,8 +131,10 @@ class Step(SteppingCoupling):
 
     kind: Literal["step"] = Field(description="Finger and star, ratchet or mutilated wheel: whole teeth, then rest")
     teeth: int = Field(ge=1, le=10**12, description="Number of teeth of the driven link")
-    moves: Annotated[tuple[Annotated[int, Field(ge=0)], ...], BeforeValidator(_moves), AfterValidator(_at_least_0)] = (
-        Field((1,), max_length=_MOST_MOVES, description="Teeth moved by an engagement, or a list for successive ones")
+    moves: _Moves = Field(
+        (1,),
+        max_length=_MOST_MOVES,
+        description="Teeth moved by each engagement, or a list for successive engagements; default 1",
     )
     times: int = Field(
         1, ge=1, le=10_000, description="Number of engagements in one revolution of the driver, evenly spaced"

@@ -490,7 +490,7 @@ def _scale_bar(axes: Axes, scale: float) -> None:
 
 def _legend(projected: ProjectedScene, lists: bool) -> Iterator[Line2D | Patch]:
     scene = projected.scene
-    if projected.flat:
+    if projected.flat and scene.wheels:
         yield Line2D([], [], color=BLUE, linestyle="-.", linewidth=0.6, label="pitch circles")
     if any(body.role == "carrier" for body in scene.bodies):
         yield Line2D([], [], color=ORANGE, linewidth=4.5, label="carriers")

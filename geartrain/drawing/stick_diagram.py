@@ -360,6 +360,7 @@ _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
 _NAME = 8.5  # points: font size
 _LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: line widths distinguish parts without colour
 _TOUCH = 0.032  # inches from where two wheels meet to the middle of either's mark
+_PINS = {"pin_and_slot", "pin_follower", "pins_in_holes"}  # kinds of couplings that are drawn as a pin in a slot
 _BEARING = 0.08  # inches: half of the mark of a carrier's bearing
 _LONE = 0.55  # inches: height of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
@@ -553,12 +554,14 @@ def _legend(train: GearTrain) -> Iterator[Line2D | Patch]:
     if any(circuit.carrier != train.declaration.frame for circuit in train.circuits):
         yield Line2D([], [], color=ORANGE, linewidth=_CARRIER, label="carriers")
     kinds = {coupling.kind for coupling in train.declaration.couplings}
-    if kinds - {"parallel"}:
-        holes = "pins in holes" if kinds - {"parallel"} == {"pins_in_holes"} else "pins in slots"
+    pins, others = kinds & _PINS, kinds - _PINS
+    if pins:
+        holes = "pins in holes" if pins == {"pins_in_holes"} else "pins in slots"
         yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, marker="o", label=holes)
-    if "parallel" in kinds:
+    if others:
         ends = {"marker": "|", "markersize": 8, "markeredgewidth": 2.0}
-        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, label="kept parallel", **ends)  # type: ignore[arg-type]
+        label = "kept parallel" if others == {"parallel"} else "couplings"
+        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, label=label, **ends)  # type: ignore[arg-type]
     if train.declaration.clutches:
         ends = {"linewidth": PLATE, "marker": "|", "markersize": 10, "markeredgewidth": STEM}
         for color, words in ((PURPLE, "closed brakes and clutches"), (GREY, "open ones")):

@@ -197,6 +197,10 @@ class Answer(FrozenFields, Tabular, TrainResult):
     """Relative residual |b - A w| / (|A| |w|) [1] of each row of `WillisSystem.matrix`, by row label. Computed at the
     first access; empty if the matrix was not used.
     """
+    tolerances: Mapping[str, Fraction] = field(default_factory=dict)
+    """Tolerance [`unit`] of the speed of each link that depends on a coupling with an approximate `ratio`: the sum of
+    the changes of its speed if one ratio after another changes by its tolerance. Computed at the first access.
+    """
     expected: str = "determined"
     """Kind of verdict that the state or the train declares as `expect`; by default `determined`."""
     _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)
@@ -278,6 +282,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
             found[link]["true_error"] = accuracy.true_error
             if accuracy.condition is not None:
                 found[link]["condition"] = finite(accuracy.condition)
+        for link in self.tolerances.keys() & found.keys():
+            found[link]["tolerance"] = float(self.tolerances[link])
         return found
 
     @property

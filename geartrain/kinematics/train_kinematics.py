@@ -7,17 +7,17 @@ mean values in the answers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import permutations
 from math import isfinite
 from sys import float_info
 from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
-from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
+from geartrain.errors import DeclarationError, Loc, Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, check_pallets, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
@@ -46,6 +46,7 @@ from geartrain.train import GearPair, StateCase, Train
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds, Mobility
+    from geartrain.teeth.coupling import Coupling
 
 
 # ----------------------------------------------------------------------------------------------------------------- lint
@@ -58,10 +59,11 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
     """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
     and for each coupling that does not move uniformly.
     """
-    at = {gear.name: position for position, gear in enumerate(train.gears)}
+    places: dict[str, Loc] = {gear.name: ("gears", at) for at, gear in enumerate(train.gears)}
+    places |= {name: ("couplings", at) for at, each in enumerate(train.couplings) for name in each.row_names}
     for circuit in circuits:
         if circuit.note:
-            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
+            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place(*places[circuit.id]))
     why = "the mean ratio is exact; the motion is intermittent: a finger moves by steps, declare it as `kind: step`"
     for position, gear in enumerate(train.gears):
         for name, mate in permutations(gear.pair):
@@ -483,8 +485,18 @@ class TrainKinematics(Shown):
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
 
+        deviation = self._ratio_tolerance(case, relative)
+
         def outputs() -> dict[str, OutputResult]:
-            return {each.name: each for each in judge_outputs(declared, case, relative, self.is_rotation)}
+            found = judge_outputs(declared, case, relative, self.is_rotation)
+            if deviation is not None:
+                found = (replace(each, tolerance=deviation(each.of, each.relative_to)) for each in found)
+            return {each.name: each for each in found}
+
+        def tolerances() -> dict[str, Fraction]:
+            assert deviation is not None
+            found = {link: deviation(link, declared.frame) for link in speeds}
+            return {link: tolerance for link, tolerance in found.items() if tolerance}
 
         return Answer(
             declared.name,
@@ -498,8 +510,37 @@ class TrainKinematics(Shown):
             "floats" if ratios is None else "exact",
             {} if accuracy is None else accuracy,
             work,
+            tolerances={} if deviation is None else LazyMapping(tolerances),
             expected=case.expect,
         )
+
+    def _ratio_tolerance(self, case: StateCase, relative: Relative) -> Callable[[str, str], Fraction] | None:
+        """Return a function that sums the changes of a relative speed as each approximate ratio changes by its
+        tolerance; None if all ratios are exact.
+        """
+        approximate = [each for each in self.declaration.couplings if each.bounds is not None]
+        if not approximate:
+            return None
+
+        def changed(coupling: Coupling, mean: Fraction) -> Relative:
+            circuits = list(self.circuits)
+            at = next(at for at, each in enumerate(circuits) if each.id == coupling.name)
+            ratio = circuits[at].ratio * mean / coupling.mean
+            circuits[at] = circuits[at]._replace(a=ratio.denominator, b=-ratio.numerator)
+            return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+
+        @cache
+        def moved() -> list[list[Relative]]:
+            return [[changed(each, mean) for mean in each.bounds or ()] for each in approximate]
+
+        def deviation(of: str, base: str) -> Fraction:
+            here = relative(of, base)
+            if here is None:
+                return Fraction(0)
+            most = [max(abs(Fraction((there(of, base) or 0) - here)) for there in each) for each in moved()]
+            return sum(most, Fraction(0))
+
+        return deviation
 
     @cached_property
     def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:

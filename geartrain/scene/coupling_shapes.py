@@ -257,7 +257,7 @@ def _drilled(
     place: _CouplingPlace, link: str, at: Vector, towards: Vector, outline: list[Point]
 ) -> Iterator[ScenePart]:
     nearest = min(hypot(*point) for point in outline)
-    yield place.flat(link, "wheel", at, towards, outline, circle(0.25 * nearest))
+    yield place.flat(link, "wheel", at, towards, outline)
     yield place.turned(link, "hub", at, 0.25 * nearest, -_THICK, _THICK)
 
 
@@ -302,7 +302,7 @@ def _geneva(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
         outline = [point for at in range(n) for point in _slot(2 * pi * at / n, C + r, C * cos(pi / n) * 0.98, pin)]
         yield place.flat(driven, "cross", place.driven_at, back, circle(C + r + 4 * pin), outline)
     else:
-        yield place.flat(driven, "cross", place.driven_at, back, _cross(n, C, r, pin), circle(2 * pin))
+        yield place.flat(driven, "cross", place.driven_at, back, _cross(n, C, r, pin))
         alpha, lock = pi / 2 - pi / n, r - 2.2 * pin
         notch = circle(lock, (0.0, 0.0), alpha, 2 * pi - 2 * alpha)
         yield place.flat(driver, "lock", place.driver_at, place.towards, [*notch, (0.3 * lock, 0.0)])
@@ -349,13 +349,13 @@ def _star(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     z, C = place.declared.teeth, place.apart
     reach = 0.62 * C
     star = _polar([reach if at % 2 == 0 else 0.8 * reach for at in range(2 * z)], [pi * at / z for at in range(2 * z)])
-    yield place.flat(place.circuit.i, "star", place.driven_at, scaled(place.towards, -1.0), star, circle(0.1 * reach))
+    yield place.flat(place.circuit.i, "star", place.driven_at, scaled(place.towards, -1.0), star)
     finger = C - 0.84 * reach
     for at in range(place.declared.times):
         turn = 2 * pi * at / place.declared.times
         end = finger * cos(turn), finger * sin(turn)
         yield place.flat(place.circuit.j, "finger", place.driver_at, place.towards, _bar((0.0, 0.0), end, 0.05 * C))
-    yield place.flat(place.circuit.j, "hub", place.driver_at, place.towards, circle(0.6 * finger), circle(0.1 * finger))
+    yield place.flat(place.circuit.j, "hub", place.driver_at, place.towards, circle(0.6 * finger))
 
 
 # --------------------------------------------------------------------------------------------------------------- travel

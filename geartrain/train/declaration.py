@@ -181,6 +181,9 @@ class Train(Declared):
     revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs in mesh")
     couplings: tuple[DeclaredCoupling, ...] = Field((), description="Couplings of links other than gear pairs")
+    belts: tuple[str, ...] = Field(
+        (), description="Belts or chains around two wheels, `first ~ second`: a short form, read into `couplings`"
+    )
     inputs: ByName[Speed] = Field(
         {},
         validate_default=True,

@@ -393,9 +393,10 @@ def _wheels(train: Train) -> Iterator[Problem]:
                 place,
             )
     for at, coupling in enumerate(train.couplings):
-        if coupling.name in names:
-            yield _duplicate(train, "coupling", coupling.name, "couplings", at)
-        names.add(coupling.name)
+        for name in dict.fromkeys((coupling.name, *coupling.row_names)):
+            if name in names:
+                yield _duplicate(train, "coupling", name, "couplings", at)
+            names.add(name)
 
 
 def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
@@ -409,14 +410,10 @@ def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
 
 def _couplings(train: Train) -> Iterator[Problem]:
     for at, coupling in enumerate(train.couplings):
-        if len(set(coupling.ends)) < len(coupling.ends):
-            twice = next(link for link in coupling.ends if coupling.ends.count(link) > 1)
-            yield Problem(
-                f"coupling '{coupling.name}' joins '{twice}' to itself",
-                f"{' and '.join(coupling.SIDES)} must be on different links",
-                "name the other link",
-                train.place("couplings", at),
-            )
+        known = {"link": train.links, "wheel": train.wheels}
+        # unknown names are reported as such
+        if all(name in known[kind] for kind, name, _ in coupling.references()):
+            yield from (Problem(*each, train.place("couplings", at)) for each in coupling.problems(train.wheels))
 
 
 def _unresolved(train: Train) -> Iterator[Problem]:

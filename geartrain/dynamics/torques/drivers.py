@@ -322,7 +322,7 @@ def _driver_of(setting: LoadCase, circuit: Circuit, way: FlowDirections, source:
     if turn is None:
         return _open(setting, circuit, "the relative speed of its two sides is not determined")
     if not turn:
-        what = "its slot only oscillates" if circuit.swings else "its two sides have no relative motion"
+        what = "its driven side only oscillates" if circuit.swings else "its two sides have no relative motion"
         return _open(setting, circuit, f"{what}, so no power flows on average")
     return _open(setting, circuit, "no power flows through it")
 
@@ -332,7 +332,8 @@ def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
 
 
 def _assumed_driver(train: Train, circuit: Circuit) -> str:
-    """Return the assumed driver of a pair whose driver is undetermined: the pin, or the wheel with fewer teeth.
+    """Return the assumed driver of a pair whose driver is undetermined: the driving link of a coupling as declared,
+    or the wheel with fewer teeth.
 
     An external wheel precedes a ring gear, and wheels with equal tooth counts are ordered by name.
     """

@@ -187,6 +187,8 @@ class DeclaredGeometry:
     """Axis of the first input, which is at the origin if no position is declared; None without inputs."""
     discs: Mapping[str, float]
     """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
+    belts: tuple[Mapping[str, float], ...] = ()
+    """Radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -250,7 +252,17 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         _dial_ends(declared, tree, lines, front),
         next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
         dict(_lantern_discs(declared)),
+        tuple(_belts(train)),
     )
+
+
+def _belts(train: GearTrain) -> Iterator[Mapping[str, float]]:
+    """Yield the radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
+    carriers = {circuit.id: circuit.carrier for circuit in train.circuits if circuit.kind == "belt"}
+    for belt in train.declaration.couplings if carriers else ():
+        if belt.kind == "belt" and any(True for _ in belt.lengths):
+            axes = (train.kinematics.tree.axis_seen_from(carriers[belt.row_names[0]], link) for link in belt.ends)
+            yield {axis: float(millimetres(size)) / 2 for axis, size in zip(axes, belt.lengths, strict=True)}
 
 
 def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:

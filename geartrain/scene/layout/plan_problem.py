@@ -42,6 +42,8 @@ class PlanProblem:
     """Axis -> direction in plan towards a crossing mate, which is preferably placed outside the other axes."""
     places: Mapping[str, int] = field(default_factory=dict)
     """Axis of a planet -> number of positions around its pivot at which its teeth mesh with both sun and ring."""
+    belts: Sequence[Mapping[str, float]] = ()
+    """Radii of the pulleys of each belt by axis [mm]."""
 
     def radius(self, label: str) -> float:
         """Return the radius of the widest wheel of an axis [mm]."""
@@ -79,6 +81,7 @@ def plan_problem(
         dict(_rows(declared, parallels, crossing)),
         dict(_sides(declared, parallels, [each for each in crossing if each.side.mate_axis not in standing])),
         dict(_assembly_places(declared, parallels)),
+        declared.belts,
     )
 
 

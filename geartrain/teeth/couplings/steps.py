@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
+from geartrain.numerics.exact import plural
 from geartrain.numerics.quantity import Angle, Energy, bad, not_below_zero
 from geartrain.teeth.coupling import Coupling
 
@@ -50,7 +51,9 @@ _Moves = Annotated[
 class SteppingCoupling(Coupling):
     """Coupling that moves its driven link by steps, base class of all kinds."""
 
-    LOCKS_BACK = True
+    # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
+    LOCKS_BACK = HOLDS = True
+    UNKNOWN = "friction of pin, finger and lock; impacts where the lock stops the driven link"
 
     pair: tuple[str, str] = Field(description="Driving link, and the link that moves by steps")
     internal: bool = Field(
@@ -112,6 +115,17 @@ class Geneva(SteppingCoupling):
     def moving(self) -> Fraction:
         """Fraction of the driver's revolution during which a pin is in a slot."""
         return self.pins * self._share
+
+    @property
+    def about(self) -> str:
+        """Numbers of slots and pins, as text."""
+        return f"{self.slots} slots, {plural(self.pins, 'pin')}{', internal' if self.internal else ''}"
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q in closed form while a pin is in its slot."""
+        sign = "+" if self.internal else "-"
+        return f"q = atan2(rho sin S, 1 {sign} rho cos S) while moving, rho = sin(pi/{self.slots})"
 
     @property
     def transmission(self) -> GenevaTransmission:
@@ -178,6 +192,14 @@ class Step(SteppingCoupling):
         """Number of steps at once, or the fraction of the time during which the driven link moves, in words."""
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))
         return super().remark if self.moving else f"moves at once, {steps} times a turn of the driver"
+
+    @property
+    def about(self) -> str:
+        """Number of teeth and engagements, as text."""
+        low, high = min(self.moves), max(self.moves)
+        moved = f"{low}" if low == high else f"{low} to {high}"
+        over = f" over {self.over}" if self.over else ""
+        return f"{self.teeth} teeth, {self.times} a turn move {moved}{over}"
 
     @property
     def friction_torque(self) -> Fraction:

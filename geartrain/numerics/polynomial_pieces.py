@@ -134,8 +134,8 @@ def ends(coefficients: Floats) -> Floats:
 
 def _turns(column: Floats) -> Floats:
     """Return the stationary points u of a polynomial, by Newton's method from the sign changes of its slope."""
-    slope = np.polynomial.polynomial.polyder(column)
-    bend = np.polynomial.polynomial.polyder(slope)
+    slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
+    bend = np.asarray(np.polynomial.polynomial.polyder(slope), dtype=np.float64)
     u = np.linspace(-1, 1, 257)
     at = _polynomial(slope, u)
     # a slope may also be 0 at a sample itself

@@ -13,6 +13,7 @@ from math import isfinite
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.circuits.fundamental import couplings_on_axes
 from geartrain.kinematics.judged_outputs import (
     SECONDS_PER_DAY,
     OutputResult,
@@ -431,7 +432,8 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
             lines.append(f"  {why_floats(answer)}")
         lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
     if output is None and answer._declaration is not None:
-        remarks = ((each.name, each.remark) for each in answer._declaration.couplings)
+        couplings = couplings_on_axes(answer._declaration, GearTrain(answer._declaration).kinematics.tree)
+        remarks = ((each.name, each.remark) for each in couplings)
         lines += [f"  coupling '{name}' {remark}: speeds are means" for name, remark in remarks if remark]
     return "\n".join(lines)
 

@@ -40,6 +40,10 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "parallel": CouplingKind("pins", "Parallel"),
     "belt": CouplingKind("belt", "Belt"),
     "ratio": CouplingKind("ratio", "Ratio"),
+    "universal_joint": CouplingKind("laws", "UniversalJoint", varies=True),
+    "elliptical": CouplingKind("laws", "EllipticalPair", varies=True),
+    "pitch_curve": CouplingKind("laws", "PitchCurvePair", varies=True),
+    "law": CouplingKind("laws", "TabledLaw", varies=True),
     "geneva": CouplingKind("steps", "Geneva", varies=True),
     "step": CouplingKind("steps", "Step", varies=True),
 }
@@ -100,6 +104,12 @@ class Coupling(BaseModel):
     """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
     UNKNOWN: ClassVar[str] = ""
     """What is not known or not modelled of a coupling of this kind, as nouns for reports."""
+    OBLIQUE: ClassVar[bool] = False
+    """True if the axes of the two links need not be parallel."""
+    NEGLECTED: ClassVar[tuple[str, str] | None] = None
+    """Effect on torques that is not computed, and the reason; None if there is no such effect."""
+    HOLDS: ClassVar[bool] = False
+    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -158,6 +168,16 @@ class Coupling(BaseModel):
     def transmission(self) -> TransmissionFunction | None:
         """Transmission function with the first end driving; None if the ratio is constant, or its data are missing."""
         return None
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q as a function of the driver's angle S in closed form; empty if there is none."""
+        return ""
+
+    def on_axes(self, angle: float) -> Self:
+        """Return the coupling with the angle between its axes [rad] filled in where it is needed and not declared."""
+        del angle
+        return self
 
     @property
     def periods_per_turn(self) -> Fraction:

@@ -140,6 +140,8 @@ class TransmissionFunction(Shown, ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
+    waves: int = 1
+    """Number of periods of the fastest component of the transmission error between kinks, in one period."""
     slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
     dwell: Fraction = Fraction(0)
@@ -506,7 +508,7 @@ class DerivedTransmission(TransmissionFunction):
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
-        self.dwell, self.at_once = transmission.dwell, transmission.at_once
+        self.waves, self.dwell, self.at_once = transmission.waves, transmission.dwell, transmission.at_once
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

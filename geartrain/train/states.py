@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import pi, tau
+from math import inf, pi, tau
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -27,10 +27,12 @@ from geartrain.numerics.quantity import (
     Torque,
     TorsionalStiffness,
     above_zero,
+    bad,
     not_below_zero,
 )
 from geartrain.numerics.results import Result, Shown
 from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id, Nothing, exactly_one
+from geartrain.train.fusees import Fusee, FuseeSpring
 from geartrain.train.outputs import Output
 
 GRAVITY = 9.80665
@@ -55,6 +57,27 @@ class SpringDrive(Declared):
     turns: Annotated[Figure, not_below_zero("give the turns of winding at the start, 0 or more")] = Field(
         description="Turns of winding at the start"
     )
+    barrel: Annotated[MeasuredLength, above_zero("give a length such as 15 mm")] | None = Field(
+        None, description="Radius of the barrel to the middle line of the chain; needs `fusee`"
+    )
+    fusee: Fusee | None = Field(None, description="Fusee on the driving link, turned by a chain from the barrel")
+
+    @model_validator(mode="after")
+    def _check_fusee(self) -> SpringDrive:
+        if (self.barrel is None) != (self.fusee is None):
+            fix = "give `barrel: 15 mm` and `fusee: {turns: 6, torque: 0.27 N m}`, or neither"
+            raise bad("drive", "`barrel` and `fusee` must be given together", fix)
+        if (chained := self.chained) is not None and (end := chained.end) < inf:
+            what = f"the spring has run down after {end:.6g} of the {chained.fusee.turns} turns of the fusee"
+            raise bad("drive", what, "give more `turns` of winding, fewer turns of the fusee, or smaller radii")
+        return self
+
+    @property
+    def chained(self) -> FuseeSpring | None:
+        """Spring with its fusee; None without a fusee."""
+        if self.barrel is None or self.fusee is None:
+            return None
+        return FuseeSpring(self.stiffness.si, tau * float(self.turns.value), self.barrel.si, self.fusee)
 
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].
@@ -64,6 +87,8 @@ class SpringDrive(Declared):
         unwound : float
             Angle by which the link has turned [rad].
         """
+        if (chained := self.chained) is not None:
+            return chained.torque(unwound)
         return self.stiffness.si * (tau * float(self.turns.value) - unwound)
 
 
@@ -151,14 +176,18 @@ class Drive(Declared):
 
     @property
     def pull(self) -> float | None:
-        """Torque of a weight at its drum [N m]: mass times gravity times radius; None for other drives."""
+        """Constant torque of a weight at its drum, mass times gravity times radius, or of a spring at its equalised
+        fusee [N m]; None for other drives.
+        """
+        if self.spring is not None and self.spring.fusee is not None and self.spring.fusee.torque is not None:
+            return self.spring.fusee.torque.si
         if self.weight is None or self.drum is None:
             return None
         return self.weight.si * GRAVITY * self.drum.si
 
     @property
     def steady_torque(self) -> float | None:
-        """Constant torque of a torque drive or a weight [N m]; None for other drives."""
+        """Constant torque of a torque drive, a weight or an equalised fusee [N m]; None for other drives."""
         return next((torque.si for torque in self.torques), self.pull)
 
     @property

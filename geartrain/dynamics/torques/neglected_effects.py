@@ -167,6 +167,7 @@ def find_neglected_effects(
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
+    found += _of_couplings(setting, busy)
     found += _bearings(setting) if bearings else _all_bearings(setting)
     shared = tuple(circuit.id for circuit in busy if circuit.id in set(neither))
     if shared:
@@ -196,6 +197,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
     found = [
         *_pins_without_dimensions(setting, setting.circuits),
         *_teeth(setting, setting.circuits, all_mean_efficiencies(setting)),
+        *_of_couplings(setting, setting.circuits),
         *_inertia(setting),
     ]
     if jumpers := tuple(each.name for each in setting.train.couplings if each.friction_torque):
@@ -213,6 +215,15 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
     yield from _pins_without_dimensions(setting, [circuit for circuit in bearing_friction if circuit.b])
+
+
+def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
+    """Yield the effects of couplings that are not computed, such as the side loads of joints."""
+    named: dict[tuple[str, str], list[str]] = {}
+    for circuit in busy:
+        if circuit.kind != "gear" and (effect := setting.couplings[circuit.id].NEGLECTED) is not None:
+            named.setdefault(effect, []).append(circuit.id)
+    yield from (NeglectedEffect(what, tuple(names), why) for (what, why), names in named.items())
 
 
 def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:

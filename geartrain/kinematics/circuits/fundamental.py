@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
-from math import atan2, sqrt
+from math import atan2, degrees, pi, sqrt
 from typing import NamedTuple
 
 from geartrain.errors import DeclarationError, GearTrainError, Problem, RangeError
@@ -192,9 +192,14 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
         if row.carrier is not None and _shared_axis(tree, row.driven, row.driver) is not None:
             return _not_coaxial(train, row, at)
         return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
-    labels = tree.axis_seen_from(carrier, row.driven), tree.axis_seen_from(carrier, row.driver)
+    labels = _labels(tree, carrier, row.driven, row.driver)
     b = row.b
-    if not coupling.PARALLEL:
+    if coupling.OBLIQUE:
+        if problem := _wrong_angle(train, axes, coupling, labels, at):
+            return problem
+        # both sides turn in the same sense about directions less than 90 degrees apart
+        b *= axes.sense(labels)
+    elif not coupling.PARALLEL:
         # the ratio is that of the speeds about each link's own axis
         b *= axes.sign(labels[0]) * axes.sign(labels[1])
     elif not axes.are_parallel(labels):
@@ -226,6 +231,42 @@ def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | 
     bearer = next(tree.top[link] for link in (i, j) if tree.axis(link) == axis)
     carrier = declared or bearer
     return carrier if carrier not in (i, j) and (carrier == bearer or tree.axis(carrier) == axis) else None
+
+
+def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
+    """Return the couplings of a train, with the angle between their axes filled in where it follows from `axes`."""
+    axes = Axes(train, tree)
+    found = []
+    for coupling in train.couplings:
+        if coupling.OBLIQUE:
+            driver, driven = coupling.links(train.wheels)
+            carrier = _carrier(tree, driven, driver)
+            if carrier is not None and (angle := axes.angle(_labels(tree, carrier, driven, driver))) is not None:
+                coupling = coupling.on_axes(angle)
+        found.append(coupling)
+    return tuple(found)
+
+
+def _labels(tree: Tree, carrier: str, driven: str, driver: str) -> tuple[str, str]:
+    return tree.axis_seen_from(carrier, driven), tree.axis_seen_from(carrier, driver)
+
+
+def _wrong_angle(train: Train, axes: Axes, coupling: Coupling, labels: tuple[str, str], at: int) -> Problem | None:
+    """Return the problem of a joint whose axes do not have its angle, or are perpendicular; None if they fit."""
+    between, place = axes.angle(labels), train.place("couplings", at)
+    if between is None:
+        return None
+    if between > pi / 2 - _SAME_ANGLE:
+        what = f"coupling '{coupling.name}': the axes '{labels[1]}' and '{labels[0]}' are perpendicular"
+        return Problem(what, "a joint at 90 deg does not turn", "declare directions less than 90 deg apart", place)
+    declared = getattr(coupling, "angle", None)
+    if declared is not None and abs(declared.si - between) > _SAME_ANGLE:
+        what = (
+            f"coupling '{coupling.name}': its angle is {declared.text}, but its axes are at {degrees(between):.6g} deg"
+        )
+        fix = "omit `angle`, which follows from `axes`, or correct a direction"
+        return Problem(what, "both declare the same angle", fix, place)
+    return None
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
@@ -274,7 +315,7 @@ def _oblique(train: Train, coupling: Coupling, row: CouplingRow, labels: Sequenc
     return Problem(
         f"coupling '{coupling.name}': the axes {sides[1]} and {sides[0]} are not parallel",
         coupling.PARALLEL,
-        "declare parallel directions in `axes`, or join the links by bevel wheels",
+        "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels",
         train.place("couplings", at),
     )
 
@@ -323,6 +364,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     )
 
 
+_SAME_ANGLE = 1e-3  # rad: tolerance of the angle of a joint, because written directions are rounded
 _MEET = 1e-3  # relative to the distance between two declared points: closer axes intersect, as positions are rounded
 
 

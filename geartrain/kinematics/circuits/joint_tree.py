@@ -334,6 +334,20 @@ class Axes:
         """
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
+    def angle(self, labels: tuple[str, str]) -> float | None:
+        """Return the angle between two axes as lines [rad], 0 to pi/2; None if neither direction is declared."""
+        if self.directions.keys().isdisjoint(labels):
+            return None
+        angle, _ = self._crossing(*labels)
+        return min(angle, pi - angle)
+
+    def sense(self, labels: tuple[str, str]) -> int:
+        """Return 1 if speeds of the same sign about the reference directions of two axes have directions less than 90
+        degrees apart, else -1.
+        """
+        first, second = (self.direction(label) for label in labels)
+        return self.sign(labels[0]) * self.sign(labels[1]) * (-1 if dot(first, second) < 0 else 1)
+
     def are_one_line(self, one: str, other: str) -> bool:
         """Return True if two axes with declared positions are collinear. Axes without positions are never collinear."""
         here, there = self.positions.get(one), self.positions.get(other)

@@ -107,8 +107,9 @@ def find_separation(
     rates, places, narrowest = _minimum_rates(contacts, kinks, turns)
     leaping = _jump_positions(contacts, kinks, narrowest)
     found = []
+    held = {joint.coupling.name for joint in moving.couplings if joint.coupling.HOLDS}
     # a lock stops these couplings, so that they need not pull where the speed drops
-    held = {
+    held |= {
         each.id
         for each in contacts.motion._forward.sources
         if each.transmission.dwell and each.transmission.steepest_fall() is None

@@ -185,6 +185,11 @@ def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: Mo
     if drive.steady_torque is not None:
         return PowerInput(link, "torque", torque=way * drive.steady_torque, inertia=inertia)
     if drive.spring is not None:
+        if drive.spring.fusee is not None:
+            what, why = "a fusee with declared radii cannot be simulated in time", "its torque varies with its angle"
+            mean = drive.spring.chained.run().mean if drive.spring.chained else 0.0
+            fix = f"declare its mean torque, `drive: {{torque: {mean:.6g} N m}}`, or a `torque` of the fusee"
+            raise QuestionError(Problem(what, why, fix))
         wound = way * tau * float(drive.spring.turns.value)
         return PowerInput(link, "spring", stiffness=drive.spring.stiffness.si, wound=wound)
     assert hand is not None

@@ -24,7 +24,7 @@ from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
-from geartrain.simulation.contacts.rubbing_arms import Arms, constant_ratio_arms, pin_arms, tooth_arms
+from geartrain.simulation.contacts.rubbing_arms import Arms, efficiency_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
 from geartrain.teeth.transmission import ExactRatio
 
@@ -272,9 +272,7 @@ class TrainModel:
         if circuit.id in self._couplings:
             joint = self._couplings[circuit.id]
             if not isinstance(joint, PinMesh):
-                _refuse_jump(circuit.id, joint.transmission)
-                front = tabled_angle(joint.transmission)
-                return front, front, None, joint.transmission
+                return self._coupling_flanks(joint, self.sources[circuit.id].transmission)
             transmission = joint.transmission
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
@@ -287,6 +285,17 @@ class TrainModel:
         front = tabled_angle(mesh.transmission)
         back = front if mesh.verdict.backlash <= 0 else tabled_angle(mesh.coast)
         return front, back, tooth_arms(mesh), mesh.transmission
+
+    @staticmethod
+    def _coupling_flanks(
+        joint: CouplingMesh, transmission: TransmissionFunction
+    ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
+        """Return `_flanks` of a coupling without backlash, with the losses of its declared efficiency."""
+        label = f"coupling '{joint.coupling.name}'"
+        _refuse_jump(label, transmission)
+        front, ways = tabled_angle(transmission), joint.coupling.efficiency
+        declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
+        return front, front, efficiency_arms(transmission, *declared, label), transmission
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""
@@ -313,7 +322,7 @@ class TrainModel:
         # efficiencies are declared for the first wheel as driver
         if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
-        return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
+        return efficiency_arms(transmission, *passed, f"pair '{circuit.id}'")
 
     # ----------------------------------------------------------------------------------------- other parts of the model
 
@@ -382,12 +391,11 @@ class TrainModel:
         )
 
 
-def _refuse_jump(name: str, transmission: TransmissionFunction) -> None:
+def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
     """Raise `QuestionError` if a coupling moves its driven link at once."""
     if transmission.at_once:
-        what = f"the dynamics of coupling '{name}' cannot be simulated"
-        why = "a step at once has no force"
-        raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
+        fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
+        raise QuestionError(Problem(f"the dynamics of {label} cannot be simulated", "a step at once has no force", fix))
 
 
 def _sparse(form: Floats) -> dict[int, float]:

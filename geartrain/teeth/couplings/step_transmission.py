@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.periodic_function import PeriodicPieces
 from geartrain.teeth.couplings.table_transmission import TableTransmission
 from geartrain.teeth.transmission import LosslessTransmission
 
@@ -140,16 +141,17 @@ class StepTransmission(TableTransmission):
         mean, spacing = Fraction(times * sum(moves), len(moves) * teeth), Fraction(1, times)
         # a driver that comes to rest where an engagement begins has begun it, despite rounding of its angle
         early = 0 if over else _EARLY * spacing
-        edges, lines = [-early], []  # in revolutions: ends of the pieces, and the deviation at both ends of each
+        starts, lines = [], []  # in revolutions: starts of the pieces, and slope and initial value of the deviation
         for at, (before, after) in enumerate(pairwise(accumulate(moves, initial=0))):
             start, end = at * spacing - early, (at + 1) * spacing - early
             for low, high, first, last in ((start, start + over, before, after), (start + over, end, after, after)):
                 if high > low:
-                    edges.append(high)
-                    lines.append((Fraction(first, teeth) - mean * low, Fraction(last, teeth) - mean * high))
-        values = 2 * pi * np.array(lines, dtype=float)
-        coefficients = np.array([values.sum(axis=1) / 2, (values[:, 1] - values[:, 0]) / 2])
-        super().__init__(mean, 2 * pi * np.array(edges, dtype=float), coefficients)
+                    starts.append(low)
+                    rise = Fraction(last - first, teeth) / (high - low)
+                    lines.append((rise - mean, 2 * pi * (Fraction(first, teeth) - mean * low)))
+        coefficients = np.vstack([np.zeros((2, len(lines))), np.array(lines, dtype=float).T])
+        period = 2 * pi * float(len(moves) * spacing)
+        super().__init__(mean, PeriodicPieces(2 * pi * np.array(starts, dtype=float), coefficients, period))
         self.dwell = 1 - over * times * Fraction(sum(1 for each in moves if each), len(moves))
 
     def mirrored(self) -> StepTransmission:

@@ -72,7 +72,6 @@ def test_counts_to_search_may_be_a_list() -> None:
     assert [solution["teeth"] for part in found["parts"] for solution in part["solutions"]] == wanted
 
 
-@pytest.mark.xfail(strict=True, reason="belts cannot be declared")
 def test_a_belt_turns_both_pulleys_the_same_way() -> None:
     assert call("check", case("07")).exit_code == 0
 

@@ -125,8 +125,8 @@ def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
     return plus, minus, minus, plus
 
 
-def constant_ratio_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
-    """Return the friction terms of a pair with a constant ratio and a declared efficiency for each driving direction.
+def efficiency_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
+    """Return the friction terms of a pair with a declared efficiency for each driving direction.
 
     None means that the pair has no loss. Raises `GearTrainError` if the pair is self-locking forwards.
     """
@@ -135,11 +135,18 @@ def constant_ratio_arms(transmission: TransmissionFunction, forward: float, back
     if forward <= 0:
         why = f"its efficiency is {forward:g} in the direction of the power flow, so it locks"
         raise GearTrainError(Problem(f"{label} cannot be simulated in time", why, "declare an `efficiency` above 0"))
-    ratio = float(transmission.ratio)
-
-    def constant(value: float) -> TabledFunction:
-        return tabled_function(lambda S: np.full(np.shape(S), value), transmission)
-
     # backwards the driven wheel drives, so losses reduce its torque on the driver
-    ahead, back = constant(ratio * (1 / forward - 1)), constant(ratio * (max(backward, 0.0) - 1))
+    more, less = 1 / forward - 1, max(backward, 0.0) - 1
+    steady = transmission.speed_range()[0] >= 0
+
+    def table(driving: float, returning: float) -> TabledFunction:
+        def term(S: Floats) -> Floats:
+            tau = transmission.speed(S)
+            # with a negative ratio the driven side moves backwards, and power flows the other way
+            return tau * np.where(tau >= 0, driving, returning)
+
+        # a term has a kink where the ratio passes 0
+        return tabled_function(term, transmission) if steady else tabled_function(term, transmission, _ROUGH)
+
+    ahead, back = table(more, less), table(less, more)
     return ahead, back, back, ahead

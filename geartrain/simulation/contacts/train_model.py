@@ -19,11 +19,12 @@ import numpy as np
 from geartrain.dynamics.gear_meshes import CouplingMesh, PinMesh
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
-from geartrain.simulation.contacts.rubbing_arms import Arms, constant_ratio_arms, pin_arms, tooth_arms
+from geartrain.simulation.contacts.rubbing_arms import Arms, efficiency_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
 from geartrain.teeth.transmission import ExactRatio
 
@@ -271,8 +272,7 @@ class TrainModel:
         if circuit.id in self._couplings:
             joint = self._couplings[circuit.id]
             if not isinstance(joint, PinMesh):
-                front = tabled_angle(joint.transmission)
-                return front, front, None, joint.transmission
+                return self._coupling_flanks(joint, self.sources[circuit.id].transmission)
             transmission = joint.transmission
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
@@ -285,6 +285,17 @@ class TrainModel:
         front = tabled_angle(mesh.transmission)
         back = front if mesh.verdict.backlash <= 0 else tabled_angle(mesh.coast)
         return front, back, tooth_arms(mesh), mesh.transmission
+
+    @staticmethod
+    def _coupling_flanks(
+        joint: CouplingMesh, transmission: TransmissionFunction
+    ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
+        """Return `_flanks` of a coupling without backlash, with the losses of its declared efficiency."""
+        label = f"coupling '{joint.coupling.name}'"
+        _refuse_jump(label, transmission)
+        front, ways = tabled_angle(transmission), joint.coupling.efficiency
+        declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
+        return front, front, efficiency_arms(transmission, *declared, label), transmission
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""
@@ -311,7 +322,7 @@ class TrainModel:
         # efficiencies are declared for the first wheel as driver
         if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
-        return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
+        return efficiency_arms(transmission, *passed, f"pair '{circuit.id}'")
 
     # ----------------------------------------------------------------------------------------- other parts of the model
 
@@ -340,8 +351,10 @@ class TrainModel:
         return found
 
     def _stops(self) -> Iterator[Stop]:
+        escapement = self.train.escapement
         for link, (pitch, beat) in self.case.escapements.items():
-            base = self.tree.top[link]  # pallets are carried by the link that bears the escape wheel
+            assert escapement is not None  # it is the only stop
+            base = pallet_link(escapement, self.tree)
             way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
@@ -376,6 +389,13 @@ class TrainModel:
             tuple(self._stops()),
             tuple(self._springs()),
         )
+
+
+def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
+    """Raise `QuestionError` if a coupling moves its driven link at once."""
+    if transmission.at_once:
+        fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
+        raise QuestionError(Problem(f"the dynamics of {label} cannot be simulated", "a step at once has no force", fix))
 
 
 def _sparse(form: Floats) -> dict[int, float]:

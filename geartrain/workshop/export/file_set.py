@@ -116,6 +116,10 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
     >>> train_file(work, "dot").decode().splitlines()[0]
     'graph "planetary-24-18-60" {'
     """
+    if kind in ("stl", "step") and not work.parts:
+        why = "only wheels, pins and plates have solids, and it declares none"
+        fix = "declare the wheels of its links, or choose another format, such as .graphml"
+        raise GearTrainError(Problem(f"'{work.train.name}' has no parts to make", why, fix))
     if kind == "glb":
         from geartrain.workshop.export.triangle_files import to_glb
 

@@ -147,12 +147,13 @@ def run(
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
     work = SolidModel(train, _sizes(lengths, process, spokes, sheet), train.declaration.state_or_first(state))
     shown = None if turns is None else read_turns("--turns", turns)
+    ready = True
     if out is not None:
         _write_one(work, out, wheel, shown, force)
     else:
         assert to is not None
-        _write_folder(work, to, kinds, wheel, shown, force)
-    raise typer.Exit(GOOD if is_sound(work.sized, state) else VERDICT)
+        ready = _write_folder(work, to, kinds, wheel, shown, force)
+    raise typer.Exit(GOOD if ready and is_sound(work.sized, state) else VERDICT)
 
 
 def _refuse(given: Mapping[str, object], what: str, why: str, fix: str) -> None:
@@ -223,7 +224,8 @@ def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction |
 
 def _write_folder(
     work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool
-) -> None:
+) -> bool:
+    """Write all files of an export, and return False if its parts are proved not to be ready to cut."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.workshop.export.assembly_guide import unproved
     from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
@@ -247,6 +249,7 @@ def _write_folder(
     tell(f"wrote {plural(count, 'file')} to {to}")
     if parts_requested(wanted):
         tell(unproved().replace("*", "").replace("`", "") if proof is None else proof.verdict)
+    return proof is None or proof.is_ready
 
 
 def _proof(work: SolidModel) -> TrainProof | None:

@@ -46,6 +46,7 @@ class TravelCoupling(Coupling):
 
     ENDS = ("turns", "slides")
     SIDES = ("slides", "turns")
+    HOLDS = True
 
     turns: str = Field(description="Link that turns: pinion, screw, drum or crank")
     slides: str = Field(description="Link that slides, or the link on which the carrier of the turning link slides")

@@ -108,12 +108,6 @@ def find_separation(
     leaping = _jump_positions(contacts, kinks, narrowest)
     found = []
     held = {name for each in declared.couplings if each.HOLDS for name in each.row_names}
-    # a lock stops these couplings, so that they need not pull where the speed drops
-    held |= {
-        each.id
-        for each in contacts.motion._forward.sources
-        if each.transmission.dwell and each.transmission.steepest_fall() is None
-    }
     for pair, name in enumerate(contacts.pairs):
         if name in held:
             continue

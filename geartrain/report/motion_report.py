@@ -252,6 +252,7 @@ def ripples(train: GearTrain) -> bool:
 
 
 _ABREAST = 8  # outputs in one table
+_ROUNDING = 1e-13  # rad: smaller deviations are rounding errors
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
@@ -482,7 +483,8 @@ def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
 
 
 def _degrees(*values: float) -> tuple[str, ...]:
-    return tuple(f"{degrees(value):.6g}" for value in values)
+    # joints that cancel leave rounding errors
+    return tuple(f"{degrees(value) if abs(value) > _ROUNDING else 0.0:.6g}" for value in values)
 
 
 def _spectrum(name: str, lines: list[SpectrumLine]) -> Section:

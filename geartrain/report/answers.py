@@ -318,6 +318,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
         "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
         "published figure": [each.published_holds for each in results if each.published_holds is not None],
         "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
+        "clutch assertion": [not each.fails for answer in answers for each in answer.one_way if each.required],
     }
     each = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
     # commas between all kinds except the last two

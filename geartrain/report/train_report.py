@@ -458,7 +458,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
         return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
     if train.mechanics.faults:
         return "teeth cannot turn", False
-    failed = sum(len(answer.failures) for answer in answers)
+    failed = sum(len(answer.failures) + sum(each.fails for each in answer.one_way) for answer in answers)
     if failed:
         return f"{failed} expectation{'' if failed == 1 else 's'} failed", False
     kinds = dict.fromkeys(answer.verdict.kind for answer in answers)

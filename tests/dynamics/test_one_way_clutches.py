@@ -474,3 +474,12 @@ def test_random_clutches_in_two_planetary_sets_agree_with_gauss_least_constraint
     # an output that its load stops comes to rest slowly
     assert {link: float(answer.speeds[link]) for link in speeds} == pytest.approx(speeds, abs=4 * close)
     assert holding == {each.name for each in actions(train).values() if each.holds}
+
+
+def test_a_speed_that_varies_within_a_turn_is_noted() -> None:
+    train = geartrain.load(
+        ROCKER.replace("pin_follower", "pin_and_slot").replace("pin_radius: 6 mm", "pin_radius: 20 mm")
+    )
+    assert train.solve()["h"] == 1
+    (note,) = [each for each in notes(train) if "mean speeds" in each]
+    assert note == "A is decided by mean speeds, but crank~rocker varies within a turn"

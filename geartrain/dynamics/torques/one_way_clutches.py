@@ -24,6 +24,7 @@ from geartrain.dynamics.torques.torque_analysis import find_torques, power_input
 from geartrain.dynamics.torques.torque_results import Torques, TorqueVerdict
 from geartrain.dynamics.train_mechanics import TrainMechanics
 from geartrain.errors import DeclarationError, Problem
+from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.circuits.joint_tree import close_joints, rigid_across_axes
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate, feasible
@@ -121,7 +122,9 @@ class _Decision:
         slips = {name: None if setting is None else self._slip(setting, name) for name in others}
         moves = setting is not None and all(slip is None or slip > 0 for slip in slips.values())
         if setting is not None and moves and setting.forms:
-            moves = can_be_positive([self._slip_form(setting, name) for name in others], len(setting.forms))
+            moves = can_be_positive(
+                [self._slip_form(setting, name, setting.forms) for name in others], len(setting.forms)
+            )
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
@@ -136,12 +139,12 @@ class _Decision:
         relative = setting.relative(second, first)
         return None if relative is None else sense * setting.sense(second) * relative
 
-    def _slip_form(self, setting: LoadCase, name: str) -> LinearForm:
-        """Return the slip of a clutch as a linear form of the undetermined speeds."""
+    def _slip_form(self, setting: LoadCase, name: str, speeds: Mapping[str, LinearForm]) -> LinearForm:
+        """Return the slip of a clutch as a linear form, from the linear forms of the speeds."""
         _, first, second, sense = self._clutch(name)
         form: LinearForm = {}
-        add_into(form, setting.forms[second], sense)
-        add_into(form, setting.forms[first], -sense * setting.sense(first) * setting.sense(second))
+        add_into(form, speeds[second], sense)
+        add_into(form, speeds[first], -sense * setting.sense(first) * setting.sense(second))
         return form
 
     @cached_property
@@ -274,13 +277,16 @@ class _Decision:
         return clutch.links not in pattern.case.senses and sense * torque < 0
 
     def _shared(self, pattern: ClutchPattern, relieved: Collection[str]) -> Iterator[str]:
-        """Yield notes on clutches that hold the same link or the same two links together."""
+        """Yield notes on clutches that hold the same links together, and on speeds that vary within a turn."""
         case = pattern.case
         for links in dict.fromkeys(self._clutch(name)[0].links for name in pattern.holding):
             clutches = self.train.declaration.clutches
             names = [name for name in case.engaged if clutches[name].links == links and name not in relieved]
             if len(names) > 1:
                 yield f"{_joined(names)} both hold; how they share the torque is not known"
+        for name, couplings in self._varying.items():
+            ids = _joined([each.id for each in couplings])
+            yield f"{name} is decided by mean speeds, but {ids} varies within a turn"
         groups: dict[tuple[str, str], dict[int, str]] = {}
         for name in self.names:
             _, first, second, sense = self._clutch(name)
@@ -314,29 +320,33 @@ class _Decision:
         some = "{" + ", ".join(f"{load}: -1" for load in list(ways)[:1]) + "}"
         return f"whether {_joined(open_)} holds depends on the loads", why, f"declare `loads`, such as `loads: {some}`"
 
-    def _swinging(self) -> tuple[str, str, str] | None:
-        """Return what, why and fix if the slip of a clutch oscillates; None if it does not.
+    @cached_property
+    def _varying(self) -> Mapping[str, Sequence[Circuit]]:
+        """Couplings with varying ratio on which the slip of each clutch depends; clutches without any are omitted.
 
-        The varying rows of the system get a symbol each; the slip of such a clutch contains one of them.
+        The rows of such couplings get a symbol each; the slip of the clutch contains these symbols.
         """
-        pattern = self._patterns[()]
-        setting = pattern.setting
-        if setting is None:
-            return None
-        varying = {each.id: -1 - at for at, each in enumerate(setting.circuits) if each.swings and not each.ratio}
-        if not varying:
-            return None
+        setting = self._patterns[()].setting
+        varying = [each for each in setting.circuits if each.swings] if setting is not None else []
+        if setting is None or not varying:
+            return {}
+        symbols = {each.id: -1 - at for at, each in enumerate(varying)}
         index = {link: at for at, link in enumerate(setting.train.links)}
         rows: list[LinearForm] = []
         for row in setting.system.equations:
             form = {index[link]: Fraction(factor) for link, factor in row.terms}
-            rows.append(form | ({varying[row.label]: Fraction(1)} if row.label in varying else {}))
-        forms = eliminate(rows).forms()
-        for name in self.names:
+            rows.append(form | ({symbols[row.label]: Fraction(1)} if row.label in symbols else {}))
+        solved = eliminate(rows).forms()
+        forms = {link: solved.get(at, {at: Fraction(1)}) for link, at in index.items()}
+        slips = {name: self._slip_form(setting, name, forms) for name in self.names}
+        found = {name: [each for each in varying if symbols[each.id] in slip] for name, slip in slips.items()}
+        return {name: each for name, each in found.items() if each}
+
+    def _swinging(self) -> tuple[str, str, str] | None:
+        """Return what, why and fix if a clutch is driven by a link that swings to and fro; None if there is none."""
+        for name, couplings in self._varying.items():
             _, first, second, _ = self._clutch(name)
-            slip = dict(forms.get(index[second], {}))
-            add_into(slip, forms.get(index[first], {}), -setting.sense(first) * setting.sense(second))
-            if any(column < 0 for column in slip):
+            if not all(each.ratio for each in couplings):
                 what = f"the speed behind the one-way clutch '{name}' is not a ratio of tooth counts"
                 why = f"'{first}' or '{second}' swings to and fro, and {name} passes on only one sense of this motion"
                 return what, why, f"withdraw it by `free: [{name}]` in a state"

@@ -13,7 +13,7 @@ from math import isfinite
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.circuits.fundamental import couplings_on_axes
+from geartrain.kinematics.circuits import couplings_on_axes
 from geartrain.kinematics.judged_outputs import (
     SECONDS_PER_DAY,
     OutputResult,

@@ -71,7 +71,8 @@ def _element_width(train: GearTrain) -> float:
 def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
     """Draw each brake or clutch as a pair of plates between a link and the frame, or between two links.
 
-    The plates of brakes and clutches that are closed in the state are drawn in contact.
+    The plates of brakes and clutches that are closed in the state are drawn in contact. A triangle marks a one-way
+    clutch; it points to the right if the clutch overruns forward.
 
     left     left end of the first element [in]
     middle   height of all plates [in]
@@ -87,6 +88,9 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
             plate = middle + side * gap
             axes.plot([x - _PLATE, x + _PLATE], [plate, plate], color=color, linewidth=PLATE, gid=f"element {name}")
             axes.plot([x, x], [plate, middle + side * _HALF], color=color, linewidth=STEM)
+        if clutch.one_way is not None:
+            sense = ">" if clutch.one_way == "forward" else "<"
+            axes.plot([x - _PLATE - 0.1], [middle], sense, color=color, markersize=5, gid=f"one-way {name}")
         if clutch.fixes is not None:
             box = Rectangle((x - 0.11, middle + _HALF), 0.22, 0.1, hatch="//////", zorder=4)
             box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)

@@ -258,7 +258,17 @@ class TrainKinematics(Shown):
         state : str, optional
             A declared state; None only for a train without states.
         """
-        return self._system(self.whole, self.case(state))
+        return self.case_equations(self.case(state))
+
+    def case_equations(self, case: StateCase) -> WillisSystem:
+        """Return the Willis equations with the given prescriptions, which may differ from the declared ones.
+
+        Parameters
+        ----------
+        case : StateCase
+            Prescriptions with locks joint by joint, as in `cases`.
+        """
+        return self._system(self.whole, case)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Return speeds and evaluated outputs in one state; see `GearTrain.solve`.
@@ -512,6 +522,8 @@ class TrainKinematics(Shown):
             work,
             tolerances={} if deviation is None else LazyMapping(tolerances),
             expected=case.expect,
+            one_way=case.one_way,
+            notes=case.notes,
         )
 
     def _ratio_tolerance(self, case: StateCase, relative: Relative) -> Callable[[str, str], Fraction] | None:

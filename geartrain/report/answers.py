@@ -56,12 +56,24 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
     rows = []
     for answer in answers:
-        engaged = declared.states[answer.state or ""].engaged
-        marks = ["x" if clutch in engaged else "" for clutch in clutches]
+        engaged = declared.case(answer.state).closed
+        marks = [closed_mark(declared, clutch) if clutch in engaged else "" for clutch in clutches]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
     text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input divided by output."
+    text = f"{holding_note(declared)}{text}"
     return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
+
+
+def closed_mark(declared: Train, clutch: str) -> str:
+    """Return the mark of a closed clutch or brake in a shift table: `x`, or `*` if it is one-way."""
+    return "x" if declared.clutches[clutch].one_way is None else "*"
+
+
+def holding_note(declared: Train) -> str:
+    """Return the meaning of the mark of one-way clutches in a shift table; empty if the train has none."""
+    one_way = any(each.one_way for each in declared.clutches.values())
+    return "* marks a one-way clutch that holds (only while the input drives). " if one_way else ""
 
 
 def _speed_and_ratio(answer: Answer, name: str) -> str:
@@ -79,6 +91,8 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
     if answer.outputs:
         yield _pointers(train, answer)
         yield replace(_outputs(train, answer), detail=True)
+    if answer.one_way:
+        yield Section(titled(answer.state, "one-way clutches"), [f"{each}." for each in clutch_lines(answer)])
     yield from (replace(section, detail=True) for section in _targets(train.declaration, answer))
     yield replace(_speed_section(train, answer), detail=bool(answer.outputs and answer.verdict))
 
@@ -304,6 +318,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
         "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
         "published figure": [each.published_holds for each in results if each.published_holds is not None],
         "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
+        "clutch assertion": [not each.fails for answer in answers for each in answer.one_way if each.required],
     }
     each = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
     # commas between all kinds except the last two
@@ -410,6 +425,7 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
         turn = f"  a turn in {period}" if period and name in answer.outputs else ""
         within = f" ± {figure(tolerance, 3)}" if tolerance else ""
         lines.append(f"  {name:<{width}}  {_speed(speed, tolerance):>20}  {figure(speed, 12)}{within}{turn}{mark}")
+    lines += [f"  {each}" for each in clutch_lines(answer)]
     if answer.residual:
         row, most = max(answer.residual.items(), key=lambda each: each[1])
         if any(each.true_error is None for each in answer.accuracy.values()):
@@ -420,6 +436,12 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
         remarks = ((each.name, each.remark) for each in couplings)
         lines += [f"  coupling '{name}' {remark}: speeds are means" for name, remark in remarks if remark]
     return "\n".join(lines)
+
+
+def clutch_lines(answer: Answer) -> Iterator[str]:
+    """Yield a line for each one-way clutch of a state, which holds or overruns, and the notes on them."""
+    yield from (each.text(answer.unit) for each in answer.one_way)
+    yield from answer.notes
 
 
 def answer_text(answer: Answer) -> str:

@@ -1,10 +1,9 @@
-"""Sections and data on the declared tooth forms, pins and other couplings with variable ratio of a train."""
+"""Sections and data on the declared tooth forms and pins of a train."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from math import degrees
 from typing import TYPE_CHECKING
@@ -54,46 +53,15 @@ class DrivenPin(Result):
     """Transmission function and losses of the coupling with the pin driving."""
 
 
-@dataclass(frozen=True)
-class VaryingCoupling(Result):
-    """Coupling with a variable ratio other than a pin in a slot, and its transmission function."""
-
-    KEYS = ("coupling", "kind", "driver", "driven", "ratio", "swing", "speed_ratio", "at_once", "formula")
-
-    coupling: str
-    """Name of the coupling."""
-    kind: str
-    """Kind of the coupling."""
-    driver: str
-    """Driving link; `driven` is the driven link."""
-    driven: str
-    ratio: Fraction
-    """Exact mean speed of the driven link divided by the speed of the driver, relative to the carrier."""
-    swing: float
-    """Maximum minus minimum deviation of the driven link from uniform motion [rad]."""
-    speed_ratio: tuple[float, float]
-    """Minimum and maximum speed ratio, with the sign of the mean ratio taken as positive."""
-    at_once: bool
-    """True if the driven link jumps; its speed ratio is then the ratio between jumps."""
-    formula: str
-    """Driven angle q as a function of the driver's angle S; empty if there is no closed form."""
-
-
 _MOST_PAIRS = 12  # with more, a report as text omits their tables
 
 
-def teeth_sections(
-    train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin], couplings: Sequence[VaryingCoupling] = ()
-) -> Iterator[Section]:
-    """Yield sections on the pairs with a declared tooth form, on the pins and on other couplings with a variable ratio;
-    nothing if a train has none of them.
-    """
+def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
+    """Yield sections on the pairs with a declared tooth form and on the pins of a train; nothing if it has neither."""
     if pairs:
         yield _teeth(train, pairs)
     if pins:
         yield _pins(train)
-    if couplings:
-        yield _varying(couplings)
 
 
 def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
@@ -141,49 +109,6 @@ def _pins(train: GearTrain) -> Section:
     header = ("coupling", "pin -> slot", "pin radius", "offset", "mean ratio", "amplitude (deg)", "speed ratio")
     text = "Speeds and angles of the slot relative to the carrier, for a pin that turns uniformly relative to it."
     return Section("Pins", (text,), (Table(header, rows),))
-
-
-def _varying(couplings: Sequence[VaryingCoupling]) -> Section:
-    rows = []
-    for each in couplings:
-        low, high = each.speed_ratio
-        speeds = f"{low:.6f}..{high:.6f}" + (", jumps" if each.at_once else "")
-        ends = f"{each.driver} -> {each.driven}"
-        rows.append((each.coupling, each.kind, ends, str(each.ratio), f"{degrees(each.swing):.5f}", speeds))
-    header = ("coupling", "kind", "driver -> driven", "mean ratio", "swing (deg)", "speed ratio")
-    text = (
-        "Angles of the driven link relative to the carrier, for a driver that turns uniformly. The swing is the range "
-        "of the deviation from uniform motion."
-    )
-    formulas = [f"{each.coupling}: {each.formula}." for each in couplings if each.formula]
-    where = ["q is the angle of the driven link, S that of the driver with its phase."] if formulas else []
-    return Section("Couplings with variable ratio", (text, *formulas, *where), (Table(header, rows),))
-
-
-def varying_couplings(train: GearTrain) -> tuple[VaryingCoupling, ...]:
-    """Return the couplings of a train with a variable ratio, without pins in slots."""
-    found = []
-    pins = {pin.coupling.name for pin in train.mechanics.pins}
-    for joint in train.mechanics.couplings:
-        coupling, transmission = joint.coupling, joint.transmission
-        if coupling.name not in pins:
-            driver, driven = coupling.links(train.declaration.wheels)
-            low, high = transmission.error_range()
-            speeds, formula = transmission.speed_range(), coupling.formula
-            found.append(
-                VaryingCoupling(
-                    coupling.name,
-                    coupling.kind,
-                    driver,
-                    driven,
-                    coupling.mean,
-                    high - low,
-                    speeds,
-                    transmission.at_once,
-                    formula,
-                )
-            )
-    return tuple(found)
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:

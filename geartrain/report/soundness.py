@@ -101,6 +101,9 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
         yield f"{answer.place}:{state} {answer.verdict}{wanted}"
         return
+    for each in answer.one_way:
+        if each.fails:
+            yield f"{train.declaration.place('clutches', each.name)}:{state} {each.text(answer.unit)}"
     for result in answer.failures:
         own = answer.state is not None and result.name in train.declaration.states[answer.state].outputs
         path = ("states", str(answer.state), "outputs") if own else ("outputs",)

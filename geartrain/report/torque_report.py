@@ -292,6 +292,9 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     lines += [
         f"The reaction to the torque on '{link}' acts on '{base}'." for link, (base, _) in found.reactions.items()
     ]
+    if found.overrunning:
+        slips = ", ".join(f"{name} at {figure(slip, 6)}" for name, slip in found.overrunning.items())
+        lines.append(f"One-way clutches that overrun, without torque and loss: {slips}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     if figures.belt_pulls:
         rows = [(name, f"{pull:.6g}") for name, pull in figures.belt_pulls.items()]
@@ -435,6 +438,8 @@ def _both_directions(drives: DrivenWays | None) -> Iterator[str]:
         efficiency = torques.efficiency
         if torques.verdict.kind == "self-locking":
             yield f"'{last}' cannot be driven from '{first}': the train locks."
+        elif torques.verdict.kind == "overrunning":
+            yield f"'{last}' cannot be driven from '{first}': {' and '.join(torques.verdict.candidates)} overruns."
         elif efficiency is not None:
             word = " (ambiguous)" if torques.verdict.kind == "ambiguous" else ""
             yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 6)}{word}{uncounted_words(torques)}."

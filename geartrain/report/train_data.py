@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import Sensitivity
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
-    from geartrain.report.gear_pairs import DrivenPair, DrivenPin, VaryingCoupling
+    from geartrain.report.couplings import VaryingCoupling
+    from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
     from geartrain.report.torque_report import TorqueFigures
     from geartrain.train import Train
@@ -206,7 +207,8 @@ def _torques(train: GearTrain, loaded: Sequence[str | None]) -> tuple[TorqueFigu
 def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
     if not (whole and (train.mechanics.teeth or train.mechanics.couplings)):
         return {"teeth": (), "pins": (), "couplings": (), "motion": ()}
-    from geartrain.report.gear_pairs import driven_pairs, driven_pins, varying_couplings
+    from geartrain.report.couplings import varying_couplings
+    from geartrain.report.gear_pairs import driven_pairs, driven_pins
     from geartrain.report.motion_report import collect_motions
 
     return {

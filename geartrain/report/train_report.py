@@ -19,7 +19,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE, adjacency_kinds, adjacency_labels, edge_rows
 from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
-from geartrain.report.couplings import coupling_sections
+from geartrain.report.couplings import coupling_sections, varying_section
 from geartrain.report.document import (
     MOST_ROWS,
     CitedText,
@@ -152,10 +152,12 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 def _loaded(found: TrainReport) -> Iterator[Section]:
     """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
-    if found.teeth or found.pins or found.couplings:
+    if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
-        yield from teeth_sections(found.train, found.teeth, found.pins, found.couplings)
+        yield from teeth_sections(found.train, found.teeth, found.pins)
+    if found.couplings:
+        yield varying_section(found.couplings)
     yield from _fusees(found.train)
     if found.torques:
         from geartrain.report.torque_report import loaded_sections
@@ -456,7 +458,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
         return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
     if train.mechanics.faults:
         return "teeth cannot turn", False
-    failed = sum(len(answer.failures) for answer in answers)
+    failed = sum(len(answer.failures) + sum(each.fails for each in answer.one_way) for answer in answers)
     if failed:
         return f"{failed} expectation{'' if failed == 1 else 's'} failed", False
     kinds = dict.fromkeys(answer.verdict.kind for answer in answers)

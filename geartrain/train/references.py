@@ -235,6 +235,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _couplings(train)
     yield from _unresolved(train)
     yield from _prescriptions(train)
+    yield from _one_way(train)
     yield from _reconstruction(train)
     yield from declared_units(train)
 
@@ -453,7 +454,8 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
     for name, clutch in train.clutches.items():
         yield from (("link", link, ("clutches", name)) for link in (*(clutch.locks or ()), clutch.fixes))
     for name, state in train.states.items():
-        yield from (("clutch", clutch, ("states", name, "engaged", at)) for at, clutch in enumerate(state.engaged))
+        for key, named in (("engaged", state.engaged), ("free", state.free)):
+            yield from (("clutch", clutch, ("states", name, key, at)) for at, clutch in enumerate(named))
     stated: list[tuple[Loc, Any]] = [((key,), getattr(train, key)) for key in ("epoch", "cutting", "fitting")]
     for link, each in train.links.items():
         for name, wheel in each.wheels.items():
@@ -512,6 +514,19 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
             "name the link of the escape wheel",
             train.place("escapement", "link"),
         )
+
+
+def _one_way(train: Train) -> Iterator[Problem]:
+    """Yield problems of clutches under `free`, which must be one-way and not engaged in the same state."""
+    for name, state in train.states.items():
+        for at, clutch in enumerate(state.free):
+            place = train.place("states", name, "free", at)
+            if clutch in train.clutches and train.clutches[clutch].one_way is None:
+                why = "`free` withdraws one-way clutches, and other clutches are open unless they are engaged"
+                yield Problem(f"'{clutch}' is not a one-way clutch", why, "omit it from `free`", place)
+            elif clutch in state.engaged:
+                why = "it is required to hold, and not in force"
+                yield Problem(f"'{clutch}' is engaged and free", why, "remove it from `engaged` or `free`", place)
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:

@@ -208,7 +208,7 @@ def _outputs(setting: LoadCase) -> UnitLoads:
     """Return unit loads at every output, against its motion."""
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
-    return {name: drag for name, (of, base) in ends.items() if (drag := _drag(setting, of, base))}
+    return {name: drag for name, (of, base) in ends.items() if (drag := drag_torques(setting, of, base))}
 
 
 def _shafts(setting: LoadCase) -> UnitLoads:
@@ -219,7 +219,7 @@ def _shafts(setting: LoadCase) -> UnitLoads:
 def _joints(setting: LoadCase) -> UnitLoads:
     """Return unit loads at every link, against its rotation in its bearing."""
     links = (link for link in setting.train.links if link != setting.train.frame)
-    return {link: drag for link in links if (drag := _drag(setting, link, setting.bearer(link)))}
+    return {link: drag for link in links if (drag := drag_torques(setting, link, setting.bearer(link)))}
 
 
 _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
@@ -234,7 +234,7 @@ it.
 """
 
 
-def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
+def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
     """Return a unit torque between two links against their relative rotation, by link; empty if they are at relative
     rest.
     """

@@ -370,6 +370,17 @@ def torques_unknown(state: str | None) -> Torques:
     return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
 
 
+def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
+    """Compute the torques under given torques on links while power enters at the inputs; bearing friction is
+    neglected.
+    """
+    if (verdict := _without_axis(setting, drag)) is not None:
+        return Torques(setting.case.state, verdict)
+    links = power_inputs(setting)
+    question = TorqueQuestion(drag, links, len(links) == len(setting.case.inputs) and not setting.forms)
+    return _balanced(setting, question, bearings=False, flows_only=True)
+
+
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
     """Compute the torques while a unit of power leaves at `load` and the link `source` drives; bearing friction is
     neglected.
@@ -464,6 +475,10 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
+    if balance.senses and not found and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
+        names = _overrunning(setting, any_way[0])
+        text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
+        return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
     question = LoadedBalance(balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
@@ -480,6 +495,16 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
         verdict = _with_reason(unknown, verdict)
         return Torques(state, verdict, unknown.links, neglected=neglected)
     return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
+
+
+def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
+    """Return the one-way clutches that hold but have a torque in the sense in which they overrun; if there are none,
+    those with an undetermined torque.
+    """
+    senses = setting.case.senses
+    held = [each for each in _held(setting, flow) if each.links in senses]
+    wrong = [each for each in held if each.torques and senses[each.links] * each.torques[-1] < 0]
+    return tuple(each.clutch or "" for each in wrong or held if wrong or each.torques is None)
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
@@ -521,6 +546,7 @@ def build_balance(
         find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
         shares,
         _reactions(setting, requested),
+        case.senses,
     )
 
 
@@ -610,6 +636,7 @@ def _torques(
         _held(setting, flow),
         neglected,
         reactions,
+        {each.name: each.slip for each in setting.case.one_way if not each.holds},
     )
 
 

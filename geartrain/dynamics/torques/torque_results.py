@@ -174,6 +174,7 @@ TorqueVerdictKind = Literal[
     "indeterminate",
     "contradictory",
     "unbalanced",
+    "overrunning",
     "undecided",
     "unloaded",
     "still",
@@ -196,6 +197,7 @@ class TorqueVerdict(Result):
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
     - `contradictory`: declared shares of pairs contradict the balance.
     - `unbalanced`: the loads set the train in motion, and no torques on the requested links can balance them.
+    - `overrunning`: a one-way clutch that must hold would overrun.
     - `undecided`: several links could have the unknown torque.
     - `unloaded`: no load and no friction of a bearing is declared.
     - `still`: the train or the requested link is at rest, or its speed is undetermined.
@@ -333,6 +335,10 @@ class Torques(FrozenFields, Tabular, TrainResult):
     reactions: Mapping[str, tuple[str, Fraction]] = field(default_factory=dict)
     """Link of `requested` whose reaction does not act on the frame -> link of the reaction, and its torque, which
     `external` includes. The pallets of an escapement are such a link.
+    """
+    overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
+    """Speed at which each one-way clutch overruns, without torque and loss [unit of the train], by clutch; None if
+    undetermined.
     """
 
     def _meaning(self, column: str) -> str:

@@ -315,7 +315,7 @@ def _oblique(train: Train, coupling: Coupling, row: CouplingRow, labels: Sequenc
     return Problem(
         f"coupling '{coupling.name}': the axes {sides[1]} and {sides[0]} are not parallel",
         coupling.PARALLEL,
-        "declare parallel directions in `axes`, or join the links by bevel wheels",
+        "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels",
         train.place("couplings", at),
     )
 

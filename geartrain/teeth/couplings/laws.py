@@ -71,6 +71,7 @@ class UniversalJoint(_VaryingPair):
     """
 
     OBLIQUE = HOLDS = True
+    UNKNOWN = "backlash"
     NEGLECTED = "side loads of joints", "forces and bending moments on the shafts of a joint are not computed"
 
     kind: Literal["universal_joint"] = Field(description="Universal joint: mean ratio 1, periods of half a turn")
@@ -120,6 +121,8 @@ class EllipticalPair(_VaryingPair):
     radius; its mate, with n2 lobes, is conjugate to it. With equal numbers of lobes the wheels are equal. S is 0 with
     a long radius of the driver on the line of centres.
     """
+
+    UNKNOWN = "teeth, friction and backlash"
 
     kind: Literal["elliptical"] = Field(
         description="Elliptical or lobed wheels about their foci: mean ratio minus the ratio of their lobes"
@@ -187,6 +190,8 @@ class PitchCurvePair(_VaryingPair):
     The radii at equal angles over one lobe of the driver, starting at S = 0, are joined by a periodic cubic spline.
     The centre distance C follows from the condition that the mate closes: the mean of r/(C - r) is the mean ratio.
     """
+
+    UNKNOWN = "teeth, friction and backlash"
 
     kind: Literal["pitch_curve"] = Field(
         description="Non-circular wheels by the radii of the driver: mean ratio minus the ratio of their lobes"
@@ -260,6 +265,8 @@ class TabledLaw(_VaryingPair):
     A mean of 0 is a cam with an oscillating arm.
     """
 
+    NEEDS_DISTANCE = False
+    UNKNOWN = "profile and backlash"
     NEGLECTED = "friction of followers", "the profiles of a cam and its follower are not known"
 
     model_config = ConfigDict(populate_by_name=True)

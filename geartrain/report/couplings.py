@@ -10,13 +10,11 @@ from fractions import Fraction
 from math import degrees
 from typing import TYPE_CHECKING
 
-from geartrain.kinematics.answer import abridged_names
 from geartrain.numerics.results import Result
 from geartrain.report.document import Section, Table, cut, filled_table
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.train import Train
 
 
 def coupling_sections(train: GearTrain) -> Iterator[Section]:
@@ -39,18 +37,6 @@ def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
     for pair in pulley_pairs(train.declaration, train.kinematics.tree, train.circuits):
         if pair.length is not None:
             yield pair.belt.name, f"{pair.length:.9g} mm{', crossed' if pair.belt.reversed else ''}"
-
-
-def unmodelled_lines(declared: Train) -> list[str]:
-    """Return a sentence for each kind of coupling on what results of motion and torques do not include."""
-    named: dict[str, list[str]] = {}
-    for each in declared.couplings:
-        if each.UNKNOWN:
-            named.setdefault(f"{each.UNKNOWN} of couplings of kind {each.kind}", []).append(each.name)
-    return [f"Not modelled: {what} ({abridged_names(names)})." for what, names in named.items()]
-
-
-# ----------------------------------------------------------------------------------------------- transmission functions
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure, titled
+from geartrain.teeth.coupling import unmodelled_properties
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -296,6 +297,8 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
         summary.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
     if period is not None:
         summary.append(f"Everything repeats after {abridged_text(period)} turns of '{train.driving_link}'.")
+    if run.motion._declaration is not None:
+        summary += [f"Not modelled: {each}." for each in unmodelled_properties(run.motion._declaration.couplings)]
     sections = list(motion_sections(run, every_output))
     if found.separation is not None:
         sections.append(wing("simulation.contacts.separation_rate").separation_section(found.separation))

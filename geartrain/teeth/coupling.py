@@ -103,7 +103,7 @@ class Coupling(BaseModel):
     NEEDS_DISTANCE: ClassVar[bool] = True
     """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
     UNKNOWN: ClassVar[str] = ""
-    """What is not known or not modelled of a coupling of this kind, as nouns for reports."""
+    """Properties of this kind that are not known or not modelled, as nouns for reports."""
     OBLIQUE: ClassVar[bool] = False
     """True if the axes of the two links need not be parallel."""
     NEGLECTED: ClassVar[tuple[str, str] | None] = None
@@ -250,3 +250,12 @@ class Coupling(BaseModel):
             else:
                 changed[key] = tuple(names.get(each, each) for each in value)
         return self.model_copy(update=changed)
+
+
+def unmodelled_properties(couplings: Sequence[Coupling]) -> list[str]:
+    """Return the properties of couplings that are not known or not modelled, with the names of the couplings."""
+    named: dict[str, list[str]] = {}
+    for each in couplings:
+        if each.UNKNOWN:
+            named.setdefault(each.UNKNOWN, []).append(each.name)
+    return [f"{what} of {', '.join(names)}" for what, names in named.items()]

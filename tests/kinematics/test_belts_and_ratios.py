@@ -348,7 +348,7 @@ BELT = "couplings: [{kind: belt, %s}]"
         ("kind: belt, around: {a: 1, oblique: 2}", "axes 'A' of 'a' and 'O' of 'oblique' are not parallel"),
         ("kind: belt, around: {b: 1, a: 1, planet: 2}", "has no carrier"),
         ("kind: belt, around: {d: 1, b: 1, planet: 2}", "'planet' and 'd' are coaxial"),
-        ("kind: ratio, pair: [a, b], ratio: 0", "with a ratio of 0, 'a' would stand still"),
+        ("kind: ratio, pair: [a, b], ratio: 0", "with a ratio of 0, 'a' would be at rest"),
         ("kind: ratio, pair: [a, b], ratio: 1/0", "divides by zero"),
         ("kind: ratio, pair: [a, a], ratio: 2", "joins 'a' to itself"),
         ("kind: ratio, pair: [a, d], ratio: 2, carrier: b", "'b' is not coaxial with 'a' and 'd'"),

@@ -219,10 +219,8 @@ def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], colum
     numbers   tooth counts, and the number of wheels of each
     used      number of equal wheels that each varied wheel represents
     """
-    return np.all(
-        [sum((columns[wheel] == count) * pieces for wheel, pieces in used.items()) <= most for count, most in numbers],
-        axis=0,
-    )
+    total = {count: sum((columns[wheel] == count) * pieces for wheel, pieces in used.items()) for count, _ in numbers}
+    return np.asarray(np.all([total[count] <= most for count, most in numbers], axis=0))
 
 
 def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:

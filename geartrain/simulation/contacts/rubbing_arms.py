@@ -22,6 +22,7 @@ from geartrain.teeth.rubbed_transmission import RubbedTransmission
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.coupling import Coupling
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
@@ -83,12 +84,12 @@ def _friction_term(
 
 
 def separate_rubbing(
-    moving: MotionProblem, gears: Sequence[GearPair] = ()
+    moving: MotionProblem, declared: Sequence[GearPair | Coupling] = ()
 ) -> tuple[dict[str, tuple[TabledFunction, TabledFunction]], tuple[str, ...]]:
     """Return friction terms of the drive flanks by pair, and the names of pairs and pins whose friction is neglected.
 
     Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at
-    some angle, and gears with a declared efficiency below 1 have none.
+    some angle, and pairs and couplings with a declared efficiency below 1 have none.
     """
     found: dict[str, tuple[TabledFunction, TabledFunction]] = {}
     left = []
@@ -102,9 +103,9 @@ def separate_rubbing(
         elif mesh.has_friction:
             left.append(mesh.name)
     left += [joint.coupling.name for joint in moving.couplings if joint.transmission.friction]
-    for gear in gears:
-        if gear.name not in found and gear.efficiency is not None and gear.efficiency.forward.base < 1:
-            left.append(gear.name)
+    for pair in declared:
+        if pair.name not in found and pair.efficiency is not None and pair.efficiency.forward.base < 1:
+            left.append(pair.name)
     return found, tuple(dict.fromkeys(left))
 
 

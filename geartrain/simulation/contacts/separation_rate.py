@@ -94,7 +94,7 @@ def find_separation(
     inertias, moving = find_link_inertias(train, state), find_motion_problem(train, state, without)
     declared, case = train.declaration, train.kinematics.case(state)
     acting = find_inertial_loads(declared, case, train.tree, inertias, moving.speeds)
-    rubbing, uncounted = separate_rubbing(moving, declared.gears)
+    rubbing, uncounted = separate_rubbing(moving, (*declared.gears, *declared.couplings))
     contacts = InertialContacts(moving, acting, rubbing=rubbing)
     period = contacts.motion.period
     # without a common period one revolution is searched
@@ -107,13 +107,7 @@ def find_separation(
     rates, places, narrowest = _minimum_rates(contacts, kinks, turns)
     leaping = _jump_positions(contacts, kinks, narrowest)
     found = []
-    held = {joint.coupling.name for joint in moving.couplings if joint.coupling.HOLDS}
-    # a lock stops these couplings, so that they need not pull where the speed drops
-    held |= {
-        each.id
-        for each in contacts.motion._forward.sources
-        if each.transmission.dwell and each.transmission.steepest_fall() is None
-    }
+    held = {name for each in declared.couplings if each.HOLDS for name in each.row_names}
     for pair, name in enumerate(contacts.pairs):
         if name in held:
             continue

@@ -26,6 +26,7 @@ from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, C
 from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
 from geartrain.simulation.contacts.rubbing_arms import Arms, efficiency_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
+from geartrain.teeth.coupling import unmodelled_properties
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -110,6 +111,7 @@ class TrainModel:
         left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.computes_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
+        found += unmodelled_properties(self.train.couplings)
         return tuple(found)
 
     @property
@@ -145,8 +147,8 @@ class TrainModel:
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
             return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.has_friction and mesh.computes_losses)
-        gear = self._gears.get(circuit.id)
-        return gear is not None and gear.efficiency is not None and gear.efficiency.forward.base < 1
+        declared = self._efficiencies.get(circuit.id)
+        return declared is not None and declared.forward.base < 1
 
     @cached_property
     def _meshes(self) -> Mapping[str, GearMesh]:
@@ -157,8 +159,10 @@ class TrainModel:
         return {joint.coupling.name: joint for joint in self.problem.couplings}
 
     @cached_property
-    def _gears(self) -> Mapping[str, Any]:
-        return {gear.name: gear for gear in self.train.gears}
+    def _efficiencies(self) -> Mapping[str, Any]:
+        """Declared efficiencies of gear pairs and of the rows of couplings, by name; None where none is declared."""
+        gears = {gear.name: gear.efficiency for gear in self.train.gears}
+        return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 
     @cached_property
     def prescribed(self) -> Mapping[str, float]:
@@ -315,12 +319,12 @@ class TrainModel:
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 
     def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
-        ways = self._gears[circuit.id].efficiency
+        ways = self._efficiencies[circuit.id]
         if ways is None:
             return None
         passed = float(ways.forward.base), float(ways.backward.base)
-        # efficiencies are declared for the first wheel as driver
-        if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
+        # efficiencies are declared for the first wheel as driver; the driver of a coupling is its first link
+        if circuit.kind == "gear" and self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
         return efficiency_arms(transmission, *passed, f"pair '{circuit.id}'")
 

@@ -62,6 +62,7 @@ class Belt(Coupling):
     ENDS = ("around",)
     SIDES = ("pulley", "pulley")
     PARALLEL = "a belt runs in one plane"
+    HOLDS = True
     UNKNOWN = "slip, creep and stretch"
 
     kind: Literal["belt"] = Field(description="Belt, chain or cable: all pulleys have one circumferential speed")

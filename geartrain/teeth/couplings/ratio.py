@@ -58,6 +58,7 @@ class Ratio(Coupling):
 
     PARALLEL = ""
     NEEDS_DISTANCE = False
+    HOLDS = True
     UNKNOWN = "tooth counts, sizes, mesh frequency, backlash and transmission error"
 
     kind: Literal["ratio"] = Field(
@@ -78,7 +79,7 @@ class Ratio(Coupling):
         first, second = self.pair
         value, tolerance = self.ratio.value, self.ratio.tolerance
         if not value.value:
-            what = f"with a ratio of 0, '{first}' would stand still relative to its carrier"
+            what = f"with a ratio of 0, '{first}' would be at rest relative to its carrier"
             raise bad("ratio", what, f"write `fixed: [{first}]`, or give the ratio {first}/{second}")
         if tolerance is not None and tolerance.value >= abs(value.value):
             what = f"the ratio {value.text} with the tolerance {tolerance.text} may be 0"

@@ -16,8 +16,9 @@ from fractions import Fraction
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
+from geartrain.numerics.exact import plural
 from geartrain.numerics.quantity import Angle, Energy, bad, not_below_zero
 from geartrain.teeth.coupling import Coupling
 
@@ -39,10 +40,20 @@ def _at_least_0(moves: Sequence[int]) -> Sequence[int]:
     return moves
 
 
+_Moves = Annotated[
+    tuple[Annotated[int, Field(ge=0)], ...],
+    BeforeValidator(_moves),
+    AfterValidator(_at_least_0),
+    WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "array", "items": {"type": "integer"}}]}),
+]
+
+
 class SteppingCoupling(Coupling):
     """Coupling that moves its driven link by steps, base class of all kinds."""
 
-    LOCKS_BACK = True
+    # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
+    LOCKS_BACK = HOLDS = True
+    UNKNOWN = "friction of pin, finger and lock; impacts where the lock stops the driven link"
 
     pair: tuple[str, str] = Field(description="Driving link, and the link that moves by steps")
     internal: bool = Field(
@@ -106,6 +117,17 @@ class Geneva(SteppingCoupling):
         return self.pins * self._share
 
     @property
+    def about(self) -> str:
+        """Numbers of slots and pins, as text."""
+        return f"{self.slots} slots, {plural(self.pins, 'pin')}{', internal' if self.internal else ''}"
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q in closed form while a pin is in its slot."""
+        sign = "+" if self.internal else "-"
+        return f"q = atan2(rho sin S, 1 {sign} rho cos S) while moving, rho = sin(pi/{self.slots})"
+
+    @property
     def transmission(self) -> GenevaTransmission:
         """Transmission function from the middle of a step, where a pin is on the line of centres."""
         from geartrain.teeth.couplings.step_transmission import GenevaTransmission
@@ -123,8 +145,10 @@ class Step(SteppingCoupling):
 
     kind: Literal["step"] = Field(description="Finger and star, ratchet or mutilated wheel: whole teeth, then rest")
     teeth: int = Field(ge=1, le=10**12, description="Number of teeth of the driven link")
-    moves: Annotated[tuple[Annotated[int, Field(ge=0)], ...], BeforeValidator(_moves), AfterValidator(_at_least_0)] = (
-        Field((1,), max_length=_MOST_MOVES, description="Teeth moved by an engagement, or a list for successive ones")
+    moves: _Moves = Field(
+        (1,),
+        max_length=_MOST_MOVES,
+        description="Teeth moved by each engagement, or a list for successive engagements; default 1",
     )
     times: int = Field(
         1, ge=1, le=10_000, description="Number of engagements in one revolution of the driver, evenly spaced"
@@ -168,6 +192,14 @@ class Step(SteppingCoupling):
         """Number of steps at once, or the fraction of the time during which the driven link moves, in words."""
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))
         return super().remark if self.moving else f"moves at once, {steps} times a turn of the driver"
+
+    @property
+    def about(self) -> str:
+        """Number of teeth and engagements, as text."""
+        low, high = min(self.moves), max(self.moves)
+        moved = f"{low}" if low == high else f"{low} to {high}"
+        over = f" over {self.over}" if self.over else ""
+        return f"{self.teeth} teeth, {self.times} a turn move {moved}{over}"
 
     @property
     def friction_torque(self) -> Fraction:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import as_float
 from geartrain.scene.solids.bearing_plates import basis
+from geartrain.teeth import Involute
 from geartrain.workshop.rexs.rexs_document import Model, to_json, to_xml
 
 if TYPE_CHECKING:
@@ -164,9 +165,10 @@ class _Unit:
         angle, shift = self.teeth(name)
         data: Attributes = []
         if kind in ("cylindrical_gear", "ring_gear") and angle is not None:
+            data.append(_number("normal_pressure_angle", "deg", angle))
             # the sign of the shift of a ring differs between programs
-            x = [] if kind == "ring_gear" and shift else [_number("addendum_modification_coefficient", "", shift)]
-            data = [_number("normal_pressure_angle", "deg", angle), *x]
+            if shift is not None and not (shift and wheel.internal):
+                data.append(_number("addendum_modification_coefficient", "", shift))
         flanks = {side: self.add(_FLANKS.get(kind, "cylindrical_gear_flank"), "", data) for side in ("left", "right")}
         self.relate("flank", gear=number, **flanks)
 
@@ -183,18 +185,17 @@ class _Unit:
         worm = any(mate.kind == "worm" for mate in mates)
         return "ring_gear" if wheel.internal else "worm_wheel" if worm else "cylindrical_gear"
 
-    def teeth(self, name: str) -> tuple[float | None, float]:
+    def teeth(self, name: str) -> tuple[float | None, float | None]:
         """Return pressure angle [deg] and profile shift of a wheel from its first pair with involute teeth.
 
-        The angle is 20 deg if no form is declared, and None if all forms are of other kinds.
+        Without a declared form, the angle is 20 deg and the shift None; both are None if all forms are of other kinds.
         """
-        forms = [
-            (gear.pair.index(name), self.declared.form_of(gear)) for gear in self.declared.gears if name in gear.pair
-        ]
+        pairs = [gear for gear in self.declared.gears if name in gear.pair]
+        forms = [(gear.pair.index(name), self.declared.form_of(gear)) for gear in pairs]
         for side, form in forms:
-            if form is not None and form.form == "involute":
+            if isinstance(form, Involute):
                 return degrees(form.rack_angle), float(form.shift[side].value)
-        return (None if forms and all(form is not None for _, form in forms) else _ANGLE), 0.0
+        return (_ANGLE if any(form is None for _, form in forms) or not forms else None), None
 
     # ------------------------------------------------------------------------------------------------ stages, carriers
 

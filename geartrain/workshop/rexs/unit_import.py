@@ -306,10 +306,10 @@ class _GearUnit:
         return wheel | {key: _quantity(value) for key, value in sizes.items() if value is not None}
 
     def _gear(self, mesh: tuple[int, int]) -> dict[str, Any]:
-        """Return the declaration of a pair, with the teeth that its flanks have."""
+        """Return the declaration of a pair, with involute teeth if its flanks give pressure angle and profile shift."""
         pair = {"pair": [self.name(gear) for gear in mesh]}
         flanks = [self._flank(gear) for gear in mesh]
-        if _number(flanks[0].get("normal_pressure_angle")) is None:
+        if not {"normal_pressure_angle", "addendum_modification_coefficient"} <= flanks[0].keys():
             return pair
         shifts = [_number(flank.get("addendum_modification_coefficient")) or 0.0 for flank in flanks]
         for at, gear in enumerate(mesh):

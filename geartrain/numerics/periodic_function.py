@@ -1,4 +1,4 @@
-"""Periodic functions of one variable, given by points or by harmonics: values, derivatives, extremes and moments.
+"""Periodic functions of one variable, given by points, harmonics or functions: values, derivatives, extremes and moments.
 
 Points are interpolated by a periodic cubic spline, by the monotone cubics of Fritsch and Carlson (PCHIP), by straight
 lines, or by steps. Extremes are found between the points too: every smooth interval is sampled more finely than the
@@ -8,7 +8,7 @@ function varies, and each stationary point between two samples is a bracketed ro
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING, Literal, get_args
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.polynomial_pieces import fitted
 from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
@@ -135,7 +136,7 @@ class PeriodicTable(PeriodicFunction):
         period: float,
         interpolation: Interpolation = "pchip",
     ) -> None:
-        _check_points(positions, values, period, interpolation)
+        check_points(positions, values, period, interpolation)
         self.period, self.breakpoints = period, np.array(positions, dtype=float)
         closed = np.append(np.array(values, dtype=float), values[0])
         self._coefficients = _cubics(np.append(self.breakpoints, positions[0] + period), closed, interpolation)
@@ -173,7 +174,7 @@ def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
     return np.asarray(PchipInterpolator(around, np.concatenate(([y[-2]], y, [y[1]]))).c[:, 1:-1])
 
 
-def _check_points(
+def check_points(
     positions: Sequence[float], values: Sequence[float], period: float, interpolation: Interpolation
 ) -> None:
     """Raise `RangeError` unless the points define a periodic function."""
@@ -196,6 +197,70 @@ def _check_points(
         if at and x <= positions[at - 1]:
             what = f"the position of point {at + 1}, {x:.10g}, is not above that of the point before it"
             raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
+
+
+class FittedFunction(PeriodicFunction):
+    """Periodic function given by its value and its slope; the higher derivatives are those of polynomials fitted to
+    the slope.
+
+    Parameters
+    ----------
+    value, slope : callable
+        Functions of positions of shape (n,), which return arrays of that shape.
+    period : float
+        Period.
+    breakpoints : sequence of float
+        Positions at which the slope or one of its derivatives is discontinuous.
+
+    Raises
+    ------
+    RangeError
+        If the slope is not smooth between the breakpoints.
+    """
+
+    def __init__(
+        self,
+        value: Callable[[Floats], Floats],
+        slope: Callable[[Floats], Floats],
+        period: float,
+        breakpoints: Sequence[float] = (),
+    ) -> None:
+        self._functions, self.period = (value, slope), period
+        self.breakpoints = np.unique(np.mod(np.array(breakpoints, dtype=float), period))
+        starts, inset = self.breakpoints if len(self.breakpoints) else np.zeros(1), _INSET * period
+        ends = np.append(starts[1:], starts[0] + period)
+        pieces = [
+            piece
+            for start, end in zip(starts, ends, strict=True)
+            for piece in fitted(lambda x: slope(x)[None], start + inset, end - inset)
+        ]
+        self._starts = np.array([piece.start for piece in pieces])
+        self._halves = np.array([(piece.end - piece.start) / 2 for piece in pieces])
+        self._coefficients = np.hstack([piece.coefficients for piece in pieces])
+        self.resolution = float(self._halves.min()) / _PER_INTERVAL
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        x = np.asarray(x, dtype=float)
+        if order < 2:
+            return np.asarray(self._functions[order](x.ravel()), dtype=float).reshape(x.shape)
+        x = self._starts[0] + np.mod(x - self._starts[0], self.period)
+        piece = np.clip(np.searchsorted(self._starts, x, side="right") - 1, 0, None)
+        u, half = (x - self._starts[piece]) / self._halves[piece] - 1, self._halves[piece]
+        coefficients = np.polynomial.polynomial.polyder(self._coefficients, order - 1)
+        found = np.zeros(x.shape)
+        for row in coefficients[::-1]:
+            found = found * u + row[piece]
+        return found / half ** (order - 1)
+
+    def mismatch(self) -> float:
+        """Return the maximum difference between a change of the value and the integral of the slope, which is 0 up to
+        rounding if the functions agree.
+        """
+        x, (nodes, weights) = self._samples, _GAUSS
+        half = np.diff(x) / 2
+        rises = half * (self.derivative(x[:-1, None] + half[:, None] * (1 + nodes)) @ weights)
+        return float(np.abs(np.diff(self(x)) - rises).max())
 
 
 class HarmonicSeries(PeriodicFunction):

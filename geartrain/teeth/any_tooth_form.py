@@ -19,6 +19,7 @@ TOOTH_FORMS = {
     "triangular": "Triangular",
     "circular_arc": "CircularArc",
     "pin_ring": "PinRing",
+    "table": "Table",
 }
 """Class name of each tooth form by its name in declarations, which is also the name of its module."""
 

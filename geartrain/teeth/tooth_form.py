@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity, bad
+from geartrain.numerics.quantity import Angle, Figure, Length, PairDamping, PairStiffness, Quantity, bad
 from geartrain.numerics.results import summary_line, values_summary
 
 if TYPE_CHECKING:
@@ -43,6 +43,9 @@ TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(twice), _schema("n
 
 TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("length")]
 """Field type: one length for both wheels, or a list of two; numbers without a unit are modules."""
+
+TwoAngles = Annotated[tuple[Angle, Angle], BeforeValidator(twice), _schema("angle")]
+"""Field type: one angle for both wheels, or a list of two."""
 
 
 class ToothForm(BaseModel, ABC):

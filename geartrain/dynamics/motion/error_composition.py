@@ -67,6 +67,11 @@ class PairErrorSource:
         return self.phase - self.set_back
 
     @property
+    def waves(self) -> float:
+        """Mean number of the shortest waves of the transmission function per revolution of the input."""
+        return float(self.cycles * self.transmission.waves)
+
+    @property
     def mean(self) -> float:
         """Mean forward speed of the driver divided by the speed of the input [1]."""
         return float(self.cycles) * self.transmission.period / (2 * np.pi)

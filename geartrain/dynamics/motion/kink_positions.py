@@ -186,10 +186,10 @@ class KinkSearch:
 
     @cached_property
     def step(self) -> float:
-        """Maximum width of a narrow step [revolutions]: a quarter of the mean period of the fastest transmission
-        function; infinite if every error is constant.
+        """Maximum width of a narrow step [revolutions]: a quarter of the shortest wave of all transmission functions;
+        infinite if every error is constant.
         """
-        fastest = max((float(pair.source.cycles) for pair in self.pairs), default=0.0)
+        fastest = max((pair.source.waves for pair in self.pairs), default=0.0)
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:

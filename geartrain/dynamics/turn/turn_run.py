@@ -106,7 +106,7 @@ class RunCells:
 def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunCells:
     """Return cells whose ends are equally spaced positions from 0 to `span` [revolutions] and the positions `breaks`.
 
-    narrowest   period of the fastest transmission function [revolutions of the input]
+    narrowest   shortest wave of all transmission functions [revolutions of the input]
     """
     aside = max(_ASIDE * narrowest, _LAST_PLACES * float(np.spacing(span)))
     inner = np.unique(breaks[(breaks > 2 * aside) & (breaks < span - 2 * aside)])
@@ -178,8 +178,8 @@ class TurnRun:
 
     @cached_property
     def narrowest(self) -> float:
-        """Period of the fastest transmission function [revolutions of the input]."""
-        fastest = max((float(each.cycles) for each in self.train.motion.sources.values()), default=0.0)
+        """Shortest wave of all transmission functions [revolutions of the input]."""
+        fastest = max((each.waves for each in self.train.motion.sources.values()), default=0.0)
         # the length of the run if no pair is evaluated at positions
         return 1 / max(fastest, 1 / self.span)
 

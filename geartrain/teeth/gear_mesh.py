@@ -345,7 +345,7 @@ class GearMesh(Shown, ABC):
     @property
     def has_shape(self) -> bool:
         """True if the tooth form defines the shape of the teeth; otherwise standard teeth are cut and drawn."""
-        return True
+        return self.tooth_form.has_shape
 
     @property
     def tooth_phase(self) -> float:

@@ -257,11 +257,6 @@ class GivenMesh(GearMesh):
 
     transmission: GivenTransmission
 
-    @property
-    def has_shape(self) -> bool:
-        """False, so that standard teeth are cut and drawn."""
-        return False
-
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
         """Return None, because the shape of the teeth is not known."""
         del tips

@@ -220,6 +220,7 @@ class Table(ToothForm):
     0.1363551848
     """
 
+    has_shape: ClassVar[bool] = False
     own_play: ClassVar[tuple[str, ...]] = ("backlash",)
 
     form: Literal["table"] = Field(description="Name of the tooth form")

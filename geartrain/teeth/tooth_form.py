@@ -58,6 +58,9 @@ class ToothForm(BaseModel, ABC):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
+    has_shape: ClassVar[bool] = True
+    """True if the form defines the shape of the teeth; otherwise standard teeth are cut and drawn."""
+
     any_distance: ClassVar[bool] = False
     """True for teeth that run at any centre distance, not only at the design distance."""
 

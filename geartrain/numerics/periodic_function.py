@@ -1,4 +1,4 @@
-"""Periodic functions of one variable, given by points, harmonics or functions: values, derivatives, extremes and moments.
+"""Periodic functions of one variable, given by points, harmonics or functions: values, derivatives, extremes, moments.
 
 Points are interpolated by a periodic cubic spline, by the monotone cubics of Fritsch and Carlson (PCHIP), by straight
 lines, or by steps. Extremes are found between the points too: every smooth interval is sampled more finely than the
@@ -92,6 +92,10 @@ class PeriodicFunction(ABC):
         )
         values = self.derivative(np.append(x, at), order)
         return float(values.min()), float(values.max())
+
+    def minimum_at(self, order: int = 0) -> float:
+        """Return the approximate position in [0, period) of the minimum of the derivative of an order from 0 to 2."""
+        return float(self._samples[np.argmin(self.derivative(self._samples, order))] % self.period)
 
     def moments(self) -> tuple[float, float]:
         """Return the mean and the rms deviation from the mean over a period, by Gauss-Legendre quadrature."""
@@ -241,17 +245,16 @@ class FittedFunction(PeriodicFunction):
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
         """Return the derivative of an order from 0 (the function) to 3 at any positions."""
-        x = np.asarray(x, dtype=float)
+        at = np.asarray(x, dtype=float)
         if order < 2:
-            return np.asarray(self._functions[order](x.ravel()), dtype=float).reshape(x.shape)
-        x = self._starts[0] + np.mod(x - self._starts[0], self.period)
-        piece = np.clip(np.searchsorted(self._starts, x, side="right") - 1, 0, None)
-        u, half = (x - self._starts[piece]) / self._halves[piece] - 1, self._halves[piece]
-        coefficients = np.polynomial.polynomial.polyder(self._coefficients, order - 1)
-        found = np.zeros(x.shape)
-        for row in coefficients[::-1]:
+            return np.asarray(self._functions[order](at.ravel()), dtype=float).reshape(at.shape)
+        at = np.mod(at - self._starts[0], self.period) + self._starts[0]
+        piece = np.clip(np.searchsorted(self._starts, at, side="right") - 1, 0, None)
+        half = self._halves[piece]
+        u, found = (at - self._starts[piece]) / half - 1, np.zeros(at.shape)
+        for row in np.polynomial.polynomial.polyder(self._coefficients, order - 1)[::-1]:
             found = found * u + row[piece]
-        return found / half ** (order - 1)
+        return np.asarray(found / half ** (order - 1))
 
     def mismatch(self) -> float:
         """Return the maximum difference between a change of the value and the integral of the slope, which is 0 up to
@@ -268,8 +271,8 @@ class HarmonicSeries(PeriodicFunction):
 
     Parameters
     ----------
-    terms : sequence of (int, float, float)
-        Order n, 1 or more, amplitude, and phase [rad] of each harmonic.
+    terms : sequence of (float, float, float)
+        Order n, a whole number of 1 or more, amplitude, and phase [rad] of each harmonic.
     period : float
         Period of the first harmonic.
     constant : float
@@ -281,7 +284,7 @@ class HarmonicSeries(PeriodicFunction):
         If an order is not a whole number above 0, or if a number is not finite.
     """
 
-    def __init__(self, terms: Sequence[tuple[int, float, float]], period: float, constant: float = 0.0) -> None:
+    def __init__(self, terms: Sequence[tuple[float, float, float]], period: float, constant: float = 0.0) -> None:
         for n, amplitude, phase in terms:
             if n < 1 or n != int(n) or not (isfinite(amplitude) and isfinite(phase)):
                 what = f"the harmonic of order {n:g}, amplitude {amplitude:g} and phase {phase:g} is out of range"

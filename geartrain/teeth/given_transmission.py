@@ -8,7 +8,7 @@ S - q/i = -f(S)/i, and the speed ratio is 1/(i + f'(S)).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -111,7 +111,7 @@ class GivenTransmission(ToothTransmission):
         self._mean = own / other
         self.ratio = Fraction(other, own) if self._inverse else Fraction(own, other)
         self.period = function.period * (self._mean if self._inverse else 1.0)
-        self.pitches = round(function.period * own / (2 * pi))
+        self.pitch_count = round(function.period * own / (2 * pi))
         self.waves = max(1, ceil(function.period / (32 * function.resolution)))
         # the coefficient 1 scales the friction terms of `rubbing`, which state the efficiencies
         self.friction = 0.0 if efficiencies is None else 1.0
@@ -174,6 +174,11 @@ class GivenTransmission(ToothTransmission):
 
     def _tau(self, own: Floats) -> Floats:
         return 1 / own if self._inverse else own
+
+    @property
+    def minimum(self) -> float:
+        """Minimum speed ratio with the wheel `refers_to` driving, which must be above 0."""
+        return self._mean + self.function.extremes(1)[0]
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and maximum speed ratio over a period."""
@@ -241,8 +246,8 @@ class GivenLosses(SlidingEfficiency):
 
 
 _WORDS = (
-    "Pairs with a given transmission error, each in its carrier's frame; standard teeth are drawn. Speed ratio over its "
-    "mean; transmission error peak to peak and backlash in degrees of the driven wheel; period in pitches; mean "
+    "Pairs with a given transmission error, each in its carrier's frame; standard teeth are drawn. Speed ratio over "
+    "its mean; transmission error peak to peak and backlash in degrees of the driven wheel; period in pitches; mean "
     "efficiency at constant driver torque, as the pair is driven and driven back."
 )
 _HEADER = (
@@ -256,6 +261,9 @@ class GivenMesh(GearMesh):
     """Gear pair whose transmission function is given. The shape of its teeth is not known."""
 
     transmission: GivenTransmission
+
+    def _summary(self) -> str:
+        return f"{self.name}: {self.tooth_form.words} transmission error, {self.driver} drives {self.driven}"
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
         """Return None, because the shape of the teeth is not known."""
@@ -286,7 +294,7 @@ class GivenMesh(GearMesh):
         row = (
             self.name,
             f"{self.driver} -> {self.driven}",
-            str(transmission.pitches),
+            str(transmission.pitch_count),
             "{:.5f}..{:.5f}".format(*speed.relative),
             error.text,
             f"{degrees(self.verdict.backlash):.4g}",
@@ -305,12 +313,16 @@ def given_mesh(wheels: MeshingWheels, form: NamedForm, transmission: GivenTransm
     Raises `GearTrainError` if the speed ratio is not above 0 everywhere, or if friction is declared on the pair.
     """
     if getattr(wheels.gear, "friction", None) is not None:
-        what, why = "friction is declared together with a given transmission error", "no sliding speed of teeth is known"
+        what, why = (
+            "friction is declared together with a given transmission error",
+            "no sliding speed of teeth is known",
+        )
         raise refused(what, why, "remove `friction`, and give the `efficiency` of the tooth form")
-    low = transmission.speed_range()[0]
+    low = transmission.minimum
     if not low > 0:
-        what = f"the driven wheel stops or turns back: the minimum speed ratio is {low:.6g}"
-        why = f"the slope of the transmission error falls below minus the ratio {transmission.ratio}"
+        at = degrees(transmission.function.minimum_at(1))
+        what = f"the driven wheel stops or turns back: the minimum speed ratio is {low:.6g}, at {at:.6g} deg"
+        why = "the slope of the transmission error reaches minus the mean speed ratio"
         raise refused(what, why, "check the unit of the errors, their sign, and the distance of the points")
     # the friction of the train does not apply; a coefficient of 1 stands for the given efficiencies
     rubbing = None if transmission._efficiencies_of is None else 1.0
@@ -332,7 +344,9 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
     kind, ratio = type(given).__name__, Fraction(own, other)
     if given.ratio not in (ratio, float(ratio)):
         what = f"the ratio of '{kind}' is {given.ratio}, but this pair has {ratio}"
-        raise refused(what, "the mean ratio follows from the tooth counts", f"return the ratio Fraction({own}, {other})")
+        raise refused(
+            what, "the mean ratio follows from the tooth counts", f"return the ratio Fraction({own}, {other})"
+        )
     pitches = given.period * own / (2 * pi)
     if not isfinite(pitches) or round(pitches) < 1 or abs(pitches - round(pitches)) > _SAME * pitches:
         what = f"the period of '{kind}' is {pitches:.9g} pitches of the driver"
@@ -352,14 +366,17 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
         return values
 
     error, speed = read("error"), read("speed")
-    S = np.linspace(0.0, period, _TRIED)
+    # between the positions at which kinks are likely
+    S = (np.arange(_TRIED) + 0.6180339887) / _TRIED * period
     pitch = 2 * pi / other
     for name, values, scale in (("error", error, pitch), ("speed", speed, float(ratio))):
         apart = np.abs(values(S + period) - values(S)).max()
         if apart > _SAME * scale:
             what = f"`{name}` of '{kind}' changes by {apart:.6g} after one period"
-            raise refused(what, "a transmission error repeats after its period", "return the error, not the total angle")
-    kinks = getattr(given, "kinks", list)()
+            raise refused(
+                what, "a transmission error repeats after its period", "return the error, not the total angle"
+            )
+    kinks: Sequence[float] = getattr(given, "kinks", list)()
     try:
         found = FittedFunction(error, lambda S: speed(S) - float(ratio), period, kinks)
     except RangeError as problem:
@@ -368,7 +385,9 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
         raise refused(what, "its extremes are computed between its kinks", fix) from None
     if (apart := found.mismatch()) > _SAME * pitch:
         what = f"`speed` of '{kind}' is not the ratio plus the slope of `error`"
-        raise refused(what, f"its integral differs from the error by {apart:.6g} rad", "return dq/dS = ratio + d error/dS")
+        raise refused(
+            what, f"its integral differs from the error by {apart:.6g} rad", "return dq/dS = ratio + d error/dS"
+        )
     return found
 
 

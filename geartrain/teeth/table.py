@@ -239,8 +239,8 @@ class Table(ToothForm):
     eccentricity_angle: TwoAngles = Field(
         "0",
         validate_default=True,
-        description="Direction of the centre at angle 0, from the direction of the driven wheel's axis, in the sense in "
-        "which the driver turns",
+        description="Direction of the centre at angle 0, from the direction of the driven wheel's axis, in the sense "
+        "in which the driver turns",
     )
     pressure_angle: Annotated[Angle, below_right_angle("for example, 20 deg")] = Field(
         "20 deg", validate_default=True, description="Pressure angle of eccentric involute teeth"
@@ -280,7 +280,7 @@ class Table(ToothForm):
     @property
     def words(self) -> str:
         """Name of the form as it appears in sentences."""
-        return "tabulated" if self.function is None else f"'{type(self.function.function).__name__}'"
+        return "tabulated" if self.function is None else "user-defined"
 
     @property
     def has_lengths(self) -> bool:
@@ -330,14 +330,13 @@ class Table(ToothForm):
         from geartrain.teeth.eccentric_wheels import EccentricWheels
         from geartrain.teeth.given_transmission import GivenTransmission, checked_function
 
-        step = 1 if self.driver == 1 else -1
-        own = counts[::step]
+        first, second = (0, 1) if self.driver == 1 else (1, 0)
+        own = counts[first], counts[second]
         parts = [each.function(own) for each in self.error]
         if any(offsets):
-            angles = tuple(each.si for each in self.eccentricity_angle)
-            parts.append(
-                EccentricWheels(own, tuple(offsets[::step]), angles[::step], self.pressure_angle.si, internal).error()
-            )
+            angles = [each.si for each in self.eccentricity_angle]
+            apart, at = (offsets[first], offsets[second]), (angles[first], angles[second])
+            parts.append(EccentricWheels(own, apart, at, self.pressure_angle.si, internal).error())
         if self.function is not None:
             parts.append(checked_function(self.function.function, own))
         efficiencies = self._efficiencies(own)

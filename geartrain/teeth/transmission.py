@@ -140,7 +140,7 @@ class TransmissionFunction(Shown, ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
-    pitches: int = 1
+    pitch_count: int = 1
     """Number of pitches of the driver in one period of the transmission function of a gear pair."""
     waves: int = 1
     """Number of the shortest waves of the transmission function in one period, besides its kinks."""
@@ -150,7 +150,7 @@ class TransmissionFunction(Shown, ABC):
     @property
     def pitch(self) -> float:
         """Angular pitch of the driver of a gear pair [rad]."""
-        return self.period / self.pitches
+        return self.period / self.pitch_count
 
     def _summary(self) -> str:
         return f"ratio {self.ratio}, period {degrees(self.period):.6g} deg, friction {self.friction:g}"
@@ -489,7 +489,7 @@ class DerivedTransmission(TransmissionFunction):
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
-        self.pitches, self.waves = transmission.pitches, transmission.waves
+        self.pitch_count, self.waves = transmission.pitch_count, transmission.waves
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

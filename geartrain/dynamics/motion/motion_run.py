@@ -111,7 +111,7 @@ def _harmonics(superposed: Superposition, at: int) -> Complex:
     Phases refer to the start of the run.
     """
     source = superposed.sources[at]
-    pitches = source.transmission.pitches
+    pitches = source.transmission.pitch_count
     samples = _SAMPLES * (1 + (pitches - 1) // 64)
     u = np.arange(samples) / samples
     shift = source.start + superposed.lags[at]

@@ -140,7 +140,7 @@ class PairErrors:
         if not circuit.b:
             sense = forward
         # a wheel's coefficient in the Willis equation is its tooth count
-        periods = Fraction(abs((circuit.b, circuit.a)[driven]), transmission.pitches)
+        periods = Fraction(abs((circuit.b, circuit.a)[driven]), transmission.pitch_count)
         if circuit.kind != "gear":
             periods = self.train.periods[circuit.id]
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
@@ -179,7 +179,7 @@ class PairErrors:
                     + mesh.tooth_phase
                     - (teeth / 2 if opposite else 0)
                 )
-                return (pitches % transmission.pitches) * transmission.pitch
+                return (pitches % transmission.pitch_count) * transmission.pitch
         phase = self.train.phases.get(circuit.id, 0.0)
         if driven == 1 or circuit.kind != "gear":
             return phase * transmission.pitch

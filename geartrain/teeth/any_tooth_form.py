@@ -23,7 +23,7 @@ TOOTH_FORMS = {
     "triangular": "Triangular",
     "circular_arc": "CircularArc",
     "pin_ring": "PinRing",
-    "table": "Table",
+    "table": "ErrorTable",
 }
 """Class name of each tooth form by its name in declarations, which is also the name of its module."""
 

@@ -324,7 +324,7 @@ def given_mesh(wheels: MeshingWheels, form: NamedForm, transmission: GivenTransm
         what = f"the driven wheel stops or turns back: the minimum speed ratio is {low:.6g}, at {at:.6g} deg"
         why = "the slope of the transmission error reaches minus the mean speed ratio"
         raise refused(what, why, "check the unit of the errors, their sign, and the distance of the points")
-    # the friction of the train does not apply; a coefficient of 1 stands for the given efficiencies
+    # the friction of the train does not apply; with the coefficient 1 the friction terms are the given efficiencies
     rubbing = None if transmission._efficiencies_of is None else 1.0
     own = replace(wheels, friction=rubbing, friction_law=None)
     return GivenMesh(own, form, wheels.driver, transmission if transmission.driver == 1 else transmission.reversed)

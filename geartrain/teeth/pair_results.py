@@ -147,8 +147,8 @@ class SlidingEfficiency(Result):
 
     @property
     def friction(self) -> float | None:
-        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, the value is its
-        mean over the driver angle.
+        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, the value is
+        its mean over the driver angle.
         """
         return self.transmission.friction
 

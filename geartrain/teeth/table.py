@@ -7,7 +7,7 @@ from math import lcm, pi
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from weakref import WeakValueDictionary
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, model_validator
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import core_schema
 
@@ -94,6 +94,18 @@ class PeriodicPoints(BaseModel):
         raise refused(what, why, fix)
 
 
+class _PhaseIsOptional:
+    def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        made = handler(schema)
+        return {**made, "items": {**made["items"], "minItems": 2}}
+
+
+class _OneOrSeveral:
+    def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        made = handler(schema)
+        return {"anyOf": [made["items"], made]}
+
+
 class ErrorContribution(PeriodicPoints):
     """Periodic transmission error of a gear pair as declared: points or harmonics."""
 
@@ -102,7 +114,7 @@ class ErrorContribution(PeriodicPoints):
         description="Points [angle, error]: angle of the driver from 0, or fraction of the period; error of the driven "
         "wheel, positive ahead. The end of the period is its start",
     )
-    harmonics: tuple[tuple[Figure, Angle, Angle], ...] | None = Field(
+    harmonics: Annotated[tuple[tuple[Figure, Angle, Angle], ...], _PhaseIsOptional()] | None = Field(
         None,
         description="Harmonics [n, amplitude, phase] of the period: amplitude sin(n x + phase), where x is 360 deg "
         "after one period",
@@ -202,7 +214,7 @@ def _listed(raw: object) -> object:
     return [raw] if isinstance(raw, dict | ErrorContribution) else raw
 
 
-class Table(ToothForm):
+class ErrorTable(ToothForm):
     """Given transmission error of a gear pair, from a measurement or a calculation, instead of the shape of its teeth.
 
     Errors are added. They refer to the angle of the wheel `driver`. If the other wheel drives, its transmission
@@ -214,8 +226,10 @@ class Table(ToothForm):
 
     Examples
     --------
+    A pinion of 20 teeth with its centre 0.2 modules off its axis drives a wheel of 60.
+
     >>> from math import degrees
-    >>> runout = Table(form="table", eccentricity=["0.2", "0"])  # U2 of a wheel of 20 teeth
+    >>> runout = ErrorTable(form="table", eccentricity=["0.2", "0"])
     >>> round(degrees(runout.transmission(20, 60).error(0.0)), 10)
     0.1363551848
     """
@@ -227,7 +241,7 @@ class Table(ToothForm):
     driver: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] = Field(
         1, description="Wheel to whose angle the errors refer, the first or second of the pair"
     )
-    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed)] = Field(
+    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed), _OneOrSeveral()] = Field(
         (), description="Transmission error over a period, or a list of errors that are added"
     )
     eccentricity: TwoLengths = Field(
@@ -261,7 +275,7 @@ class Table(ToothForm):
     )
 
     @model_validator(mode="after")
-    def _check_values(self) -> Table:
+    def _check_values(self) -> ErrorTable:
         if self.efficiency is not None and self.efficiency_table is not None:
             raise bad("efficiency", "efficiency and efficiency_table are both given", "remove one of the two keys")
         if self.efficiency is not None:
@@ -287,7 +301,7 @@ class Table(ToothForm):
         """True if an eccentricity is declared with a unit."""
         return any(each.unit is not None for each in self.eccentricity)
 
-    def thinned(self, backlash: Quantity) -> Table:
+    def thinned(self, backlash: Quantity) -> ErrorTable:
         """Return the form itself, because its backlash is an angle."""
         del backlash
         return self

@@ -158,8 +158,8 @@ class TabulatedTransmission(DerivedTransmission):
     """Transmission function evaluated from tables, each made on first use.
 
     Results over a whole period, such as the mean efficiency, are those of the underlying function. `tolerance` is the
-    maximum error of the transmission error in driven pitches (or periods of a coupling), of the speed ratio relative to its mean, and
-    of the efficiency; `degree` is the degree of the polynomials.
+    maximum error of the transmission error in driven pitches (or periods of a coupling), of the speed ratio relative to
+    its mean, and of the efficiency; `degree` is the degree of the polynomials.
     """
 
     def __init__(self, transmission: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:

@@ -24,7 +24,7 @@ from geartrain.numerics.lazy_graph import Lazy, LazyDict
 OF_LINKS = {"declared", "frame", "wheels", "reference", "speed"}
 OF_EDGES = {
     *("kind", "label", "declared", "axis"),
-    *("circuit", "carrier", "ratio", "form", "mesh", "efficiency"),
+    *("circuit", "carrier", "ratio", "form", "transmission", "mesh", "efficiency"),
 }
 SLOW_LOSSES = {"longcase-clock-bs978"}  # whose efficiencies come from the contact of outlines: seconds
 

@@ -43,7 +43,7 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
         raise value_error(error, place) from None
-    if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
+    if found.value and not dimension.startswith("fraction") and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give a magnitude between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise option_error(place, f"{text} is out of range", fix, "its square would overflow or underflow")
     if minimum == "above 0" and found.value <= 0:
@@ -54,8 +54,8 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction: a number, a percentage or ppm."""
-    return read_quantity(option, text, "fraction", plain=True).base
+    """Parse the value of an option as an exact fraction: a number, a percentage, ppm, or the rate of a clock (s/d)."""
+    return read_quantity(option, text, "fraction or clock rate", plain=True).base
 
 
 def friction(text: str) -> float:

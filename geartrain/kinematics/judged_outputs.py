@@ -9,11 +9,15 @@ from typing import Literal, NamedTuple, Required, TypedDict
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
+from geartrain.train.printed_period import PrintedPeriod, year_seconds
 
 DAYS_PER_CENTURY = 36525  # days in a Julian century
+SECONDS_PER_DAY = 86400
+SECONDS_PER_YEAR = 31556952  # 365.2425 d, the mean year of the Gregorian calendar
 SpeedValue = Fraction | float
 Relative = Callable[[str, str], SpeedValue | None]
 """Function that returns the speed of a link relative to another, about the axis of the first; None if undetermined."""
@@ -72,6 +76,9 @@ class TargetResult(Result):
         "compared",
         "ppm",
         "days_per_century",
+        "seconds_per_day",
+        "seconds_per_year",
+        "days_to_one_day",
         "degrees_per_unit",
         "met",
     )
@@ -113,6 +120,21 @@ class TargetResult(Result):
         """Relative error [ppm]; None if the target is 0, or if the value exceeds the range of float64."""
         return as_plain_product(self.error, 10**6) if self.speed else None
 
+    @property
+    def seconds_per_day(self) -> float | None:
+        """Time that a clock gains on the target [s/d]; None if `days_per_century` is None."""
+        return None if self.days_per_century is None else as_plain_product(self.error, SECONDS_PER_DAY)
+
+    @property
+    def seconds_per_year(self) -> float | None:
+        """Time that a clock gains on the target [s per 365.2425 d]; None if `days_per_century` is None."""
+        return None if self.days_per_century is None else as_plain_product(self.error, SECONDS_PER_YEAR)
+
+    @property
+    def days_to_one_day(self) -> float | None:
+        """Time after which the error is one day [d]; None without an error, or if `days_per_century` is None."""
+        return abs(1 / self.days_per_century) * DAYS_PER_CENTURY if self.days_per_century else None
+
 
 class SpeedFigures(TypedDict, total=False):
     """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
@@ -127,6 +149,8 @@ class SpeedFigures(TypedDict, total=False):
     """Estimated absolute error of a speed that was solved in floats [unit of the train]."""
     true_error: float | None
     """Difference between a speed solved in floats and the exact speed, if the latter is known [unit of the train]."""
+    tolerance: float
+    """Tolerance of a speed that depends on a coupling with an approximate `ratio` [unit of the train]."""
     condition: float | None
     """Component-wise condition number of a speed that was solved in floats [1]; None for a link at rest, omitted in
     trains of more than 400 links.
@@ -150,12 +174,12 @@ class JudgedFigure(Result):
 
     value: str
     """Value as printed in the source."""
-    form: Literal["speed", "input/output", "output/input"]
-    """Quantity that the source prints: "speed", "output/input" or "input/output"."""
+    form: Literal["speed", "input/output", "output/input", "period"]
+    """Quantity that the source prints: "speed", "output/input", "input/output" or "period"."""
     place: str | None
     """Place in the source where the value is printed."""
     found: SpeedValue | None
-    """Same quantity, calculated for this train; None if it is not determined."""
+    """Same quantity, calculated for this train; a period in [s]. None if it is not determined."""
     holds: bool | None
     """True if the published and the calculated value agree in all printed digits, or within a declared tolerance; False
     if they differ, or if the quantity is not determined.
@@ -174,7 +198,16 @@ class OutputResult(Result):
     ('planet', 'carrier', Fraction(-20, 21), True)
     """
 
-    KEYS = (Key("", "figures"), "of", "relative_to", Key("output/input", "ratio"), "expect", "published", "targets")
+    KEYS = (
+        Key("", "figures"),
+        "of",
+        "relative_to",
+        Key("output/input", "ratio"),
+        Key("period_s", "period", as_float),
+        "expect",
+        "published",
+        "targets",
+    )
 
     name: str
     """Name of the output."""
@@ -194,25 +227,50 @@ class OutputResult(Result):
     """True if the speed agrees with the declared `expect`, False also if it is not determined; None if no `expect` is
     declared.
     """
-    published_holds: bool | None
-    """True if the output agrees with the declared `published` value, False also if it is not determined; None if no
-    value is published.
-    """
     targets: tuple[TargetResult, ...]
     """Comparisons with the declared targets; empty if the speed is not determined."""
     bookkeeping: bool
     """True if `speed` is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
+    unit_seconds: Fraction | None
+    """Time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
+    tolerance: Fraction = Fraction(0)
+    """Tolerance of the speed due to couplings with an approximate `ratio` [unit of the train]; 0 if it is exact."""
+
+    @property
+    def period(self) -> SpeedValue | None:
+        """Time of one turn [s]; None for a link at rest, an undetermined speed or a train without a unit of time."""
+        return self.unit_seconds / magnitude(self.speed) if self.unit_seconds and self.speed else None
 
     @property
     def found(self) -> SpeedValue | None:
-        """Value that is compared with the `published` value; None if it is undefined, or if no value is published."""
+        """Value that is compared with the `published` value; None if it is undefined, or if no value is published.
+
+        A period is in seconds; it is negative if the sense of rotation is opposite to a declared `sense`.
+        """
         published = self.output.published
-        return None if published is None else as_published(published, self.speed, self.ratio)
+        return None if published is None else _as_published(published, self.speed, self.ratio, self.unit_seconds)
+
+    @property
+    def found_text(self) -> str | None:
+        """Value that is compared with a published period as text, in the units of the source; None for other values."""
+        figure = self.output.published
+        if figure is None or self.found is None or not isinstance(figure.value, PrintedPeriod):
+            return None
+        text = figure.value.text_of(abs(Fraction(self.found)), year_seconds(self.unit_seconds))
+        return text if self.found > 0 else f"{text} in the opposite sense"
+
+    @property
+    def published_holds(self) -> bool | None:
+        """True if the output agrees with the declared `published` value, False also if it is not determined; None if
+        no value is published.
+        """
+        return self._holds_published(sign=1)
 
     @property
     def figures(self) -> SpeedFigures:
         """Speed of the output in the form of the JSON output."""
-        return speed_figures(self.speed)
+        plain = speed_figures(self.speed)
+        return plain | {"tolerance": float(self.tolerance)} if self.tolerance else plain
 
     @property
     def expect(self) -> JudgedExpectation | None:
@@ -244,9 +302,19 @@ class OutputResult(Result):
         """
         if self.speed is None or (self.expect_holds is not False and self.published_holds is not False):
             return False
-        opposite, ratio = -self.speed, None if self.ratio is None else -self.ratio
-        expected = self.expect_holds is not False or _expect_holds(self.output, opposite)
-        return bool(expected and (self.published_holds is not False or _published_holds(self.output, opposite, ratio)))
+        expected = self.expect_holds is not False or _expect_holds(self.output, -self.speed)
+        return bool(expected and (self.published_holds is not False or self._holds_published(sign=-1)))
+
+    def _holds_published(self, sign: int) -> bool | None:
+        """Return whether the output, or the output in the opposite sense (-1), agrees with the published value."""
+        published, value = self.output.published, self.found
+        if published is None:
+            return None
+        if value is None:
+            return False
+        unit, tolerance = self.unit_seconds, published.tolerance
+        bound = None if tolerance is None else in_plain_units(tolerance, unit).value
+        return in_plain_units(published.value, unit).holds(sign * Fraction(value), bound)
 
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:
@@ -296,9 +364,9 @@ def judge_outputs(
             speed,
             ratio,
             _expect_holds(output, speed),
-            _published_holds(output, speed, ratio),
             tuple(_compare_with_target(train, target, speed) for target in output.targets if speed is not None),
             not is_rotation(of, base),
+            unit_seconds(train),
         )
 
 
@@ -315,22 +383,36 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
     return (not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= slack) or expect.holds(exact)
 
 
-def _published_holds(output: Output, speed: SpeedValue | None, ratio: SpeedValue | None) -> bool | None:
-    published = output.published
-    if published is None:
-        return None
-    value = as_published(published, speed, ratio)
-    bound = published.tolerance.value if published.tolerance else None
-    return False if value is None else published.value.holds(Fraction(value), bound)
+def _as_published(
+    published: Published, speed: SpeedValue | None, ratio: SpeedValue | None, unit: Fraction | None
+) -> SpeedValue | None:
+    """Return an output as the quantity that the source prints; None if it is undefined.
 
-
-def as_published(published: Published, speed: SpeedValue | None, ratio: SpeedValue | None) -> SpeedValue | None:
-    """Return an output as the quantity that the source prints: speed, output/input or input/output; None if it is
-    undefined.
+    unit   time of one turn at a speed of 1 [s]
     """
-    if published.as_ == "speed":
-        return speed
-    return ratio if published.as_ == "output/input" else 1 / ratio if ratio else None
+    if published.as_ == "period":
+        found = published.turns.value * unit / speed if speed and unit else None
+        backwards = published.sense == "retrograde"
+    else:
+        inverse = 1 / ratio if ratio else None
+        found = {"speed": speed, "output/input": ratio, "input/output": inverse}[published.as_]
+        backwards = False
+    if found is None:
+        return None
+    return magnitude(found) if published.unsigned else -found if backwards else found
+
+
+def unit_seconds(train: Train) -> Fraction | None:
+    """Return the time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
+    return 1 / train.unit_speed if train.unit_speed else None
+
+
+def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
+    """Return a published value or its tolerance as a number in the unit of `OutputResult.found`: a period in seconds.
+
+    unit   time of one turn at a speed of 1 [s], which is the length of a printed year
+    """
+    return printed.in_seconds(year_seconds(unit)) if isinstance(printed, PrintedPeriod) else printed
 
 
 def goal_of(train: Train, target: Target) -> RatioGoal:

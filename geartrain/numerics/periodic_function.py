@@ -53,6 +53,11 @@ class PeriodicFunction(ABC):
     breakpoints: Floats
     resolution: float = inf
 
+    @property
+    def waves(self) -> float:
+        """Number of the shortest waves in a period; 0 if only the breakpoints limit the sampling."""
+        return self.period / self.resolution / _PER_WAVE
+
     @abstractmethod
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
         """Return the derivative of an order from 0 (the function) to 3 at any positions."""
@@ -112,7 +117,38 @@ class PeriodicFunction(ABC):
         return self.derivative(self.breakpoints - inset, order), self.derivative(self.breakpoints + inset, order)
 
 
-class PeriodicTable(PeriodicFunction):
+class PeriodicPieces(PeriodicFunction):
+    """Periodic function with a cubic polynomial on each piece.
+
+    Parameters
+    ----------
+    breakpoints : ndarray, (pieces,)
+        Ascending positions at which the pieces begin.
+    coefficients : ndarray, (4, pieces)
+        Coefficients of the powers of the distance from the start of the piece, from the highest power.
+    period : float
+        Period, at least the difference of the last and the first breakpoint.
+    """
+
+    def __init__(self, breakpoints: Floats, coefficients: Floats, period: float) -> None:
+        self.breakpoints, self._coefficients, self.period = breakpoints, coefficients, period
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        first = self.breakpoints[0]
+        u = np.mod(np.asarray(x, dtype=float) - first, self.period)
+        # the comparison is with the differences, so that each point is in the piece that it begins
+        starts = self.breakpoints - first
+        piece = np.searchsorted(starts, u, side="right") - 1
+        u = u - starts[piece]
+        found = np.zeros(u.shape)
+        for power in range(3, order - 1, -1):
+            factor = [1, power, power * (power - 1), power * (power - 1) * (power - 2)][order]
+            found = found * u + factor * self._coefficients[3 - power][piece]
+        return found
+
+
+class PeriodicTable(PeriodicPieces):
     """Periodic function through points.
 
     Parameters
@@ -141,23 +177,8 @@ class PeriodicTable(PeriodicFunction):
         interpolation: Interpolation = "pchip",
     ) -> None:
         check_points(positions, values, period, interpolation)
-        self.period, self.breakpoints = period, np.array(positions, dtype=float)
-        closed = np.append(np.array(values, dtype=float), values[0])
-        self._coefficients = _cubics(np.append(self.breakpoints, positions[0] + period), closed, interpolation)
-
-    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
-        first = self.breakpoints[0]
-        u = np.mod(np.asarray(x, dtype=float) - first, self.period)
-        # the comparison is with the differences, so that each point is in the piece that it begins
-        starts = self.breakpoints - first
-        piece = np.searchsorted(starts, u, side="right") - 1
-        u = u - starts[piece]
-        found = np.zeros(u.shape)
-        for power in range(3, order - 1, -1):
-            factor = [1, power, power * (power - 1), power * (power - 1) * (power - 2)][order]
-            found = found * u + factor * self._coefficients[3 - power][piece]
-        return found
+        starts, closed = np.array(positions, dtype=float), np.append(np.array(values, dtype=float), values[0])
+        super().__init__(starts, _cubics(np.append(starts, positions[0] + period), closed, interpolation), period)
 
 
 def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:

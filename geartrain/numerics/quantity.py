@@ -48,6 +48,9 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "N m": ("torque", Fraction(1)),
     "N mm": ("torque", Fraction(1, 1000)),
     "kN m": ("torque", Fraction(1000)),
+    "J": ("energy", Fraction(1)),
+    "mJ": ("energy", Fraction(1, 1000)),
+    "uJ": ("energy", Fraction(1, 10**6)),
     "kg m2": ("inertia", Fraction(1)),
     "kg mm2": ("inertia", Fraction(1, 10**6)),
     "g mm2": ("inertia", Fraction(1, 10**9)),
@@ -70,6 +73,8 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "N s/mm": ("damping", Fraction(1000)),
     "%": ("fraction", Fraction(1, 100)),
     "ppm": ("fraction", Fraction(1, 10**6)),
+    "s/d": ("clock rate", Fraction(1, 86400)),
+    "s/year": ("clock rate", 1 / (86400 * Fraction("365.2425"))),  # of the Gregorian calendar
 }
 # a radian is an irrational fraction of a turn: these two scales have 50 digits, so they are in a table of their own
 _TURNS_PER_RADIAN = 1 / (2 * Fraction("3.14159265358979323846264338327950288419716939937511"))
@@ -83,7 +88,7 @@ _SIZES = Fraction(1, 10**12), Fraction(10**6)  # lengths of bodies, in m or plai
 _BOUNDS = {"length": _SIZES, "length or fraction": (_FLOATS[0], _SIZES[1])} | {
     dimension: _FLOATS
     for one, other in (("torsional stiffness", "stiffness"), ("torsional damping", "damping"))
-    for dimension in ("angle", "velocity", "inertia", "mass", "density", "pressure", one, f"{one} or {other}")
+    for dimension in ("angle", "velocity", "energy", "inertia", "mass", "density", "pressure", one, f"{one} or {other}")
 }
 SPELT = {
     "Nm": "N m",
@@ -93,6 +98,8 @@ SPELT = {
     "°": "deg",
     "µm": "um",
     "μm": "um",
+    "µJ": "uJ",
+    "μJ": "uJ",
     "feet": "ft",
     "day": "d",
     "days": "d",
@@ -112,6 +119,9 @@ SPELT = {
     "N/µm": "N/um",
     "N/μm": "N/um",
     "Nms/rad": "N m s/rad",
+    "s/day": "s/d",
+    "s/y": "s/year",
+    "s/yr": "s/year",
 }
 
 
@@ -357,7 +367,7 @@ class Quantity:
         raw : str, int, float, Fraction or Quantity
             A quantity such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
-            length, angle, time, speed, velocity, torque, inertia, mass, density, pressure, torsional stiffness,
+            length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure, torsional stiffness,
             stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
             True to allow a number without a unit; 0 is always allowed.
@@ -467,6 +477,7 @@ Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
 Velocity = Annotated[Quantity, Dimension("velocity")]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]
+Energy = Annotated[Quantity, Dimension("energy")]
 Inertia = Annotated[Quantity, Dimension("inertia")]
 Mass = Annotated[Quantity, Dimension("mass")]
 Density = Annotated[Quantity, Dimension("density")]
@@ -476,6 +487,8 @@ MeshStiffness = Annotated[Quantity, Dimension("torsional stiffness or stiffness"
 TorsionalDamping = Annotated[Quantity, Dimension("torsional damping")]
 MeshDamping = Annotated[Quantity, Dimension("torsional damping or damping")]
 Share = Annotated[Quantity, Dimension("fraction", plain=True)]
+RelativeError = Annotated[Quantity, Dimension("fraction or clock rate", plain=True)]
+"""Relative error of a speed: a number, a percentage, ppm, or the rate of a clock (s/d, s/year)."""
 
 
 def above_zero(fix: str, noun: str = "the value") -> AfterValidator:

@@ -13,7 +13,15 @@ from math import isfinite
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, SpeedValue, TargetResult, magnitude
+from geartrain.kinematics.circuits.fundamental import couplings_on_axes
+from geartrain.kinematics.judged_outputs import (
+    SECONDS_PER_DAY,
+    OutputResult,
+    Sensitivity,
+    SpeedValue,
+    TargetResult,
+    magnitude,
+)
 from geartrain.numerics.exact import plural
 from geartrain.report.document import (
     MOST_ROWS,
@@ -31,10 +39,14 @@ from geartrain.report.document import (
 from geartrain.train import Train
 from geartrain.train.outputs import looks_away
 
-_SECONDS = 86400  # seconds of a day
 _EXACT = 1e-9  # ppm, or days: smaller errors are rounding
 _YEAR = 300  # days: shorter than any year and longer than other units of time
-_SPANS = {"d": Fraction(1), "h": Fraction(1, 24), "min": Fraction(1, 1440), "s": Fraction(1, _SECONDS)}  # in days
+_SPANS = {
+    "d": Fraction(1),
+    "h": Fraction(1, 24),
+    "min": Fraction(1, 1440),
+    "s": Fraction(1, SECONDS_PER_DAY),
+}  # in days
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
@@ -44,12 +56,24 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
     rows = []
     for answer in answers:
-        engaged = declared.states[answer.state or ""].engaged
-        marks = ["x" if clutch in engaged else "" for clutch in clutches]
+        engaged = declared.case(answer.state).closed
+        marks = [closed_mark(declared, clutch) if clutch in engaged else "" for clutch in clutches]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
     text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input divided by output."
+    text = f"{holding_note(declared)}{text}"
     return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
+
+
+def closed_mark(declared: Train, clutch: str) -> str:
+    """Return the mark of a closed clutch or brake in a shift table: `x`, or `*` if it is one-way."""
+    return "x" if declared.clutches[clutch].one_way is None else "*"
+
+
+def holding_note(declared: Train) -> str:
+    """Return the meaning of the mark of one-way clutches in a shift table; empty if the train has none."""
+    one_way = any(each.one_way for each in declared.clutches.values())
+    return "* marks a one-way clutch that holds (only while the input drives). " if one_way else ""
 
 
 def _speed_and_ratio(answer: Answer, name: str) -> str:
@@ -57,7 +81,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
     if result is None or result.speed is None:
         return "-"
     inverse = f" (in/out {figure(1 / result.ratio, 6)})" if result.ratio else ""
-    return f"{exact(result.speed)}{inverse}"
+    return f"{_speed(result.speed, result.tolerance)}{inverse}"
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
@@ -67,7 +91,9 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
     if answer.outputs:
         yield _pointers(train, answer)
         yield replace(_outputs(train, answer), detail=True)
-    yield from (replace(section, detail=True) for section in _targets(answer))
+    if answer.one_way:
+        yield Section(titled(answer.state, "one-way clutches"), [f"{each}." for each in clutch_lines(answer)])
+    yield from (replace(section, detail=True) for section in _targets(train.declaration, answer))
     yield replace(_speed_section(train, answer), detail=bool(answer.outputs and answer.verdict))
 
 
@@ -97,10 +123,12 @@ def _is_pointer(result: OutputResult) -> bool:
 def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
     speed = result.speed
     second = (
-        exact(result.ratio) if declared.unit_days is None and result.ratio is not None else _period(declared, speed)
+        _speed(result.ratio, result.tolerance)
+        if declared.unit_days is None and result.ratio is not None
+        else _period(declared, speed)
     )
     target = result.targets[0] if result.targets else None
-    return (result.name, exact(speed), second, *_target_cells(declared, target), _fault(result))
+    return (result.name, _speed(speed, result.tolerance), second, *_target_cells(declared, target), _fault(result))
 
 
 def _is_clock(declared: Train) -> bool:
@@ -115,7 +143,7 @@ def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, st
     wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)
     if target.ppm is None:
         return wanted or "0", "", figure(target.error)
-    time = target.ppm * _SECONDS / 1e6 if _is_clock(declared) else target.days_per_century
+    time = target.seconds_per_day if _is_clock(declared) else target.days_per_century
     return wanted, _error_text(target.ppm), _error_text(time)
 
 
@@ -134,7 +162,7 @@ def _error_text(error: float | None) -> str:
 def _fault(result: OutputResult) -> str:
     """Return the expectations, published figures and tolerances that an output fails, as a string."""
     expect, published = result.output.expect, result.output.published
-    sign = "; only the sign differs" if result.differs_in_sign else ""
+    sign = only_sign(result)
     parts = []
     if published is not None and not result.published_holds:
         parts.append(f"FAILS: {published.value} {published.as_} is printed, {result_words(result)}{sign}")
@@ -145,13 +173,33 @@ def _fault(result: OutputResult) -> str:
     return "; ".join(parts)
 
 
-def _targets(answer: Answer) -> Iterator[Section]:
+_ABOUT_A_DAY = Fraction(9, 10), Fraction(11, 10)  # d: solar, sidereal and lunar days
+_LONGER = 2  # d: a pointer of such a period may be off by a day
+
+
+def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
+    """Return the error of an output in seconds a day and seconds a year, and the time after which it is a day off.
+
+    The first two are "" unless the output has a hand of a clock or a target of about a day, the third is "" for shorter
+    targets.
+    """
+    if declared.unit_days is None or target.days_per_century is None:
+        return "", "", ""
+    days = declared.unit_days / abs(target.speed)
+    is_clock = result.output.hand != "needle" or _ABOUT_A_DAY[0] <= days <= _ABOUT_A_DAY[1]
+    rates = (_signed(target.seconds_per_day), _signed(target.seconds_per_year)) if is_clock else ("", "")
+    late = "never" if target.days_to_one_day is None else f"{figure(target.days_to_one_day, 6)} d"
+    return *rates, late if days > _LONGER else ""
+
+
+def _targets(declared: Train, answer: Answer) -> Iterator[Section]:
     """Yield a section on the errors of outputs against their targets; nothing if no output has a target."""
     targets = [
         (
             name,
             target.label,
             ppm(target.ppm),
+            *_clock_rates(declared, result, target),
             _signed(target.days_per_century),
             _signed(target.degrees_per_unit),
             figure(target.speed, 10),
@@ -164,11 +212,12 @@ def _targets(answer: Answer) -> Iterator[Section]:
     if not targets:
         return
     each = answer.unit.removeprefix("turns per ") if answer.unit.startswith("turns per ") else "unit"
-    errors = ("error ppm", "days a century", f"degrees per {each}")
+    rates = ("s a day", "s a year", "a day off in")
+    errors = ("error ppm", *rates, "days a century", f"degrees per {each}")
     header = ("output", "target", *errors, "target speed", "compared", "within")
-    table = filled_table(header, targets, len(header) - 1)
+    table = filled_table(header, targets, 3)
     said = ["A positive error means that the output is fast."]
-    if any(row[6] == _COMPARED["magnitude"] for row in targets):
+    if any(_COMPARED["magnitude"] in row for row in targets):
         said.append("Compared by magnitude: the target has no `sense`, so that either sense of rotation meets it.")
     yield Section(titled(answer.state, "against the targets"), tuple(said), (table,))
 
@@ -199,31 +248,33 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
         mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
         # a ratio needs exactly one turning input
         ratio = speed / moving[0] if len(moving) == 1 else None
-        rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
+        rows.append((link + mark, _speed(speed, answer.tolerances.get(link)), figure(speed), one_to(ratio)))
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
 
 
 def _outputs(train: GearTrain, answer: Answer) -> Section:
     rows = [_output(train, result) for result in answer.outputs.values()]
-    header: tuple[str, ...] = ("output", "of", "speed", "decimal", "output/input", "expect", "published", "as read")
+    header: tuple[str, ...] = ("output", "of", "speed", "decimal", "output/input", "period")
+    header += ("expect", "published", "as read")
     if all(row[1] == row[0] for row in rows):  # every output is named after its link
         header, *rows = (row[:1] + row[2:] for row in (header, *rows))
     notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
-    # the last four columns are omitted if they are empty
-    return Section(titled(answer.state, "all outputs"), notes, (filled_table(header, rows, len(header) - 4),))
+    # the last five columns are omitted if they are empty
+    return Section(titled(answer.state, "all outputs"), notes, (filled_table(header, rows, len(header) - 5),))
 
 
 def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
     declared = train.declaration
     of = result.of if result.relative_to == declared.frame else f"{result.of} seen from {result.relative_to}"
     expect, published = result.output.expect, result.output.published
-    sign = "; only the sign differs" if result.differs_in_sign else ""
+    sign = only_sign(result)
     return (
         result.name,
         of + (" (sum of joint speeds)" if result.bookkeeping else ""),
-        exact(result.speed),
+        _speed(result.speed, result.tolerance),
         figure(result.speed),
-        exact(result.ratio) if result.ratio is not None and result.ratio != result.speed else "",
+        _speed(result.ratio, result.tolerance) if result.ratio is not None and result.ratio != result.speed else "",
+        _period(declared, result.speed),
         "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected{sign}",
         ""
         if published is None
@@ -235,12 +286,26 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 def result_words(result: OutputResult) -> str:
     """Return the computed value that corresponds to a published figure as a string, exact and in decimals."""
+    published = result.output.published
     if result.found is None:
-        ratio = result.output.published is not None and result.output.published.as_ != "speed"
-        open_ = result.speed is None or not ratio
-        return "undetermined" if open_ else "undefined: a ratio needs exactly one turning input, and a turning output"
+        if result.speed is None or published is None or published.as_ == "speed":
+            return "undetermined"
+        if published.as_ == "period":
+            return "no period: the output is at rest"
+        return "undefined: a ratio needs exactly one turning input, and a turning output"
+    if result.found_text is not None:
+        return f"found {result.found_text}"
     text, near = exact(result.found), figure(result.found)
     return f"found {text}" + (f" = {near}" if near != text else "")
+
+
+def only_sign(result: OutputResult) -> str:
+    """Return a remark if an output has the expected magnitude in the opposite sense, and its remedy; otherwise ""."""
+    if not result.differs_in_sign:
+        return ""
+    published = result.output.published
+    ignored = published is not None and published.as_ != "period" and result.published_holds is False
+    return "; only the sign differs" + (" (`magnitude: true` ignores it)" if ignored else "")
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
@@ -253,6 +318,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
         "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
         "published figure": [each.published_holds for each in results if each.published_holds is not None],
         "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
+        "clutch assertion": [not each.fails for answer in answers for each in answer.one_way if each.required],
     }
     each = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
     # commas between all kinds except the last two
@@ -340,24 +406,42 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
     place = "" if answer.verdict else f" ({answer.place})"
     unit = f" ({answer.unit})" if answer.unit and answer.verdict else ""
     lines = [f"{answer.train}{state}: {answer.verdict}{place}{unit}"]
-    rows = [
-        (name, result.speed, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
+    rows: list[tuple[str, SpeedValue | None, Fraction | None, str]] = [
+        (name, result.speed, result.tolerance, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
         for name, result in answer.outputs.items()
     ]
     if output is None:
-        links = [(link, speed, _marks(answer, link, oblique)) for link, speed in answer.speeds.items()]
-        rows = links + [row for row in rows if row[0] not in answer.speeds or "FAILS" in row[2]]
+        links: list[tuple[str, SpeedValue | None, Fraction | None, str]] = [
+            (link, speed, answer.tolerances.get(link), _marks(answer, link, oblique))
+            for link, speed in answer.speeds.items()
+        ]
+        rows = links + [row for row in rows if row[0] not in answer.speeds or "FAILS" in row[3]]
     elif not rows:
-        rows = [(output, answer.speeds.get(output), _marks(answer, output, oblique))]
-    width = max((len(name) for name, _, _ in rows), default=0)
-    for name, speed, mark in rows:
-        lines.append(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
+        tolerance = answer.tolerances.get(output)
+        rows = [(output, answer.speeds.get(output), tolerance, _marks(answer, output, oblique))]
+    width = max((len(name) for name, *_ in rows), default=0)
+    for name, speed, tolerance, mark in rows:
+        period = "" if answer._declaration is None else _period(answer._declaration, speed)
+        turn = f"  a turn in {period}" if period and name in answer.outputs else ""
+        within = f" ± {figure(tolerance, 3)}" if tolerance else ""
+        lines.append(f"  {name:<{width}}  {_speed(speed, tolerance):>20}  {figure(speed, 12)}{within}{turn}{mark}")
+    lines += [f"  {each}" for each in clutch_lines(answer)]
     if answer.residual:
         row, most = max(answer.residual.items(), key=lambda each: each[1])
         if any(each.true_error is None for each in answer.accuracy.values()):
             lines.append(f"  {why_floats(answer)}")
         lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
+    if output is None and answer._declaration is not None:
+        couplings = couplings_on_axes(answer._declaration, GearTrain(answer._declaration).kinematics.tree)
+        remarks = ((each.name, each.remark) for each in couplings)
+        lines += [f"  coupling '{name}' {remark}: speeds are means" for name, remark in remarks if remark]
     return "\n".join(lines)
+
+
+def clutch_lines(answer: Answer) -> Iterator[str]:
+    """Yield a line for each one-way clutch of a state, which holds or overruns, and the notes on them."""
+    yield from (each.text(answer.unit) for each in answer.one_way)
+    yield from answer.notes
 
 
 def answer_text(answer: Answer) -> str:
@@ -385,6 +469,11 @@ def why_floats(answer: Answer) -> str:
         f"Solved in floats: {why}. The estimated error of every speed is at most {error:.1e}. "
         "`geartrain solve FILE --method exact` solves it in fractions, however long it takes."
     )
+
+
+def _speed(speed: SpeedValue | None, tolerance: Fraction | None) -> str:
+    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio."""
+    return f"≈ {exact(speed)}" if tolerance else exact(speed)
 
 
 def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.buildability import build_errors
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import relative_speed
-from geartrain.report.answers import expectations_met, result_words
+from geartrain.numerics.exact import plural
+from geartrain.report.answers import expectations_met, only_sign, result_words
 from geartrain.report.document import exact, figure, ppm
 
 if TYPE_CHECKING:
@@ -58,7 +60,7 @@ class Soundness:
                 yield from (f"note {line}" for line in _too_fast(train))
             yield from (f"note {line}" for line in _off_beat(train, self.answers))
         if self and not quiet:
-            yield f"ok   {self.file}: {_summary(train, self.answers)}"
+            yield f"ok   {self.file}: {_summary(train, self.answers)}{_without_findings(train, self.whole)}"
 
 
 def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness:
@@ -77,6 +79,21 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
     return f"mobility {train.mobility.by_rank}{loops}, {expectations_met(answers) or 'nothing expected'}"
 
 
+def _without_findings(train: GearTrain, whole: bool) -> str:
+    """Return the equal planets and the declared teeth that were checked without any finding, as a string.
+
+    whole   True if the teeth were checked
+    """
+    declared, rules = train.declaration, {found.rule for found in train.build_findings}
+    checked = []
+    if not rules & {"A1", "A2", "A3"}:
+        checked += [f"{link.copies} planets '{name}'" for name, link in declared.links.items() if link.copies > 1]
+    pairs = sum(declared.form_of(gear) is not None for gear in declared.gears)
+    if whole and pairs and not rules & {"R2", "W3"}:
+        checked.append(f"the declared teeth of {plural(pairs, 'pair')}")
+    return f"; without findings: {', '.join(checked)}" if checked else ""
+
+
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
     """Yield the failures of one state: its verdict if another verdict is expected, otherwise each unmet expectation."""
     state = f" state {answer.state}" if answer.state is not None else ""
@@ -84,6 +101,9 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
         yield f"{answer.place}:{state} {answer.verdict}{wanted}"
         return
+    for each in answer.one_way:
+        if each.fails:
+            yield f"{train.declaration.place('clutches', each.name)}:{state} {each.text(answer.unit)}"
     for result in answer.failures:
         own = answer.state is not None and result.name in train.declaration.states[answer.state].outputs
         path = ("states", str(answer.state), "outputs") if own else ("outputs",)
@@ -125,14 +145,13 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     """Yield the states in which the escape wheel's speed does not match the declared beat.
 
-    The beat depends on the speed of the escape wheel relative to the link that bears it, because that link carries the
-    pallets.
+    The beat depends on the speed of the escape wheel relative to the link with the pallets.
     """
     declared = train.declaration
     escapement = declared.escapement
     if escapement is None:
         return
-    bearer = train.kinematics.tree.top[escapement.link]
+    bearer = pallet_link(escapement, train.kinematics.tree)
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
         # beats are in seconds, so speeds need a unit of time
@@ -175,4 +194,4 @@ def _wanted(result: OutputResult) -> str:
         if target.met is False:
             off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
             words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")
-    return "; " + ", ".join(words) + ("; only the sign differs" if result.differs_in_sign else "")
+    return "; " + ", ".join(words) + only_sign(result)

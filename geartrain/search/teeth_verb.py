@@ -100,7 +100,9 @@ Ratio = Annotated[
         metavar="RATIO",
     ),
 ]
-Range = Annotated[str, typer.Option("--range", help="Admissible tooth counts, such as 15:120 or 30,36,48.")]
+Range = Annotated[
+    str, typer.Option("--range", help="Admissible tooth counts, such as 15:120, 30,36,48, lego or meccano.")
+]
 Wheels = Annotated[
     str | None,
     typer.Option("--wheels", help="Admissible tooth counts of the larger wheel of each pair; default: --range."),

@@ -146,7 +146,8 @@ def read_counts(text: str) -> CountRuns:
     Parameters
     ----------
     text : str
-        Ranges `first:last`, both inclusive, and single counts, separated by commas.
+        Ranges `first:last`, both inclusive, single counts, and names of construction sets such as `meccano`,
+        separated by commas.
 
     Returns
     -------
@@ -165,7 +166,21 @@ def read_counts(text: str) -> CountRuns:
     """
     if not text.strip():
         raise _problem("no tooth counts are given", "a wheel needs at least one admissible count")
-    return CountRuns.joined(_span(part) for part in text.split(","))
+    return CountRuns.joined(span for part in text.split(",") for span in _spans(part))
+
+
+def _spans(part: str) -> Iterator[tuple[int, int]]:
+    """Yield the spans of a count, a range or the name of a construction set."""
+    if any(letter.isalpha() for letter in part):
+        from geartrain.train.owned_wheels import wheel_sets
+
+        name = part.strip()
+        if name not in wheel_sets():
+            why = f"a count is an integer, a range is first:last, and the sets of wheels are {', '.join(wheel_sets())}"
+            raise _problem(f"'{name[:40]}' is not a tooth count", why)
+        yield from ((count, count) for count in wheel_sets()[name])
+    else:
+        yield _span(part)
 
 
 def _span(part: str) -> tuple[int, int]:

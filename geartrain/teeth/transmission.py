@@ -133,8 +133,8 @@ class TransmissionFunction(Shown, ABC):
     >>> transmission = PinToSlotTransmission(2, 1)
     >>> transmission.ratio, transmission.period == 2 * pi, round(degrees(transmission.error_range()[1]), 9)
     (Fraction(1, 1), True, 30.0)
-    >>> [float(speed) for speed in transmission.speed([0, pi])]
-    [2.0, 0.6666666666666666]
+    >>> [round(float(speed), 9) for speed in transmission.speed([0, pi])]
+    [2.0, 0.666666667]
     """
 
     ratio: Fraction
@@ -143,9 +143,13 @@ class TransmissionFunction(Shown, ABC):
     pitch_count: int = 1
     """Number of pitches of the driver in one period of the transmission function of a gear pair."""
     waves: int = 1
-    """Number of the shortest waves of the transmission function in one period, besides its kinks."""
+    """Number of periods of the fastest component of the transmission error between kinks, in one period."""
     slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
+    dwell: Fraction = Fraction(0)
+    """Fraction of the period during which the driven side is at rest; 1 for steps at once."""
+    at_once: bool = False
+    """True if the driven side moves at once, so that the transmission error is discontinuous."""
 
     @property
     def pitch(self) -> float:
@@ -385,6 +389,14 @@ class TransmissionFunction(Shown, ABC):
         """
         return self
 
+    def mirrored(self) -> TransmissionFunction:
+        """Return the transmission function of a coupling whose driver's mean motion is against the declared sense of
+        its angle; by default this function itself.
+
+        Its error at S is minus the error of this function at -S. Override it in functions whose error is not odd.
+        """
+        return self
+
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
         """Return the transmission function for selected columns of an array of angles.
 
@@ -484,12 +496,27 @@ class ExactRatio(TransmissionFunction):
         return np.full(np.shape(S), value)
 
 
+class LosslessTransmission(TransmissionFunction):
+    """Transmission function without a model of friction: the only losses are those of a declared efficiency."""
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Return the efficiency at driver angles S, which is 1."""
+        import numpy as np
+
+        return np.ones(np.shape(S))
+
+    def efficiency_minimum(self) -> float:
+        """Return the minimum efficiency, which is 1."""
+        return 1.0
+
+
 class DerivedTransmission(TransmissionFunction):
     """Transmission function with the motion of an underlying function, and with other losses or another evaluation."""
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
         self.pitch_count, self.waves = transmission.pitch_count, transmission.waves
+        self.dwell, self.at_once = transmission.dwell, transmission.at_once
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

@@ -56,6 +56,7 @@ from geartrain.train.fields import (
     side,
 )
 from geartrain.train.manufacturing import ArborSizes, FaceWidth, PairMounting, WheelManufacture
+from geartrain.train.owned_wheels import OwnedWheels
 
 # ----------------------------------------------------------------------------------------------------- bearing friction
 
@@ -145,11 +146,17 @@ class Teeth(Declared):
         None, fail_fast=True, description="Relative probability of each count in `range` or `choices`; default equal"
     )
     source: str | None = Field(None, description="Key of the source in `sources`")
-    search: tuple[Count, ...] | None = Field(
+    search: (
+        Annotated[
+            Annotated[OwnedWheels, Tag("owned")]
+            | Annotated[tuple[Count, ...], Field(min_length=2, fail_fast=True), Tag("counts")],
+            Discriminator(lambda raw: "owned" if isinstance(raw, dict | OwnedWheels) else "counts"),
+        ]
+        | None
+    ) = Field(
         None,
-        min_length=2,
-        fail_fast=True,
-        description="Counts among which the tooth count is searched: two inclusive bounds, or a list of three or more",
+        description="Counts among which the tooth count is searched: two inclusive bounds, a list of three or more, or "
+        "owned wheels such as `{of: [15, 57]}`",
     )
 
     def _brief(self) -> str:
@@ -161,7 +168,7 @@ class Teeth(Declared):
     @model_validator(mode="after")
     def _check_counts(self) -> Teeth:
         bounds = self.range or self.search
-        if bounds and len(bounds) == 2 and bounds[0] > bounds[1]:
+        if isinstance(bounds, tuple) and len(bounds) == 2 and bounds[0] > bounds[1]:
             raise PydanticCustomError(
                 "teeth",
                 "the range {low} to {high} is empty",
@@ -203,6 +210,8 @@ class Teeth(Declared):
         """Counts of `search` in ascending order; empty if `search` is not declared."""
         if self.search is None:
             return ()
+        if isinstance(self.search, OwnedWheels):
+            return self.search.counts
         return range(self.search[0], self.search[1] + 1) if len(self.search) == 2 else sorted(set(self.search))
 
     @property

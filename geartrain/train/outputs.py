@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Figure, Share, Span, above_zero, checked
-from geartrain.train.fields import AlsoShort, Declared, Id, exactly_one, short_for, whole_number
+from geartrain.numerics.quantity import Figure, RelativeError, Span, above_zero, bad, checked
+from geartrain.train.fields import AlsoShort, Boolean, Declared, Id, exactly_one, short_for, whole_number
+from geartrain.train.printed_period import PrintedPeriod, is_printed_period
 
 _SIGNS = "Aries Taurus Gemini Cancer Leo Virgo Libra Scorpio Sagittarius Capricorn Aquarius Pisces"
 _MONTHS = "Thoth Phaophi Hathyr Choiak Tybi Mecheir Phamenoth Pharmuthi Pachon Payni Epeiph Mesore"
@@ -223,11 +225,28 @@ def looks_away(face: str | None, seen_from: str | None) -> bool:
 
 
 _RETROGRADE = "above 0, with `sense: retrograde` for retrograde motion"
+_TURNS = checked(lambda given: given.value > 0, "{text} turns is not a number above 0", f"give a number {_RETROGRADE}")
 _TOLERANCE = checked(
     lambda given: given.value >= 0,
     "a tolerance of {text} is negative",
     "give the magnitude of the permitted error, 0 or more",
 )
+
+
+_CALENDAR_PERIOD = re.compile(r"\s*([\d./]+)\s*(year|yr|y|month)s?\s*", re.ASCII)
+
+
+def _check_calendar_unit(raw: object) -> object:
+    """Return a period unchanged; raise an error with the target to write if it is in years or months."""
+    if found := _CALENDAR_PERIOD.fullmatch(str(raw)[:100]):
+        name = "month_synodic_J2000" if found[2] == "month" else "year_tropical_J2000"
+        fix = f"write `{{name: {name}, turns: 1/{found[1]}}}` or another name of `geartrain periods`, or a time in days"
+        raise PydanticCustomError(
+            "unit",
+            "'{text}' has an unknown unit",
+            {"text": str(raw), "why": "years and months have several lengths", "fix": fix},
+        )
+    return raw
 
 
 class Target(Declared):
@@ -246,23 +265,23 @@ class Target(Declared):
     SHORT: ClassVar = {"type": "string"}
 
     name: str | None = Field(None, description="Name of an astronomical period; `geartrain periods` lists them")
-    period: Annotated[Span, above_zero(f"give a period {_RETROGRADE}", "a period")] | None = Field(
-        None, description="Time or length of `turns` turns, above 0"
-    )
+    period: (
+        Annotated[Span, BeforeValidator(_check_calendar_unit), above_zero(f"give a period {_RETROGRADE}", "a period")]
+        | None
+    ) = Field(None, description="Time or length of `turns` turns, above 0")
     speed: Figure | None = Field(
         None, description="Speed in the train's unit with its sign; 0 is compared by difference"
     )
     sense: Literal["direct", "retrograde"] | None = Field(
         None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
     )
-    turns: Annotated[
-        Figure,
-        checked(lambda given: given.value > 0, "{text} turns is not a number above 0", f"give a number {_RETROGRADE}"),
-    ] = Field(Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0")
-    tolerance: Annotated[Share, _TOLERANCE] | None = Field(
+    turns: Annotated[Figure, _TURNS] = Field(
+        Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0"
+    )
+    tolerance: Annotated[RelativeError, _TOLERANCE] | None = Field(
         None,
-        description="Maximum relative error, above which `geartrain check` fails; for a speed of 0 the maximum "
-        "difference, as a number in the train's unit; default the error is only reported",
+        description="Maximum relative error, such as 20 ppm or 5 s/d, above which `geartrain check` fails; for a speed "
+        "of 0 the maximum difference, as a number in the train's unit; default the error is only reported",
     )
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
@@ -330,6 +349,15 @@ class Expect(Declared):
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
 
+def _read_printed(raw: object, info: ValidationInfo) -> object:
+    """Read a published value or its tolerance: a time if a period is printed, otherwise a number."""
+    if info.data.get("as_") == "period":
+        return PrintedPeriod.parse(raw)
+    if is_printed_period(raw):
+        raise bad("published", f"'{raw}' is a time, not a number", "add `as: period`")
+    return raw
+
+
 class Published(Declared):
     """Published value of an output, as printed in a source; `geartrain check` compares it with the calculated value.
 
@@ -338,15 +366,33 @@ class Published(Declared):
     Output : its field `published`
     """
 
-    value: Figure = Field(description="Value as printed; the computed value must match all its digits")
-    as_: Literal["speed", "input/output", "output/input"] = Field(
+    # validated first, because it decides how the value is read
+    as_: Literal["speed", "input/output", "output/input", "period"] = Field(
         "speed", alias="as", description="Quantity that is printed; ratios need exactly one non-zero input"
     )
-    tolerance: Annotated[Figure, _TOLERANCE] | None = Field(
-        None, description="Maximum difference, in the unit of the value; default by its digits"
+    value: Annotated[Figure, BeforeValidator(_read_printed)] = Field(
+        description="Value as printed; the computed value must match all its digits. For a period a time, such as "
+        "27.32 d, 24 h 50 min 28.4 s or 29 y 157 d, where y is the train's unit"
+    )
+    magnitude: Boolean = Field(
+        False, description="True to compare a ratio or a speed by its magnitude, because the source prints no sign"
+    )
+    sense: Literal["direct", "retrograde"] | None = Field(
+        None, description="Sense of rotation of a period: direct (positive speed) or retrograde; default either"
+    )
+    turns: Annotated[Figure, _TURNS] = Field(
+        Figure.parse(1), description="Number of turns of the output in the printed period; above 0"
+    )
+    tolerance: Annotated[Figure, BeforeValidator(_read_printed), _TOLERANCE] | None = Field(
+        None, description="Maximum difference, in the unit of the value; for a period a time; default by its digits"
     )
     place: str | None = Field(None, description="Page or table of the source")
     source: str | None = Field(None, description="Key of the source in `sources`")
+
+    @property
+    def unsigned(self) -> bool:
+        """True if only the magnitude is compared."""
+        return self.magnitude or (self.as_ == "period" and self.sense is None)
 
     @model_validator(mode="after")
     def _check_ratio(self) -> Published:
@@ -358,6 +404,21 @@ class Published(Declared):
                 "an input/output ratio of 0 would mean that the input is at rest",
                 {"fix": "write `{value: 0, as: output/input}` for an output at rest"},
             )
+        return self
+
+    @model_validator(mode="after")
+    def _check_sign(self) -> Published:
+        period = self.as_ == "period"
+        if period and not (isinstance(self.value, PrintedPeriod) and self.value.above_zero):
+            fix = "write `{value: 0, as: speed}` for a link at rest"
+            raise bad("published", f"a period of {self.value} is not above 0", fix)
+        if self.magnitude and (period or self.value.value < 0):
+            what = "a period is a magnitude" if period else f"{self.value} with `magnitude: true` is negative"
+            fix = "remove `magnitude`; `sense` gives a period a sign" if period else "remove the minus sign"
+            raise bad("published", what, fix)
+        if not period and (self.sense is not None or "turns" in self.model_fields_set):
+            fix = "remove them, or write `as: period`"
+            raise bad("published", f"`sense` and `turns` belong to a period, not to a value `as: {self.as_}`", fix)
         return self
 
 

@@ -10,8 +10,9 @@ from geartrain.errors import Loc, Problem, dotted, suggest
 from geartrain.numerics.quantity import units_of
 from geartrain.train.declaration import Train
 from geartrain.train.manufacturing import material_table
-from geartrain.train.outputs import Output, Target
+from geartrain.train.outputs import Output, Published, Target
 from geartrain.train.periods import period_table, suggested_period
+from geartrain.train.printed_period import PrintedPeriod, year_seconds
 from geartrain.train.reconstruction import NEW_ARBOR
 from geartrain.train.states import Drive, State
 
@@ -54,6 +55,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
         ((*loc, "loads", link), torque) for loc, part in _cases(train) for link, torque in (part.loads or {}).items()
     ]
     found += [(("links", name, "bearing"), part.bearing.sliding) for name, part in train.links.items() if part.bearing]
+    found += [(("couplings", at), each) for at, coupling in enumerate(train.couplings) for each in coupling.torques]
     found += [(loc, torque) for loc, drive in declared_drives(train) for torque in drive.torques]
     named = next((torque for _, torque in found if torque.unit is not None), None)
     for loc, torque in found:
@@ -127,6 +129,23 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             "for example, add `unit: {per: 1 d}`: a speed of 1 is then one turn per day",
             place,
         )
+
+
+def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Problem]:
+    """Yield a problem if a printed period needs a unit of time, or the length of its years, that the train has not."""
+    printed = published.value
+    if not isinstance(printed, PrintedPeriod):
+        return
+    unit = None if train.unit_speed is None else 1 / train.unit_speed
+    if unit is None:
+        what = f"the printed period '{printed}' needs `unit: {{per: ...}}`"
+        why = "the train's unit is not a time" if train.unit else "the train has no unit of time"
+        fix = "for example, add `unit: {per: 1 d}`: a speed of 1 is then one turn per day"
+        yield Problem(what, why, fix, train.place(*loc))
+    elif printed.years and year_seconds(unit) is None:
+        what = f"the length of the years of '{printed}' is not known"
+        why = "years have several lengths, and y is the unit of the train only if that is a year"
+        yield Problem(what, why, "write the period in days, or declare `unit: {per: 365.25 d}`", train.place(*loc))
 
 
 def _epoch_units(train: Train) -> Iterator[Problem]:
@@ -216,6 +235,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _couplings(train)
     yield from _unresolved(train)
     yield from _prescriptions(train)
+    yield from _one_way(train)
     yield from _reconstruction(train)
     yield from declared_units(train)
 
@@ -374,9 +394,10 @@ def _wheels(train: Train) -> Iterator[Problem]:
                 place,
             )
     for at, coupling in enumerate(train.couplings):
-        if coupling.name in names:
-            yield _duplicate(train, "coupling", coupling.name, "couplings", at)
-        names.add(coupling.name)
+        for name in dict.fromkeys((coupling.name, *coupling.row_names)):
+            if name in names:
+                yield _duplicate(train, "coupling", name, "couplings", at)
+            names.add(name)
 
 
 def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
@@ -390,14 +411,10 @@ def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
 
 def _couplings(train: Train) -> Iterator[Problem]:
     for at, coupling in enumerate(train.couplings):
-        if len(set(coupling.ends)) < len(coupling.ends):
-            twice = next(link for link in coupling.ends if coupling.ends.count(link) > 1)
-            yield Problem(
-                f"coupling '{coupling.name}' joins '{twice}' to itself",
-                f"{' and '.join(coupling.SIDES)} must be on different links",
-                "name the other link",
-                train.place("couplings", at),
-            )
+        known = {"link": train.links, "wheel": train.wheels}
+        # unknown names are reported as such
+        if all(name in known[kind] for kind, name, _ in coupling.references()):
+            yield from (Problem(*each, train.place("couplings", at)) for each in coupling.problems(train.wheels))
 
 
 def _unresolved(train: Train) -> Iterator[Problem]:
@@ -431,12 +448,14 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
             yield from _output_references(train, name, output, (*loc, "outputs", name))
     if train.escapement is not None:
         yield "link", train.escapement.link, ("escapement", "link")
+        yield "link", train.escapement.on, ("escapement", "on")
     yield "link", train.crank, ("crank",)
     yield "link", train.solve_for, ("solve_for",)
     for name, clutch in train.clutches.items():
         yield from (("link", link, ("clutches", name)) for link in (*(clutch.locks or ()), clutch.fixes))
     for name, state in train.states.items():
-        yield from (("clutch", clutch, ("states", name, "engaged", at)) for at, clutch in enumerate(state.engaged))
+        for key, named in (("engaged", state.engaged), ("free", state.free)):
+            yield from (("clutch", clutch, ("states", name, key, at)) for at, clutch in enumerate(named))
     stated: list[tuple[Loc, Any]] = [((key,), getattr(train, key)) for key in ("epoch", "cutting", "fitting")]
     for link, each in train.links.items():
         for name, wheel in each.wheels.items():
@@ -482,6 +501,8 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
         for name, output in part.outputs.items():
             for at, target in enumerate(output.targets):
                 yield from target_units(train, target, (*loc, "outputs", name, "targets", at))
+            if output.published is not None:
+                yield from published_units(train, output.published, (*loc, "outputs", name, "published"))
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
     yield from rates(train)
@@ -493,6 +514,19 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
             "name the link of the escape wheel",
             train.place("escapement", "link"),
         )
+
+
+def _one_way(train: Train) -> Iterator[Problem]:
+    """Yield problems of clutches under `free`, which must be one-way and not engaged in the same state."""
+    for name, state in train.states.items():
+        for at, clutch in enumerate(state.free):
+            place = train.place("states", name, "free", at)
+            if clutch in train.clutches and train.clutches[clutch].one_way is None:
+                why = "`free` withdraws one-way clutches, and other clutches are open unless they are engaged"
+                yield Problem(f"'{clutch}' is not a one-way clutch", why, "omit it from `free`", place)
+            elif clutch in state.engaged:
+                why = "it is required to hold, and not in force"
+                yield Problem(f"'{clutch}' is engaged and free", why, "remove it from `engaged` or `free`", place)
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:

@@ -184,8 +184,9 @@ TOP = {"name", "title", "unit", "mobility", "states"}
 ANSWER = {"state", "verdict", "method", "speeds", "outputs"}
 VERDICT = {"kind", "text", "links", "fixes", "prescriptions", "loops"}
 MOBILITY = {"by_count", "by_rank", "rank", "redundant", "redundant_loops", "locked_loops", "still", "never_rolling"}
-OUTPUT = {"exact", "value", "of", "relative_to", "output/input", "expect", "published", "targets"}
+OUTPUT = {"exact", "value", "of", "relative_to", "output/input", "period_s", "expect", "published", "targets"}
 TARGET = {"target", "speed", "compared", "ppm", "days_per_century", "degrees_per_unit", "met"}
+TARGET |= {"seconds_per_day", "seconds_per_year", "days_to_one_day"}
 REPORT = {"closure", "build_findings", "gridlock", "sources", "circuits", "adjacency", "remarks", "sensitivity"}
 REPORT |= {"teeth", "pins", "torques", "strength", "motion", "errata"}
 

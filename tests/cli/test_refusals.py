@@ -37,7 +37,7 @@ montecarlo pair.yaml --trials 64 --vary clearance_factor=a:b | not a sweep
 posterior doubt.yaml --free w=22:18 | --free: the range 22:18 is reversed
 posterior doubt.yaml --free w | --free: 'w' is not a wheel with counts
 posterior doubt.yaml --free w=many | --free: 'many' is not a tooth count
-posterior doubt.yaml --tolerance '2 mm' | --tolerance: '2 mm' is a length, but a fraction is required
+posterior doubt.yaml --tolerance '2 mm' | --tolerance: '2 mm' is a length, but a fraction or a clock rate is required
 posterior doubt.yaml -o out.stl | -o: '.stl' is not an output format of this option
 
 # teeth

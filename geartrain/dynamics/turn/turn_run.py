@@ -178,8 +178,8 @@ class TurnRun:
 
     @cached_property
     def narrowest(self) -> float:
-        """Shortest wave of all transmission functions [revolutions of the input]."""
-        fastest = max((each.waves for each in self.train.motion.sources.values()), default=0.0)
+        """Period of the fastest transmission function [revolutions of the input]."""
+        fastest = max((each.pace for each in self.train.motion.sources.values()), default=0.0)
         # the length of the run if no pair is evaluated at positions
         return 1 / max(fastest, 1 / self.span)
 

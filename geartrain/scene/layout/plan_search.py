@@ -11,7 +11,7 @@ give the bounds of its distance. The cost of a position is the overlap of wheels
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import combinations
@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.numerics.graphs import joined_groups
 from geartrain.scene.layout.declared_geometry import Point
 from geartrain.scene.layout.plan_problem import PlanProblem
 from geartrain.scene.layout.wheel_modules import WheelSize
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 
 _HARD = 100.0  # cost per mm of overlap of wheels in one level
+_PULLEYS = 1.1  # minimum distance of two pulleys of one belt, divided by the sum of their radii
 _OVER = 1.0  # cost per mm of overlap of discs in different levels, because fewer levels are better
 _COVER = 2.0  # cost per mm of a disc over another axis, whose arbor it may hit
 
@@ -88,7 +90,9 @@ class PlanClearance:
 
 
 def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanProblem) -> Floats:
-    """Return minimum distances [mm] between axes whose wheels share a level and do not mesh; 0 for other axes."""
+    """Return minimum distances [mm] between axes whose wheels share a level and do not mesh, and between the pulleys of
+    one belt; 0 for other axes.
+    """
     need = np.zeros((len(discs), len(discs)))
     clusters: dict[int, list[tuple[int, str]]] = {}
     for at, own in enumerate(discs):
@@ -98,6 +102,11 @@ def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanPr
         for (a, one), (b, other) in combinations(members, 2):
             if a != b and frozenset((one, other)) not in problem.mates:
                 need[a, b] = need[b, a] = max(need[a, b], discs[a][one].outer + discs[b][other].outer)
+    number = {label: at for at, label in enumerate(problem.labels)}
+    for belt in problem.belts:
+        for one, other in combinations(belt.keys() & number.keys(), 2):
+            a, b = number[one], number[other]
+            need[a, b] = need[b, a] = max(need[a, b], _PULLEYS * (belt[one] + belt[other]))
     return need
 
 
@@ -137,8 +146,11 @@ class PlanOrder:
     index    index of each axis
     radius   radius of the widest wheel of each axis [mm]
     bars     all required distances
+    pivot    carried axis -> axis of its carrier
     alike    axis -> all axes of its carrier, including itself, that have only one bar, of equal length, to the axis of
              the carrier
+    rotated  axis of a group of carried axes -> corresponding axis of the first group with equal bars, and the angle
+             between the groups about the axis of the carrier [turns]
     steps    axes in the order in which they are placed
     """
 
@@ -149,19 +161,41 @@ class PlanOrder:
         self._joined: list[dict[int, float]] = [{} for _ in problem.labels]
         for a, b, length in self.bars:
             self._joined[a][b] = self._joined[b][a] = length
-        self._pivot = {self.index[a]: self.index[b] for a, b in problem.pivots.items() if b in self.index}
+        self.pivot = {self.index[a]: self.index[b] for a, b in problem.pivots.items() if b in self.index}
         fixed = {self.index[label] for label in problem.fixed}
-        self.alike = self._find_alike(fixed)
+        groups = list(self._find_alike(fixed))
+        self.alike = {each[0]: tuple(at for (at,) in equal) for equal in groups for each in equal if len(each) == 1}
+        self.rotated = {
+            at: (first, number / len(equal))
+            for equal in groups
+            for number, each in enumerate(equal)
+            for at, first in zip(each, equal[0], strict=True)
+            if number and len(each) > 1
+        }
         self.steps = self._find_steps(fixed)
 
-    def _find_alike(self, fixed: set[int]) -> dict[int, tuple[int, ...]]:
-        alike: dict[tuple[int, float, float], list[int]] = {}
-        for at, joined in enumerate(self._joined):
-            if len(joined) == 1 and self._pivot.get(at) in joined and at not in fixed:
-                (pivot, length), *_ = joined.items()
-                # rounded, so that equal lengths compare equal
-                alike.setdefault((pivot, round(length, 9), round(float(self.radius[at]), 9)), []).append(at)
-        return {at: tuple(group) for group in alike.values() for at in group}
+    def _find_alike(self, fixed: set[int]) -> Iterable[Sequence[Sequence[int]]]:
+        """Return lists of equal groups of axes. A group is carried by one carrier, and its bars join its axes to each
+        other and to the axis of the carrier.
+        """
+        carried = [at for at in self.pivot if at not in fixed]
+        bars = [bar[:2] for bar in self.bars if self.pivot.get(bar[0]) != bar[1] and self.pivot.get(bar[1]) != bar[0]]
+        alike: dict[tuple[object, ...], list[list[int]]] = {}
+        for group in joined_groups(sorted(carried), bars):
+            pivot = self.pivot[group[0]]
+            ends = {end for at in group for end in self._joined[at]}
+            if pivot in ends and ends <= {pivot, *group} and all(self.pivot[at] == pivot for at in group):
+                alike.setdefault((pivot, *self._shape(group, pivot)), []).append(group)
+        return alike.values()
+
+    def _shape(self, group: Sequence[int], pivot: int) -> Iterator[tuple[float, ...]]:
+        """Yield the radius of each axis of a group and its distances to the other axes and to the pivot.
+
+        The numbers are rounded, so that equal lengths compare equal.
+        """
+        for at in group:
+            joined = self._joined[at]
+            yield (round(float(self.radius[at]), 9), *(round(joined.get(end, -1.0), 9) for end in (*group, pivot)))
 
     def _find_steps(self, placed: set[int]) -> list[PlanStep]:
         order = sorted(placed)
@@ -184,7 +218,7 @@ class PlanOrder:
         An axis comes after the axis of its carrier. Among other axes, the one with the most placed neighbours comes
         first, then the one with the largest radius, or without placed neighbours the one with the most bars.
         """
-        late = at in self._pivot and self._pivot[at] not in placed
+        late = at in self.pivot and self.pivot[at] not in placed
         tied = len(self._joined[at].keys() & placed)
         weight = float(self.radius[at]) if tied else float(len(self._joined[at]))
         # rounded, so that equal radii keep the order declared
@@ -353,6 +387,9 @@ class _BeamSearch:
         row = self._in_row(step, points)
         if row:
             return np.array(row)
+        rotated = self._rotated(step, points)
+        if rotated:
+            return np.array(rotated)
         if not step.tied:
             return np.array(self._outside(step, points))
         found = [
@@ -385,6 +422,19 @@ class _BeamSearch:
                 for side in (1, -1)
             ]
         return []
+
+    def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
+        """Return the point of an axis in a group of planets that is placed as the first equal group, rotated about the
+        axis of the carrier; empty for other axes.
+        """
+        first, turn = self.order.rotated.get(step.axis, (None, 0.0))
+        placed = set(step.placed.tolist())
+        if first not in placed or self.order.pivot[step.axis] not in placed:
+            return []
+        x, y = points[self.order.pivot[step.axis]].tolist()
+        u, v = (points[first] - (x, y)).tolist()
+        c, s = cos(2 * pi * turn), sin(2 * pi * turn)
+        return [(x + c * u - s * v, y + s * u + c * v)]
 
     def _outside(self, step: PlanStep, points: Floats) -> list[Point]:
         """Return points outside all placed axes, in eight directions; the origin if no axis is placed."""

@@ -32,6 +32,7 @@ from geartrain.search.constraints.count_conditions import (
     WholeSum,
     are_coprime,
     are_divisible,
+    are_owned,
     counts_of,
     decimal,
     distance_of,
@@ -48,6 +49,8 @@ from geartrain.search.constraints.count_conditions import (
 )
 from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
 from geartrain.search.tooth_count_ranges import MOST_TEETH
+from geartrain.train.mechanism import Teeth
+from geartrain.train.owned_wheels import OwnedWheels
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -96,8 +99,21 @@ class _ConstraintBuilder:
         yield from sorted(linear, key=lambda rule: not isinstance(rule, CountEquation))
         yield from self._pairs()
         yield from self._planets()
+        yield from self._owned()
         if self.requested.closure:
             yield from DeclaredPositions(self.fitting, self.requested.shift).conditions()
+
+    def _owned(self) -> Iterator[CountConstraint]:
+        """Yield a condition for each collection of owned wheels: no more wheels of a count are used than it has."""
+        wheels: dict[tuple[tuple[int, int], ...], dict[str, int]] = {}
+        for name, (link, wheel) in self.declared.wheels.items():
+            search = wheel.teeth.search if isinstance(wheel.teeth, Teeth) else None
+            if name in self.fitting.free and isinstance(search, OwnedWheels) and search.numbers:
+                # every copy of a planet has its own wheel
+                wheels.setdefault(search.numbers, {})[name] = self.declared.links[link].copies or 1
+        for numbers, used in wheels.items():
+            words = "the number of owned wheels: " + ", ".join(f"{number} of {count}" for count, number in numbers)
+            yield Condition(words, tuple(used), partial(are_owned, numbers, used))
 
     # ------------------------------------------------------------------------------------------------------- one wheel
 

@@ -213,6 +213,16 @@ def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) ->
     return np.asarray(np.gcd(counts_of(columns, first), counts_of(columns, second)) == 1)
 
 
+def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], columns: CandidateColumns) -> Bools:
+    """Return whether each candidate uses at most the given number of wheels of each count.
+
+    numbers   tooth counts, and the number of wheels of each
+    used      number of equal wheels that each varied wheel represents
+    """
+    total = {count: sum((columns[wheel] == count) * pieces for wheel, pieces in used.items()) for count, _ in numbers}
+    return np.asarray(np.all([total[count] <= most for count, most in numbers], axis=0))
+
+
 def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:
     """Return whether the tooth count of a wheel differs from all other counts."""
     return np.asarray(np.all([columns[wheel] != counts_of(columns, other) for other in others], axis=0))

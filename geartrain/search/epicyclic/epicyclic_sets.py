@@ -337,16 +337,21 @@ class EpicyclicSet(CountSizes, Result):
         """True if the planets can be assembled with equal spacing."""
         return self.places % self.planets == 0
 
-    def to_train(self) -> dict[str, Any]:
+    def to_train(self, copies: int = 1) -> dict[str, Any]:
         """Return a declaration of the epicyclic set as plain data.
 
-        The train has one planet, input speed 1, and the exact output speed as its expected value.
+        The input speed is 1, and the exact output speed is the expected value.
+
+        Parameters
+        ----------
+        copies : int
+            Number of equal planets; `equally_spaced` is True if `planets` of them can be assembled.
         """
         kind, mode = epicyclic_kind(self.kind), self.mode
         return {
             "name": f"{kind.name}-{mode.key.replace(':', '-')}",
             "title": f"{kind.title}: {mode}",
-            "links": _links(kind, self.teeth),
+            "links": _links(kind, self.teeth, copies),
             **({"axes": _AXES} if kind.bevel else {}),
             "revolutes": list(_revolutes(kind)),
             "gears": [{"pair": [member.wheel, member.mesh]} for member in kind.members]
@@ -435,7 +440,7 @@ def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
 _AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}
 
 
-def _links(kind: EpicyclicKind, teeth: Mapping[str, int]) -> dict[str, Any]:
+def _links(kind: EpicyclicKind, teeth: Mapping[str, int], copies: int) -> dict[str, Any]:
     links: dict[str, Any] = {"frame": {}}
     for at, member in enumerate(kind.members):
         # the second side wheel faces the first
@@ -444,6 +449,8 @@ def _links(kind: EpicyclicKind, teeth: Mapping[str, int]) -> dict[str, Any]:
     links[CARRIER] = {}
     for name, wheels in zip(_planet_links(kind), kind.planets, strict=True):
         links[name] = {"wheels": {wheel: _wheel(kind, teeth[wheel], False) for wheel in wheels}}
+        if copies > 1:
+            links[name]["copies"] = copies
     return links
 
 

@@ -93,7 +93,7 @@ def run(
         clearance=room,
         slack=shift,
     )
-    answer.give(found, lambda at: found.solutions[at].to_train())
+    answer.give(found, lambda at: found.solutions[at].to_train(planets or 1))
 
 
 def _list(answer: SearchAnswer) -> None:

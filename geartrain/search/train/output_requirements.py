@@ -10,7 +10,7 @@ from math import prod
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas
-from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of
+from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of, in_plain_units, unit_seconds
 from geartrain.numerics.exact import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.quantity import Figure
@@ -248,7 +248,7 @@ def _demands(
         allowed = _around(value.value, _half(value, output.expect.tolerance))
         yield SpeedRequirement(f"expect {value}", value.value, True, (allowed,), not requested)
     if output.published is not None:
-        yield from _printed(output.published, drive, not requested)
+        yield _printed(train, output.published, drive, not requested)
     for target in requested:
         yield SpeedRequirement.of(
             goal_of(train, target), tolerance if target.tolerance is None else target.tolerance.base
@@ -259,27 +259,39 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
     return abs(tolerance.value) if tolerance is not None else value.half or Fraction(0)
 
 
-def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iterator[SpeedRequirement]:
-    """Yield the requirement of a published value.
+def _printed(train: Train, published: Published, drive: Fraction | None, graded: bool) -> SpeedRequirement:
+    """Return the requirement of a published value.
 
-    A published ratio needs the speed of a single input. Without it no speed is admissible.
+    A published ratio needs the speed of a single input, and a period a unit of time. Without them no speed is
+    admissible.
     """
-    label = f"published {published.value} {published.as_}"
-    half = _half(published.value, published.tolerance)
-    low, high = published.value.value - half, published.value.value + half
-    if published.as_ == "speed":
-        yield SpeedRequirement(label, published.value.value, True, ((low, high),), graded)
-    elif drive is None:
-        # no interval: no speed is admissible
-        yield SpeedRequirement(label, Fraction(1), True, (), False)
-    elif published.as_ == "output/input":
-        ends = sorted((low * drive, high * drive))
-        yield SpeedRequirement(label, published.value.value * drive, True, ((ends[0], ends[1]),), graded)
+    label, unit, signed = f"published {published.value} {published.as_}", unit_seconds(train), not published.unsigned
+    printed = in_plain_units(published.value, unit)
+    half = _half(printed, published.tolerance and in_plain_units(published.tolerance, unit))
+    if published.as_ == "period":
+        scale = unit and unit * published.turns.value * (-1 if published.sense == "retrograde" else 1)
     else:
-        wanted = drive / published.value.value if published.value.value else Fraction(0)
-        allowed = tuple(_inverse(low, high, drive))
-        # a ratio of 0 corresponds to no finite speed, so no error can be computed
-        yield SpeedRequirement(label, wanted, True, allowed, graded and bool(wanted))
+        scale = Fraction(1) if published.as_ == "speed" else drive
+    if scale is None:
+        # no interval: no speed is admissible
+        return SpeedRequirement(label, Fraction(1), True, (), False)
+    if published.as_ in ("speed", "output/input"):
+        wanted, half = printed.value * scale, half * abs(scale)
+        near = (_around(wanted, half),) if signed else _magnitudes(abs(wanted), half)
+        return SpeedRequirement(label, wanted if signed else abs(wanted), signed, near, graded)
+    wanted = scale / printed.value if printed.value else Fraction(0)
+    low, high = _around(printed.value, half)
+    allowed = tuple(_inverse(low if signed else max(low, Fraction(0)), high, scale))
+    if not signed:
+        wanted, allowed = abs(wanted), (*allowed, *map(_mirrored, allowed))
+    # a ratio of 0 corresponds to no finite speed, so no error can be computed
+    return SpeedRequirement(label, wanted, signed, allowed, graded and bool(wanted))
+
+
+def _mirrored(interval: Interval) -> Interval:
+    """Return the interval of the opposite speeds."""
+    low, high = interval
+    return None if high is None else -high, None if low is None else -low
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:

@@ -44,7 +44,11 @@ def run(
     to: Annotated[Path | None, typer.Option("--to", help="Write all files to this folder.")] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--output-file", "-o", help="Write one file: .glb, .stl, .step, .graphml, .dot, .rexsj or .fmu."),
+        typer.Option(
+            "--output-file",
+            "-o",
+            help="Write one file: .glb, .stl, .step, .graphml, .dot, .rexsj, .rexs, .urdf, .xml (MJCF) or .fmu.",
+        ),
     ] = None,
     kinds: Annotated[
         str | None,
@@ -143,12 +147,13 @@ def run(
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
     work = SolidModel(train, _sizes(lengths, process, spokes, sheet), train.declaration.state_or_first(state))
     shown = None if turns is None else read_turns("--turns", turns)
+    ready = True
     if out is not None:
         _write_one(work, out, wheel, shown, force)
     else:
         assert to is not None
-        _write_folder(work, to, kinds, wheel, shown, force)
-    raise typer.Exit(GOOD if is_sound(work.sized, state) else VERDICT)
+        ready = _write_folder(work, to, kinds, wheel, shown, force)
+    raise typer.Exit(GOOD if ready and is_sound(work.sized, state) else VERDICT)
 
 
 def _refuse(given: Mapping[str, object], what: str, why: str, fix: str) -> None:
@@ -202,7 +207,7 @@ def _sheet(text: str) -> tuple[float, float]:
 
 
 def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
-    from geartrain.workshop.export.file_set import WHEEL_SUFFIXES, kind_of, train_file, wheel_file
+    from geartrain.workshop.export.file_set import WHEEL_SUFFIXES, kind_of, simplifications, train_file, wheel_file
 
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
@@ -213,11 +218,14 @@ def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction |
     kind = "" if wheel is not None else kind_of(out.name)
     to = sink(out, force)
     to.write(wheel_file(work, wheel, suffix) if wheel is not None else train_file(work, kind, turns))
+    for problem in simplifications(work, kind):
+        tell(f"note: {problem}")
 
 
 def _write_folder(
     work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool
-) -> None:
+) -> bool:
+    """Write all files of an export, and return False if its parts are proved not to be ready to cut."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.workshop.export.assembly_guide import unproved
     from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
@@ -241,6 +249,7 @@ def _write_folder(
     tell(f"wrote {plural(count, 'file')} to {to}")
     if parts_requested(wanted):
         tell(unproved().replace("*", "").replace("`", "") if proof is None else proof.verdict)
+    return proof is None or proof.is_ready
 
 
 def _proof(work: SolidModel) -> TrainProof | None:

@@ -168,8 +168,8 @@ def find_gears(
     Raises
     ------
     QuestionError
-        If the train is not a gearbox, has no input that turns or no output, or has too many combinations of closed
-        elements.
+        If the train is not a gearbox, has no input that turns or no output, has one-way clutches, or has too many
+        combinations of closed elements.
 
     Examples
     --------
@@ -179,6 +179,10 @@ def find_gears(
     [2.455, 1.455, 1.0]
     """
     source, link = gearbox_ends(train.declaration, output)
+    if one_way := [name for name, each in train.declaration.clutches.items() if each.one_way is not None]:
+        what = f"the search for gears does not include the one-way clutches {', '.join(one_way)}"
+        why = "they close by themselves, so that gears have different numbers of closed elements"
+        raise QuestionError(Problem(what, why, "declare them without `one_way`, as clutches that hold both ways"))
     found = _all_gears(train, source, link)
     forward = [each for each in found.gears if each.ratio is not None and each.ratio > 0]
     if gears < 2:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer, Verdict
     from geartrain.train import Clutch, Train
 
-ElementKind = Literal["brake", "clutch"]
+ElementKind = Literal["brake", "clutch", "one-way brake", "one-way clutch"]
 
 
 @dataclass(frozen=True)
@@ -30,14 +30,14 @@ class GearState(Result):
     """Results of one state of a gearbox: speeds, ratio, slips, torques and recirculating power."""
 
     KEYS = (
-        *("state", "engaged", "verdict", "ratio", Key("step", to=as_float), "driven_by", "speeds", "slips"),
+        *("state", "engaged", "one_way", "verdict", "ratio", Key("step", to=as_float), "driven_by", "speeds", "slips"),
         *(Key(name, to=as_float) for name in ("torques", "efficiency", "recirculating", "mesh_power")),
     )
 
     state: str
     """Name of the state."""
     engaged: tuple[str, ...]
-    """Names of the closed clutches and brakes."""
+    """Names of the closed clutches and brakes, including one-way clutches that hold."""
     verdict: Verdict
     """Verdict on the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
@@ -69,6 +69,13 @@ class GearState(Result):
     """Maximum power through a pair in the frame of its carrier, divided by input power; 0 if all links turn as one
     block. None if the torques are not determined.
     """
+    one_way: tuple[str, ...] = ()
+    """Names of the one-way clutches that hold with a torque; they hold only while the input drives."""
+
+    @property
+    def applied(self) -> tuple[str, ...]:
+        """Names of the closed clutches and brakes that are engaged from outside, without one-way clutches."""
+        return tuple(name for name in self.engaged if name not in self.one_way)
 
 
 @dataclass(frozen=True)
@@ -101,7 +108,7 @@ class ShiftElement(Result):
     name: str
     """Name of the clutch or brake."""
     kind: ElementKind
-    """Kind of the element: "brake" or "clutch"."""
+    """Kind of the element: "brake" or "clutch", with "one-way " before it for a one-way clutch."""
     states: tuple[str, ...]
     """States in which the element is closed."""
     torque: Fraction | None
@@ -224,7 +231,8 @@ def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
 
 def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> GearState:
     declared, state = train.declaration, answer.state or ""
-    engaged, given = declared.states[state].engaged, declared.case(state).inputs
+    case = declared.case(state)
+    engaged, given = case.closed, case.inputs
     # unit of speed: the input, or another input if the input is at rest
     drive = next((name for name in (source, *given) if answer.speeds.get(name)), "")
     unit = Fraction(answer.speeds[drive]) if drive else 1
@@ -244,10 +252,11 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
         drive,
         speeds,
         slips,
-        {} if load is None else _torques(load, source, engaged),
+        {} if load is None else _torques(load, source, {name: declared.clutches[name].links for name in engaged}),
         None if load is None else load.efficiency,
         None if load is None or shared is None else _circulation(shared),
         None if load is None or shared is None else shared.circulating,
+        tuple(each.name for each in case.one_way if each.name in engaged),
     )
 
 
@@ -266,9 +275,12 @@ def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques 
     return found if found.verdict and found.external.get(source) else None
 
 
-def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fraction | None]:
-    drive, held = load.external[source], {each.clutch: each.torques for each in load.held}
-    known = {name: held[name] for name in engaged if name in held}
+def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
+    """Return the torque of each closed element; `engaged` maps its name to the links that it holds."""
+    drive, held = load.external[source], {each.links: each.torques for each in load.held}
+    known = {name: held[links] for name, links in engaged.items() if links in held}
+    # elements that hold the same links share their torque in an unknown ratio
+    known |= {name: None for name, links in engaged.items() if list(engaged.values()).count(links) > 1}
     return {name: None if torques is None else torques[0] / drive for name, torques in known.items()}
 
 
@@ -316,8 +328,8 @@ def _shifts(states: Sequence[GearState]) -> Iterator[Shift]:
     running = [each for each in states if each.ratio is not None]
     for one, other in pairwise(running):
         if one.ratio is not None and other.ratio is not None and one.ratio * other.ratio > 0:
-            released = tuple(name for name in one.engaged if name not in other.engaged)
-            applied = tuple(name for name in other.engaged if name not in one.engaged)
+            released = tuple(name for name in one.applied if name not in other.applied)
+            applied = tuple(name for name in other.applied if name not in one.applied)
             yield Shift(one.state, other.state, released, applied)
 
 
@@ -327,6 +339,8 @@ def _elements(train: TrainMechanics, states: Sequence[GearState]) -> Iterator[Sh
         torque, at = _maximum((each.state, each.torques.get(name)) for each in states)
         slip, where = _maximum((each.state, each.slips.get(name)) for each in states)
         kind: ElementKind = "brake" if clutch.fixes is not None else "clutch"
+        if clutch.one_way is not None:
+            kind = "one-way brake" if clutch.fixes is not None else "one-way clutch"
         yield ShiftElement(name, kind, closed, torque, at, slip, where)
 
 

@@ -24,30 +24,43 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.errors import GearTrainError, check_choice
+from geartrain.wings import wing
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
 def write_template(
     kind: Annotated[
-        str,
+        str | None,
         typer.Argument(help="Template: planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND"),
-    ],
+    ] = None,
+    unit: Annotated[
+        Path | None,
+        typer.Option("--from", help="Read a gear unit from this REXS file (.rexsj, .rexs or .rexsz) instead."),
+    ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
     """Write a small commented declaration that runs without changes, to KIND.yaml in the current folder or to the file
-    of -o.
+    of -o; or write the declaration of the gear unit in a REXS file.
 
-    Example: `geartrain init planetary -o first.yaml`.
+    Examples: `geartrain init planetary -o first.yaml`; `geartrain init --from gearbox.rexsj`.
     """
-    kinds = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
-    check_choice("template", kind, kinds)
+    if (kind is None) == (unit is None):
+        what = "neither KIND nor --from is given" if kind is None else "KIND and --from are both given"
+        raise option_error("init", what, "give KIND, such as planetary, or --from FILE", "a declaration has one origin")
     # a file in the current folder, so that the printed commands can be pasted
-    path = Path(f"{kind}.yaml") if out is None else out
+    path = Path(f"{kind or (unit and unit.stem)}.yaml") if out is None else out
     to = sink(path, force)
+    if unit is not None:
+        text, notes = wing("workshop.rexs.unit_import").declaration_of(unit)
+        for note in notes:
+            tell(f"note: {note}")
+    else:
+        check_choice("template", kind or "", sorted(path.stem for path in TEMPLATES.glob("*.yaml")))
+        text = (TEMPLATES / f"{kind}.yaml").read_text(encoding="utf-8")
     # `emit` appends the final line feed
-    emit((TEMPLATES / f"{kind}.yaml").read_text(encoding="utf-8").removesuffix("\n"), to)
+    emit(text.removesuffix("\n"), to)
     if to.path is not None:
         tell(f"next: geartrain check {path}; geartrain report {path}; geartrain view {path} -o {path.stem}.html")
 

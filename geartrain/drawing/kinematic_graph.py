@@ -342,7 +342,7 @@ def _legend(edges: Sequence[GraphEdge]) -> Iterator[Line2D]:
     for kind, words in (
         ("revolute", "turning pair, with its axis"),
         ("gear", "gear pair"),
-        ("coupling", "pin in a slot"),
+        ("coupling", "coupling"),
     ):
         if kind in kinds:
             width, dashes, color = _EDGE_STYLES[kind]

@@ -22,8 +22,10 @@ from geartrain.drawing.projection import (
     coupling_spans,
     draw_across,
     draw_obliquely,
+    draw_shapes,
     draw_side,
     oblique_callouts,
+    part_points,
     project_scene,
 )
 from geartrain.drawing.style import (
@@ -88,6 +90,7 @@ def draw_flat(page: ScaledPage, projected: ProjectedScene) -> None:
     _draw_waves(page, projected)
     for coupling in scene.couplings:
         _draw_coupling(page, projected, coupling)
+    draw_shapes(page.axes, projected, page.at)
     for spot in {tuple(np.round(page.at(projected.seen(projected.centre(wheel))), 4)) for wheel in wheels}:
         page.axes.add_artist(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
 
@@ -345,6 +348,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
         draw_flat(page, projected)
     else:
         draw_obliquely(axes, projected, page.at)
+        draw_shapes(axes, projected, page.at)
     for wheel, (x, y, _, _) in written:
         words, x, y = f"{wheel.id}\n{wheel.teeth}", x + shift[0], y + shift[1]
         write(axes, x, y, words, fontsize=FINE, gid=f"name {wheel.id}", linespacing=1.0)
@@ -389,7 +393,8 @@ class _PlanSize:
         """Return the dimensions of a scene in its pose."""
         wheels, bodies = projected.scene.wheels, projected.scene.bodies
         hubs = [[projected.pose.point(at, body.point)] for at, body in enumerate(bodies)]  # without wheels: the size
-        points = projected.seen(np.concatenate([*(_extent(projected, wheel) for wheel in wheels), *hubs]))
+        shapes = [projected.pose.point(part.body, part_points(part)) for part in projected.scene.shapes]
+        points = projected.seen(np.concatenate([*(_extent(projected, wheel) for wheel in wheels), *shapes, *hubs]))
         low, high = points.min(0), points.max(0)
         size = np.maximum(high - low, 1e-6)  # a train of points only has no extent, and the scale divides by it
         side = min(max(_MINIMUM, _WHEEL * len(wheels) ** 0.5 * 1.7), _MOST)
@@ -485,12 +490,14 @@ def _scale_bar(axes: Axes, scale: float) -> None:
 
 def _legend(projected: ProjectedScene, lists: bool) -> Iterator[Line2D | Patch]:
     scene = projected.scene
-    if projected.flat:
+    if projected.flat and scene.wheels:
         yield Line2D([], [], color=BLUE, linestyle="-.", linewidth=0.6, label="pitch circles")
     if any(body.role == "carrier" for body in scene.bodies):
         yield Line2D([], [], color=ORANGE, linewidth=4.5, label="carriers")
     if scene.couplings:
         yield Line2D([], [], color=PURPLE, linewidth=5.5, label="slots and pins")
+    if scene.shapes:
+        yield Patch(facecolor="white", edgecolor=PURPLE, label="couplings")
     if any(pair.broken for pair in scene.pairs):
         yield Patch(facecolor="white", edgecolor=RED, label="loop that does not close")
     if lists:

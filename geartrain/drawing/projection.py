@@ -22,16 +22,18 @@ from geartrain.drawing.style import (
     FINE,
     GREY,
     ORANGE,
+    PURPLE,
     RED,
     SHADE,
     Axes,
+    Circle,
     Path,
     PolyCollection,
     Polygon,
     Rectangle,
 )
 from geartrain.numerics.polylines import simplified
-from geartrain.scene import Scene, SceneCoupling, SceneWave, SceneWheel
+from geartrain.scene import Scene, SceneCoupling, ScenePart, SceneWave, SceneWheel
 from geartrain.scene.layout.wheel_reach import CROWN, height_on_cone, taper
 from geartrain.scene.palette import series_colour
 from geartrain.scene.pose import ScenePose, scene_pose
@@ -225,6 +227,43 @@ def coupling_spans(
     along, reach = pin - hub, coupling.offset * scale
     far = float(np.hypot(*along)) or 1.0
     return [hub + np.outer([max(far - 1.2 * reach, 0.3 * far), far + 0.6 * reach + 0.04], along / far)]
+
+
+def part_points(part: ScenePart, outline: int = 0) -> Floats:
+    """Return points of a part in the zero pose (n, 3) [mm]: an outline of a flat part, the section of a turned part."""
+    x, z = np.array(part.across), np.array(part.direction)
+    if part.outlines:
+        flat = np.array(part.outlines[outline]).reshape(-1, 2)
+        return np.asarray(np.array(part.place) + flat[:, :1] * x + flat[:, 1:] * np.cross(z, x))
+    low, high = part.bands[0][0], part.bands[-1][1]
+    wide = max(radius for _, _, radius, _ in part.bands)
+    ring = [(low, wide), (high, wide), (high, -wide), (low, -wide)]
+    return np.asarray([np.array(part.place) + along * z + out * x for along, out in ring])
+
+
+def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
+    """Draw the shapes of couplings: flat parts by their outlines, turned parts by their section or their circle.
+
+    place   conversion of view coordinates (..., 3) to inches (..., 2)
+    """
+    for part in projected.scene.shapes:
+        style: dict[str, Any] = {
+            "facecolor": (*to_rgb(PURPLE), 0.12),
+            "edgecolor": PURPLE,
+            "linewidth": 0.8,
+            "zorder": 5,
+        }
+        lines = range(len(part.outlines)) if part.outlines else (0,)
+        outlines = [place(projected.seen(projected.pose.point(part.body, part_points(part, at)))) for at in lines]
+        if part.bands:
+            centre = place(projected.seen(projected.pose.point(part.body, np.array(part.place))))
+            end_on = abs(float(projected.pose.way(part.body, part.direction) @ projected.screen[2])) > 1 - 1e-9
+            if end_on:
+                side = float(np.hypot(*(outlines[0][1] - centre)))
+                axes.add_artist(Circle((float(centre[0]), float(centre[1])), side, gid=part.name, **style))
+                continue
+        for at, line in enumerate(outlines):
+            axes.add_artist(Polygon(line, gid=part.name, **(style | ({"facecolor": "white"} if at else {}))))
 
 
 def broken_wheels(scene: Scene) -> set[str]:

@@ -71,7 +71,8 @@ def _element_width(train: GearTrain) -> float:
 def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
     """Draw each brake or clutch as a pair of plates between a link and the frame, or between two links.
 
-    The plates of brakes and clutches that are closed in the state are drawn in contact.
+    The plates of brakes and clutches that are closed in the state are drawn in contact. A triangle marks a one-way
+    clutch; it points to the right if the clutch overruns forward.
 
     left     left end of the first element [in]
     middle   height of all plates [in]
@@ -87,6 +88,9 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
             plate = middle + side * gap
             axes.plot([x - _PLATE, x + _PLATE], [plate, plate], color=color, linewidth=PLATE, gid=f"element {name}")
             axes.plot([x, x], [plate, middle + side * _HALF], color=color, linewidth=STEM)
+        if clutch.one_way is not None:
+            sense = ">" if clutch.one_way == "forward" else "<"
+            axes.plot([x - _PLATE - 0.1], [middle], sense, color=color, markersize=5, gid=f"one-way {name}")
         if clutch.fixes is not None:
             box = Rectangle((x - 0.11, middle + _HALF), 0.22, 0.1, hatch="//////", zorder=4)
             box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)
@@ -360,6 +364,7 @@ _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
 _NAME = 8.5  # points: font size
 _LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: line widths distinguish parts without colour
 _TOUCH = 0.032  # inches from where two wheels meet to the middle of either's mark
+_PINS = {"pin_and_slot", "pin_follower", "pins_in_holes"}  # kinds of couplings that are drawn as a pin in a slot
 _BEARING = 0.08  # inches: half of the mark of a carrier's bearing
 _LONE = 0.55  # inches: height of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
@@ -553,12 +558,14 @@ def _legend(train: GearTrain) -> Iterator[Line2D | Patch]:
     if any(circuit.carrier != train.declaration.frame for circuit in train.circuits):
         yield Line2D([], [], color=ORANGE, linewidth=_CARRIER, label="carriers")
     kinds = {coupling.kind for coupling in train.declaration.couplings}
-    if kinds - {"parallel"}:
-        holes = "pins in holes" if kinds - {"parallel"} == {"pins_in_holes"} else "pins in slots"
+    pins, others = kinds & _PINS, kinds - _PINS
+    if pins:
+        holes = "pins in holes" if pins == {"pins_in_holes"} else "pins in slots"
         yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, marker="o", label=holes)
-    if "parallel" in kinds:
+    if others:
         ends = {"marker": "|", "markersize": 8, "markeredgewidth": 2.0}
-        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, label="kept parallel", **ends)  # type: ignore[arg-type]
+        label = "kept parallel" if others == {"parallel"} else "couplings"
+        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, label=label, **ends)  # type: ignore[arg-type]
     if train.declaration.clutches:
         ends = {"linewidth": PLATE, "marker": "|", "markersize": 10, "markeredgewidth": STEM}
         for color, words in ((PURPLE, "closed brakes and clutches"), (GREY, "open ones")):

@@ -140,11 +140,14 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
     return sum(halves) if len(halves) == len(wheels) else None
 
 
-def find_couplings(train: Train) -> tuple[CouplingMesh, ...]:
-    """Return all couplings that have a transmission function."""
+def find_couplings(train: Train, couplings: Iterable[Coupling]) -> tuple[CouplingMesh, ...]:
+    """Return the couplings of a train that have a transmission function.
+
+    couplings   couplings with the angles between their axes, as `couplings_on_axes` returns them
+    """
     pins = {each.name for each in train.pin_couplings}
     found: list[CouplingMesh] = []
-    for coupling in train.couplings:
+    for coupling in couplings:
         if (transmission := coupling.transmission) is not None:
             found.append((PinMesh if coupling.name in pins else CouplingMesh)(coupling, transmission))  # type: ignore[arg-type]
     return tuple(found)

@@ -176,8 +176,9 @@ class TrainMechanics(Shown):
         if not self.declaration.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import find_couplings
+        from geartrain.kinematics.circuits.fundamental import couplings_on_axes
 
-        return find_couplings(self.declaration)
+        return find_couplings(self.declaration, couplings_on_axes(self.declaration, self.tree))
 
     @property
     def pins(self) -> tuple[PinMesh, ...]:
@@ -222,10 +223,18 @@ class TrainMechanics(Shown):
         """
         case = self.kinematics.case(state)
         if case.state not in self._settings:
-            self._settings[case.state] = self._make_load_case(case)
+            self._settings[case.state] = self.make_load_case(case)
         return self._settings[case.state]
 
-    def _make_load_case(self, case: StateCase) -> LoadCase | None:
+    def make_load_case(self, case: StateCase) -> LoadCase | None:
+        """Return the load case with the given prescriptions, which may differ from the declared ones; None if its
+        speeds are neither determined nor free.
+
+        Parameters
+        ----------
+        case : StateCase
+            Prescriptions with locks joint by joint, as in `TrainKinematics.cases`.
+        """
         from geartrain.dynamics.torques.load_case import LoadCase, speed_forms
 
         own = self.kinematics
@@ -233,7 +242,7 @@ class TrainMechanics(Shown):
         # torques may be determined although speeds are free: docs/torques.md, (14) to (16)
         if solution.verdict.kind not in ("determined", "free"):
             return None
-        forms = speed_forms(own.equations(case.state)) if solution.verdict.kind == "free" else {}
+        forms = speed_forms(own.case_equations(case)) if solution.verdict.kind == "free" else {}
         return LoadCase(
             self.declaration,
             own.tree,

@@ -11,6 +11,7 @@ from geartrain.kinematics.judged_outputs import OutputResult, SpeedFigures, Spee
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, finite
+from geartrain.train.states import OneWayAction
 
 MOST_NAMES = 12  # names listed in a sentence; the others are counted
 _MAIN = 3  # maximum number of links in the summary of an answer
@@ -125,6 +126,15 @@ class SpeedAccuracy:
     """
 
 
+class ClutchActions(TypedDict, total=False):
+    """Keys that the JSON output has only for a train with one-way clutches."""
+
+    one_way: Sequence[OneWayAction]
+    """One-way clutches in force: each holds or overruns."""
+    notes: Sequence[str]
+    """Notes on the one-way clutches, such as what happens if the output drives."""
+
+
 class RowResiduals(TypedDict, total=False):
     """Keys that the JSON output has only for float speeds: residual of each row of the Willis system."""
 
@@ -163,7 +173,10 @@ class Answer(FrozenFields, Tabular, TrainResult):
         "exact": "Speed of the link as a fraction; empty for floats.",
     }
 
-    KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs", Key("", "row_residuals"))
+    KEYS = (
+        *("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs"),
+        *(Key("", "row_residuals"), Key("", "clutch_actions")),
+    )
 
     train: str
     """Name of the train."""
@@ -197,8 +210,16 @@ class Answer(FrozenFields, Tabular, TrainResult):
     """Relative residual |b - A w| / (|A| |w|) [1] of each row of `WillisSystem.matrix`, by row label. Computed at the
     first access; empty if the matrix was not used.
     """
+    tolerances: Mapping[str, Fraction] = field(default_factory=dict)
+    """Tolerance [`unit`] of the speed of each link that depends on a coupling with an approximate `ratio`: the sum of
+    the changes of its speed if one ratio after another changes by its tolerance. Computed at the first access.
+    """
     expected: str = "determined"
     """Kind of verdict that the state or the train declares as `expect`; by default `determined`."""
+    one_way: tuple[OneWayAction, ...] = ()
+    """One-way clutches in force in the state: each holds or overruns."""
+    notes: tuple[str, ...] = ()
+    """Notes on the one-way clutches, such as what happens if the output drives."""
     _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)
 
     def _summary(self) -> str:
@@ -261,8 +282,10 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return tuple(result for result in results if not result.holds)
 
     def __bool__(self) -> bool:
-        """Return True if the verdict is as expected and all determined outputs agree with their expectations."""
-        return self.as_expected and not self.failures
+        """Return True if the verdict is as expected, all determined outputs agree with their expectations, and the
+        one-way clutches that must hold do so.
+        """
+        return self.as_expected and not self.failures and not any(each.fails for each in self.one_way)
 
     @property
     def as_expected(self) -> bool:
@@ -278,7 +301,14 @@ class Answer(FrozenFields, Tabular, TrainResult):
             found[link]["true_error"] = accuracy.true_error
             if accuracy.condition is not None:
                 found[link]["condition"] = finite(accuracy.condition)
+        for link in self.tolerances.keys() & found.keys():
+            found[link]["tolerance"] = float(self.tolerances[link])
         return found
+
+    @property
+    def clutch_actions(self) -> ClutchActions:
+        """One-way clutches and notes on them, in the form of the JSON output; empty without one-way clutches."""
+        return {"one_way": self.one_way, "notes": self.notes} if self.one_way else {}
 
     @property
     def row_residuals(self) -> RowResiduals:

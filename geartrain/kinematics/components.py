@@ -196,7 +196,7 @@ def _nodes(
             edges.append([])
         return found
 
-    for at, (_, _, i, j, k, a, b, _, _) in enumerate(circuits):
+    for at, (_, _, i, j, k, a, b, *_) in enumerate(circuits):
         carrier = index[k]
         here = node(index[i], carrier)
         # a follower prescribes the slot's relative speed 0, and relates no two nodes

@@ -149,6 +149,8 @@ class SpeedFigures(TypedDict, total=False):
     """Estimated absolute error of a speed that was solved in floats [unit of the train]."""
     true_error: float | None
     """Difference between a speed solved in floats and the exact speed, if the latter is known [unit of the train]."""
+    tolerance: float
+    """Tolerance of a speed that depends on a coupling with an approximate `ratio` [unit of the train]."""
     condition: float | None
     """Component-wise condition number of a speed that was solved in floats [1]; None for a link at rest, omitted in
     trains of more than 400 links.
@@ -231,6 +233,8 @@ class OutputResult(Result):
     """True if `speed` is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
     unit_seconds: Fraction | None
     """Time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
+    tolerance: Fraction = Fraction(0)
+    """Tolerance of the speed due to couplings with an approximate `ratio` [unit of the train]; 0 if it is exact."""
 
     @property
     def period(self) -> SpeedValue | None:
@@ -265,7 +269,8 @@ class OutputResult(Result):
     @property
     def figures(self) -> SpeedFigures:
         """Speed of the output in the form of the JSON output."""
-        return speed_figures(self.speed)
+        plain = speed_figures(self.speed)
+        return plain | {"tolerance": float(self.tolerance)} if self.tolerance else plain
 
     @property
     def expect(self) -> JudgedExpectation | None:

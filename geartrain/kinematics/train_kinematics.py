@@ -7,18 +7,19 @@ mean values in the answers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
+from itertools import permutations
 from math import isfinite
 from sys import float_info
 from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
-from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
+from geartrain.errors import DeclarationError, Loc, Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
-from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, check_pallets, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import (
     OutputResult,
@@ -40,32 +41,49 @@ from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.results import Shown
-from geartrain.train import StateCase, Train
+from geartrain.train import GearPair, StateCase, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds, Mobility
+    from geartrain.teeth.coupling import Coupling
 
 
 # ----------------------------------------------------------------------------------------------------------------- lint
 
 
+_CONTINUOUS = 20  # teeth of a mate with which a wheel of two teeth may still drive continuously
+
+
 def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
-    """Yield a note for each pair whose sense of rotation is only a convention, and for each drive with intermittent
-    motion.
+    """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
+    and for each coupling that does not move uniformly.
     """
-    at = {gear.name: position for position, gear in enumerate(train.gears)}
+    places: dict[str, Loc] = {gear.name: ("gears", at) for at, gear in enumerate(train.gears)}
+    places |= {name: ("couplings", at) for at, each in enumerate(train.couplings) for name in each.row_names}
     for circuit in circuits:
         if circuit.note:
-            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
-    why = "the mean ratio is exact; the motion is intermittent"
+            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place(*places[circuit.id]))
+    why = "the mean ratio is exact; the motion is intermittent: a finger moves by steps, declare it as `kind: step`"
     for position, gear in enumerate(train.gears):
-        for name in gear.pair:
-            wheel = train.wheels[name][1]
-            # teeth of helical wheels overlap
-            if wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None:
-                what = f"wheel '{name}' has one tooth, which cannot drive continuously"
+        for name, mate in permutations(gear.pair):
+            if _is_finger(train, gear, name, mate):
+                teeth = "one tooth" if train.wheels[name][1].count == 1 else "two teeth"
+                what = f"wheel '{name}' has {teeth}, which cannot drive continuously"
                 yield Problem(what, why, "", train.place("gears", position))
+    for position, coupling in enumerate(train.couplings):
+        if coupling.remark:
+            yield Problem(f"'{coupling.name}' {coupling.remark}", "", "", train.place("couplings", position))
+
+
+def _is_finger(train: Train, gear: GearPair, name: str, mate: str) -> bool:
+    """Return True if a spur wheel of a pair has too few teeth for continuous motion: one, or two that meet more than
+    20.
+    """
+    wheel, other = train.wheels[name][1], train.wheels[mate][1]
+    # teeth of helical wheels overlap
+    straight = wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
+    return straight and (wheel.count == 1 or (wheel.count == 2 and (other.count or 0) > _CONTINUOUS))
 
 
 # ----------------------------------------------------------------------------------------------------- train kinematics
@@ -99,6 +117,7 @@ class TrainKinematics(Shown):
         tree = find_tree(self.declaration)
         if has_copies(self.declaration):
             check_copies(self.declaration, tree)
+        check_pallets(self.declaration, tree)
         return tree
 
     @cached_property
@@ -239,7 +258,17 @@ class TrainKinematics(Shown):
         state : str, optional
             A declared state; None only for a train without states.
         """
-        return self._system(self.whole, self.case(state))
+        return self.case_equations(self.case(state))
+
+    def case_equations(self, case: StateCase) -> WillisSystem:
+        """Return the Willis equations with the given prescriptions, which may differ from the declared ones.
+
+        Parameters
+        ----------
+        case : StateCase
+            Prescriptions with locks joint by joint, as in `cases`.
+        """
+        return self._system(self.whole, case)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Return speeds and evaluated outputs in one state; see `GearTrain.solve`.
@@ -466,8 +495,18 @@ class TrainKinematics(Shown):
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
 
+        deviation = self._ratio_tolerance(case, relative)
+
         def outputs() -> dict[str, OutputResult]:
-            return {each.name: each for each in judge_outputs(declared, case, relative, self.is_rotation)}
+            found = judge_outputs(declared, case, relative, self.is_rotation)
+            if deviation is not None:
+                found = (replace(each, tolerance=deviation(each.of, each.relative_to)) for each in found)
+            return {each.name: each for each in found}
+
+        def tolerances() -> dict[str, Fraction]:
+            assert deviation is not None
+            found = {link: deviation(link, declared.frame) for link in speeds}
+            return {link: tolerance for link, tolerance in found.items() if tolerance}
 
         return Answer(
             declared.name,
@@ -481,8 +520,39 @@ class TrainKinematics(Shown):
             "floats" if ratios is None else "exact",
             {} if accuracy is None else accuracy,
             work,
+            tolerances={} if deviation is None else LazyMapping(tolerances),
             expected=case.expect,
+            one_way=case.one_way,
+            notes=case.notes,
         )
+
+    def _ratio_tolerance(self, case: StateCase, relative: Relative) -> Callable[[str, str], Fraction] | None:
+        """Return a function that sums the changes of a relative speed as each approximate ratio changes by its
+        tolerance; None if all ratios are exact.
+        """
+        approximate = [each for each in self.declaration.couplings if each.bounds is not None]
+        if not approximate:
+            return None
+
+        def changed(coupling: Coupling, mean: Fraction) -> Relative:
+            circuits = list(self.circuits)
+            at = next(at for at, each in enumerate(circuits) if each.id == coupling.name)
+            ratio = circuits[at].ratio * mean / coupling.mean
+            circuits[at] = circuits[at]._replace(a=ratio.denominator, b=-ratio.numerator)
+            return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+
+        @cache
+        def moved() -> list[list[Relative]]:
+            return [[changed(each, mean) for mean in each.bounds or ()] for each in approximate]
+
+        def deviation(of: str, base: str) -> Fraction:
+            here = relative(of, base)
+            if here is None:
+                return Fraction(0)
+            most = [max(abs(Fraction((there(of, base) or 0) - here)) for there in each) for each in moved()]
+            return sum(most, Fraction(0))
+
+        return deviation
 
     @cached_property
     def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:

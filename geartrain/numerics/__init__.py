@@ -13,6 +13,7 @@ Floats
     sparse_least_squares                  least squares with a few entries per row
     roots                                 bracketed roots, one by one and vectorised
     chebyshev, polynomial_pieces          Chebyshev series and piecewise polynomials
+    periodic_function                     periodic functions through points and of harmonics, with their extremes
     confidence_intervals                  confidence intervals of means and probabilities
     vectors, polylines                    vectors in space, exact for exact numbers; polylines
     kernels                               functions in plain Python that numba can compile

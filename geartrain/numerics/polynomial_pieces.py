@@ -22,6 +22,7 @@ COUNT = 16  # coefficients of a piece
 FINE = 2e-15  # relative size of negligible coefficients
 _NOISE = 1e-10  # relative size below which coefficients may be noise, if bisection does not reduce them
 _DEEPEST = 40  # bisections: a piece is then 1e-12 of the curve
+_NEWTON = 4  # steps from an estimate within 1/256: the error in u is then rounding
 _TAIL = 3  # last coefficients, by which convergence is judged
 _NODES, _SERIES = points(COUNT)
 # points between the nodes, where the error is largest
@@ -132,12 +133,17 @@ def ends(coefficients: Floats) -> Floats:
 
 
 def _turns(column: Floats) -> Floats:
-    """Return approximate stationary points u of a polynomial; their errors change its extreme values only in second
-    order.
-    """
+    """Return the stationary points u of a polynomial, by Newton's method from the sign changes of its slope."""
     slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
+    bend = np.asarray(np.polynomial.polynomial.polyder(slope), dtype=np.float64)
     u = np.linspace(-1, 1, 257)
     at = _polynomial(slope, u)
-    here = np.flatnonzero(np.sign(at[:-1]) * np.sign(at[1:]) < 0)
-    found: Floats = u[here] - at[here] * (u[1] - u[0]) / (at[here + 1] - at[here])
-    return found
+    # a slope may also be 0 at a sample itself
+    here = np.flatnonzero(np.sign(at[:-1]) * np.sign(at[1:]) <= 0)
+    low, high = u[here], u[here + 1]
+    found: Floats = (low + high) / 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for _ in range(_NEWTON):
+            step = found - _polynomial(slope, found) / _polynomial(bend, found)
+            found = np.where((step >= low) & (step <= high), step, found)
+    return np.concatenate([found, u[at == 0]])

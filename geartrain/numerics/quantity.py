@@ -48,6 +48,9 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "N m": ("torque", Fraction(1)),
     "N mm": ("torque", Fraction(1, 1000)),
     "kN m": ("torque", Fraction(1000)),
+    "J": ("energy", Fraction(1)),
+    "mJ": ("energy", Fraction(1, 1000)),
+    "uJ": ("energy", Fraction(1, 10**6)),
     "kg m2": ("inertia", Fraction(1)),
     "kg mm2": ("inertia", Fraction(1, 10**6)),
     "g mm2": ("inertia", Fraction(1, 10**9)),
@@ -85,7 +88,7 @@ _SIZES = Fraction(1, 10**12), Fraction(10**6)  # lengths of bodies, in m or plai
 _BOUNDS = {"length": _SIZES, "length or fraction": (_FLOATS[0], _SIZES[1])} | {
     dimension: _FLOATS
     for one, other in (("torsional stiffness", "stiffness"), ("torsional damping", "damping"))
-    for dimension in ("angle", "velocity", "inertia", "mass", "density", "pressure", one, f"{one} or {other}")
+    for dimension in ("angle", "velocity", "energy", "inertia", "mass", "density", "pressure", one, f"{one} or {other}")
 }
 SPELT = {
     "Nm": "N m",
@@ -95,6 +98,8 @@ SPELT = {
     "°": "deg",
     "µm": "um",
     "μm": "um",
+    "µJ": "uJ",
+    "μJ": "uJ",
     "feet": "ft",
     "day": "d",
     "days": "d",
@@ -362,7 +367,7 @@ class Quantity:
         raw : str, int, float, Fraction or Quantity
             A quantity such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
-            length, angle, time, speed, velocity, torque, inertia, mass, density, pressure, torsional stiffness,
+            length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure, torsional stiffness,
             stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
             True to allow a number without a unit; 0 is always allowed.
@@ -472,6 +477,7 @@ Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
 Velocity = Annotated[Quantity, Dimension("velocity")]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]
+Energy = Annotated[Quantity, Dimension("energy")]
 Inertia = Annotated[Quantity, Dimension("inertia")]
 Mass = Annotated[Quantity, Dimension("mass")]
 Density = Annotated[Quantity, Dimension("density")]

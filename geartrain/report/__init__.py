@@ -16,6 +16,7 @@ answers              speeds, outputs and targets; `soundness` has the findings o
 formula_report       outputs as formulas in tooth counts
 gearbox_report       a train with clutches in all its states
 gear_pairs           real teeth and pins of a train
+couplings            sizes of other couplings, and what is not modelled
 torque_report        torques, power flow, losses; torque over some turns
 motion_report        anomalies and transmission errors
 pair_page            one pair of wheels without a train; `conjugate_pair_page` has conjugate forms and their comparison

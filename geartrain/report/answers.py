@@ -13,6 +13,7 @@ from math import isfinite
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.circuits.fundamental import couplings_on_axes
 from geartrain.kinematics.judged_outputs import (
     SECONDS_PER_DAY,
     OutputResult,
@@ -55,12 +56,24 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
     rows = []
     for answer in answers:
-        engaged = declared.states[answer.state or ""].engaged
-        marks = ["x" if clutch in engaged else "" for clutch in clutches]
+        engaged = declared.case(answer.state).closed
+        marks = [closed_mark(declared, clutch) if clutch in engaged else "" for clutch in clutches]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
     text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input divided by output."
+    text = f"{holding_note(declared)}{text}"
     return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
+
+
+def closed_mark(declared: Train, clutch: str) -> str:
+    """Return the mark of a closed clutch or brake in a shift table: `x`, or `*` if it is one-way."""
+    return "x" if declared.clutches[clutch].one_way is None else "*"
+
+
+def holding_note(declared: Train) -> str:
+    """Return the meaning of the mark of one-way clutches in a shift table; empty if the train has none."""
+    one_way = any(each.one_way for each in declared.clutches.values())
+    return "* marks a one-way clutch that holds (only while the input drives). " if one_way else ""
 
 
 def _speed_and_ratio(answer: Answer, name: str) -> str:
@@ -68,7 +81,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
     if result is None or result.speed is None:
         return "-"
     inverse = f" (in/out {figure(1 / result.ratio, 6)})" if result.ratio else ""
-    return f"{exact(result.speed)}{inverse}"
+    return f"{_speed(result.speed, result.tolerance)}{inverse}"
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
@@ -78,6 +91,8 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
     if answer.outputs:
         yield _pointers(train, answer)
         yield replace(_outputs(train, answer), detail=True)
+    if answer.one_way:
+        yield Section(titled(answer.state, "one-way clutches"), [f"{each}." for each in clutch_lines(answer)])
     yield from (replace(section, detail=True) for section in _targets(train.declaration, answer))
     yield replace(_speed_section(train, answer), detail=bool(answer.outputs and answer.verdict))
 
@@ -108,10 +123,12 @@ def _is_pointer(result: OutputResult) -> bool:
 def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
     speed = result.speed
     second = (
-        exact(result.ratio) if declared.unit_days is None and result.ratio is not None else _period(declared, speed)
+        _speed(result.ratio, result.tolerance)
+        if declared.unit_days is None and result.ratio is not None
+        else _period(declared, speed)
     )
     target = result.targets[0] if result.targets else None
-    return (result.name, exact(speed), second, *_target_cells(declared, target), _fault(result))
+    return (result.name, _speed(speed, result.tolerance), second, *_target_cells(declared, target), _fault(result))
 
 
 def _is_clock(declared: Train) -> bool:
@@ -231,7 +248,7 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
         mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
         # a ratio needs exactly one turning input
         ratio = speed / moving[0] if len(moving) == 1 else None
-        rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
+        rows.append((link + mark, _speed(speed, answer.tolerances.get(link)), figure(speed), one_to(ratio)))
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
 
 
@@ -254,9 +271,9 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
     return (
         result.name,
         of + (" (sum of joint speeds)" if result.bookkeeping else ""),
-        exact(result.speed),
+        _speed(result.speed, result.tolerance),
         figure(result.speed),
-        exact(result.ratio) if result.ratio is not None and result.ratio != result.speed else "",
+        _speed(result.ratio, result.tolerance) if result.ratio is not None and result.ratio != result.speed else "",
         _period(declared, result.speed),
         "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected{sign}",
         ""
@@ -301,6 +318,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
         "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
         "published figure": [each.published_holds for each in results if each.published_holds is not None],
         "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
+        "clutch assertion": [not each.fails for answer in answers for each in answer.one_way if each.required],
     }
     each = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
     # commas between all kinds except the last two
@@ -388,26 +406,42 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
     place = "" if answer.verdict else f" ({answer.place})"
     unit = f" ({answer.unit})" if answer.unit and answer.verdict else ""
     lines = [f"{answer.train}{state}: {answer.verdict}{place}{unit}"]
-    rows = [
-        (name, result.speed, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
+    rows: list[tuple[str, SpeedValue | None, Fraction | None, str]] = [
+        (name, result.speed, result.tolerance, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
         for name, result in answer.outputs.items()
     ]
     if output is None:
-        links = [(link, speed, _marks(answer, link, oblique)) for link, speed in answer.speeds.items()]
-        rows = links + [row for row in rows if row[0] not in answer.speeds or "FAILS" in row[2]]
+        links: list[tuple[str, SpeedValue | None, Fraction | None, str]] = [
+            (link, speed, answer.tolerances.get(link), _marks(answer, link, oblique))
+            for link, speed in answer.speeds.items()
+        ]
+        rows = links + [row for row in rows if row[0] not in answer.speeds or "FAILS" in row[3]]
     elif not rows:
-        rows = [(output, answer.speeds.get(output), _marks(answer, output, oblique))]
-    width = max((len(name) for name, _, _ in rows), default=0)
-    for name, speed, mark in rows:
+        tolerance = answer.tolerances.get(output)
+        rows = [(output, answer.speeds.get(output), tolerance, _marks(answer, output, oblique))]
+    width = max((len(name) for name, *_ in rows), default=0)
+    for name, speed, tolerance, mark in rows:
         period = "" if answer._declaration is None else _period(answer._declaration, speed)
         turn = f"  a turn in {period}" if period and name in answer.outputs else ""
-        lines.append(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{turn}{mark}")
+        within = f" ± {figure(tolerance, 3)}" if tolerance else ""
+        lines.append(f"  {name:<{width}}  {_speed(speed, tolerance):>20}  {figure(speed, 12)}{within}{turn}{mark}")
+    lines += [f"  {each}" for each in clutch_lines(answer)]
     if answer.residual:
         row, most = max(answer.residual.items(), key=lambda each: each[1])
         if any(each.true_error is None for each in answer.accuracy.values()):
             lines.append(f"  {why_floats(answer)}")
         lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
+    if output is None and answer._declaration is not None:
+        couplings = couplings_on_axes(answer._declaration, GearTrain(answer._declaration).kinematics.tree)
+        remarks = ((each.name, each.remark) for each in couplings)
+        lines += [f"  coupling '{name}' {remark}: speeds are means" for name, remark in remarks if remark]
     return "\n".join(lines)
+
+
+def clutch_lines(answer: Answer) -> Iterator[str]:
+    """Yield a line for each one-way clutch of a state, which holds or overruns, and the notes on them."""
+    yield from (each.text(answer.unit) for each in answer.one_way)
+    yield from answer.notes
 
 
 def answer_text(answer: Answer) -> str:
@@ -435,6 +469,11 @@ def why_floats(answer: Answer) -> str:
         f"Solved in floats: {why}. The estimated error of every speed is at most {error:.1e}. "
         "`geartrain solve FILE --method exact` solves it in fractions, however long it takes."
     )
+
+
+def _speed(speed: SpeedValue | None, tolerance: Fraction | None) -> str:
+    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio."""
+    return f"≈ {exact(speed)}" if tolerance else exact(speed)
 
 
 def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:

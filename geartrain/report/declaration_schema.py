@@ -29,6 +29,8 @@ _MERGED = (
     "PinFollower",
     "PinsInHoles",
     "Parallel",
+    "Belt",
+    "Ratio",
     "Source",
     "Published",
 )

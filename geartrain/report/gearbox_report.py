@@ -54,6 +54,8 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     names = [each.name for each in found.elements]
     header = ("state", *names, "verdict", "ratio", "step", "efficiency", "recirculating", "mesh power")
     lines = [f"From '{found.input}' to '{found.output}'. x marks a closed clutch or brake.", _RATIOS]
+    if any(each.kind.startswith("one-way") for each in found.elements):
+        lines.append("* marks a one-way clutch that holds (only while the input drives).")
     if all(each.efficiency in (None, 1) for each in found.states):
         lines.append("No losses are declared: every efficiency is 1.")
     if found.spread is not None:
@@ -80,7 +82,7 @@ def _unit(found: Gearbox) -> str:
 
 def _gear(each: GearState, names: Sequence[str]) -> tuple[str, ...]:
     figures = (each.ratio, each.step, each.efficiency, each.recirculating, each.mesh_power)
-    marks = ("x" if name in each.engaged else "" for name in names)
+    marks = ("*" if name in each.one_way else "x" if name in each.engaged else "" for name in names)
     return each.state, *marks, each.verdict.kind, *(figure(value, _DIGITS) for value in figures)
 
 

@@ -12,6 +12,7 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure, titled
+from geartrain.teeth.coupling import unmodelled_properties
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -296,6 +297,8 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
         summary.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
     if period is not None:
         summary.append(f"Everything repeats after {abridged_text(period)} turns of '{train.driving_link}'.")
+    if run.motion._declaration is not None:
+        summary += [f"Not modelled: {each}." for each in unmodelled_properties(run.motion._declaration.couplings)]
     sections = list(motion_sections(run, every_output))
     if found.separation is not None:
         sections.append(wing("simulation.contacts.separation_rate").separation_section(found.separation))
@@ -323,6 +326,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
     yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics, run.motion._problem.deviation),))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
+        yield from _steps(run.motion)
     if rigid := _rigid(run.motion._problem.rigid):
         yield Section("Pairs that keep their ratio", (rigid,))
     if run.phase_statistics:
@@ -373,7 +377,10 @@ def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     rows = []
     for tally in tallies:
         # a mean speed of 0 cannot be the divisor
-        speeds = "{:.5f}..{:.5f}".format(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
+        # rounding of a speed of 0 must not print a sign
+        speeds = "..".join(f"{round(each, 5) + 0.0:.5f}" for each in tally.speeds) + (
+            "" if tally.ratio else " (divided by the input's)"
+        )
         rows.append((tally.name, figure(tally.ratio, 9), *_degrees(tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
 
@@ -390,6 +397,8 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"The driver of {names} temporarily turns backwards. Then the other flanks drive, and the crossing of the "
             "backlash is not simulated."
         )
+    if jumping := [source.id for source in run.motion._forward.used if source.transmission.at_once]:
+        yield f"{', '.join(jumping)} moves at once: the speeds of outputs are the speeds between these steps."
     if not all(tally.searched for tally in run.statistics):
         from geartrain.dynamics.motion.superposition import Superposition
 
@@ -426,6 +435,20 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
     header = ("pair", "driving wheel", "basis", "periods a turn", *(f"{name} (deg)" for name in outputs))
     return Table(header, rows, wide=True)
+
+
+def _steps(motion: Motion) -> Iterator[Section]:
+    """Yield a section on the couplings that move by steps; nothing if there are none."""
+    rows = []
+    for source in motion._forward.used:
+        transmission = source.transmission
+        if transmission.dwell:
+            peak = "at once" if transmission.at_once else f"{transmission.speed_range()[1]:.8g}"
+            rows.append((source.id, str(transmission.dwell), str(transmission.ratio), peak))
+    if rows:
+        text = "Couplings that move by steps: speeds of the driven link relative to the driver, seen from the carrier."
+        header = ("coupling", "fraction at rest", "mean ratio", "maximum speed ratio")
+        yield Section("Steps", (text,), (Table(header, rows),))
 
 
 def _random_phases(run: MotionRun) -> Section:

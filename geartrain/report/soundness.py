@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.buildability import build_errors
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import relative_speed
 from geartrain.numerics.exact import plural
 from geartrain.report.answers import expectations_met, only_sign, result_words
@@ -100,6 +101,9 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
         yield f"{answer.place}:{state} {answer.verdict}{wanted}"
         return
+    for each in answer.one_way:
+        if each.fails:
+            yield f"{train.declaration.place('clutches', each.name)}:{state} {each.text(answer.unit)}"
     for result in answer.failures:
         own = answer.state is not None and result.name in train.declaration.states[answer.state].outputs
         path = ("states", str(answer.state), "outputs") if own else ("outputs",)
@@ -141,14 +145,13 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     """Yield the states in which the escape wheel's speed does not match the declared beat.
 
-    The beat depends on the speed of the escape wheel relative to the link that bears it, because that link carries the
-    pallets.
+    The beat depends on the speed of the escape wheel relative to the link with the pallets.
     """
     declared = train.declaration
     escapement = declared.escapement
     if escapement is None:
         return
-    bearer = train.kinematics.tree.top[escapement.link]
+    bearer = pallet_link(escapement, train.kinematics.tree)
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
         # beats are in seconds, so speeds need a unit of time

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import PlaceInRun, PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
     from geartrain.dynamics.torques.torque_results import DrivenWay
+    from geartrain.train import Train
 
 
 # -------------------------------------------------------------------------------------------------------------- figures
@@ -76,7 +77,7 @@ class DrivenWays(NamedTuple):
 class TorqueFigures(Result):
     """Torques, power flow and losses of a train in one state."""
 
-    KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
+    KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow", "belt_pulls")
 
     torques: Torques
     drives: DrivenWays | None
@@ -88,6 +89,10 @@ class TorqueFigures(Result):
     flow: PowerFlow
     impact_power: Mapping[str, float]
     """Power that the impacts of each pair dissipate [W], by pair; empty unless inertias and a rate are declared."""
+    belt_pulls: Mapping[str, float]
+    """Difference between the tensions of the tight and the slack side at the driven pulley [N], by row of a belt; empty
+    unless diameters and torques have units.
+    """
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
@@ -179,7 +184,20 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
         declared.has_torque_units(state),
         find_power_flow(found),
         {pair: impact.power for pair, impact in impacts.items()},
+        dict(_belt_pulls(declared, found)) if declared.has_torque_units(state) else {},
     )
+
+
+def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
+    """Yield the pull of each belt at the driven pulley [N], torque divided by half of the pitch diameter."""
+    for belt in declared.couplings:
+        if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
+            continue
+        for row in belt.rows(declared.wheels) if any(True for _ in belt.lengths) else ():
+            if (pair := found.pairs.get(row.id)) is not None and not pair.loose:
+                driven = int(pair.driver == row.driven)
+                diameter = dict(zip(belt.ends, belt.lengths, strict=True))[(row.driven, row.driver)[driven]]
+                yield row.id, abs(float(2 * pair.torques[driven] / diameter.base))
 
 
 # ----------------------------------------------------------------------------------------------------------------- page
@@ -271,7 +289,16 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.requested)
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
+    lines += [
+        f"The reaction to the torque on '{link}' acts on '{base}'." for link, (base, _) in found.reactions.items()
+    ]
+    if found.overrunning:
+        slips = ", ".join(f"{name} at {figure(slip, 6)}" for name, slip in found.overrunning.items())
+        lines.append(f"One-way clutches that overrun, without torque and loss: {slips}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
+    if figures.belt_pulls:
+        rows = [(name, f"{pull:.6g}") for name, pull in figures.belt_pulls.items()]
+        tables.append(Table(("belt", "pull, tight side minus slack side (N)"), rows))
     yield Section(head, lines, tuple(tables))
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))
     if any(parts):
@@ -411,6 +438,8 @@ def _both_directions(drives: DrivenWays | None) -> Iterator[str]:
         efficiency = torques.efficiency
         if torques.verdict.kind == "self-locking":
             yield f"'{last}' cannot be driven from '{first}': the train locks."
+        elif torques.verdict.kind == "overrunning":
+            yield f"'{last}' cannot be driven from '{first}': {' and '.join(torques.verdict.candidates)} overruns."
         elif efficiency is not None:
             word = " (ambiguous)" if torques.verdict.kind == "ambiguous" else ""
             yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 6)}{word}{uncounted_words(torques)}."
@@ -508,7 +537,7 @@ def _energies(found: TorqueCycle) -> Table:
         "put in by loads": energy.loads_put_in,
         "taken out by loads": energy.taken_out,
         "lost in teeth": energy.mesh,
-        "lost in pins": energy.pin,
+        "lost in couplings": energy.pin,
         "lost in bearings": energy.bearing,
     }
     return energy_table("energy", amounts, whole, 9)

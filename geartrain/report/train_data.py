@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import Sensitivity
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
+    from geartrain.report.couplings import VaryingCoupling
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
     from geartrain.report.torque_report import TorqueFigures
@@ -100,7 +101,7 @@ class TrainReport(TrainAnswers):
         *("name", "title", "unit", "mobility", "states", "gridlock", "closure", "sources"),
         Key("circuits", keys=("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")),
         *("adjacency", "build_findings", Key("remarks", keys=("place", "what", "why")), "sensitivity"),
-        *("teeth", "pins", "torques", "strength", "motion", "errata"),
+        *("teeth", "pins", "couplings", "torques", "strength", "motion", "errata"),
     )
 
     gridlock: Gridlock
@@ -125,6 +126,8 @@ class TrainReport(TrainAnswers):
     """Pairs with a declared tooth form, one entry for each driving wheel that occurs in at least one state."""
     pins: tuple[DrivenPin, ...]
     """Pin-and-slot couplings whose dimensions are declared."""
+    couplings: tuple[VaryingCoupling, ...]
+    """Other couplings with a variable ratio, such as universal joints."""
     torques: tuple[TorqueFigures, ...]
     """Torques in every state with loads or bearing friction."""
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
@@ -203,11 +206,17 @@ def _torques(train: GearTrain, loaded: Sequence[str | None]) -> tuple[TorqueFigu
 
 def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
     if not (whole and (train.mechanics.teeth or train.mechanics.couplings)):
-        return {"teeth": (), "pins": (), "motion": ()}
+        return {"teeth": (), "pins": (), "couplings": (), "motion": ()}
+    from geartrain.report.couplings import varying_couplings
     from geartrain.report.gear_pairs import driven_pairs, driven_pins
     from geartrain.report.motion_report import collect_motions
 
-    return {"teeth": driven_pairs(train), "pins": driven_pins(train), "motion": tuple(collect_motions(train))}
+    return {
+        "teeth": driven_pairs(train),
+        "pins": driven_pins(train),
+        "couplings": varying_couplings(train),
+        "motion": tuple(collect_motions(train)),
+    }
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:

@@ -19,6 +19,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE, adjacency_kinds, adjacency_labels, edge_rows
 from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
+from geartrain.report.couplings import coupling_sections, varying_section
 from geartrain.report.document import (
     MOST_ROWS,
     CitedText,
@@ -31,11 +32,13 @@ from geartrain.report.document import (
     Table,
     cut,
     filled_table,
+    titled,
     without_details,
 )
 from geartrain.report.formula_report import formula_section
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Link, Source, Train, Wheel
+from geartrain.train.fusees import FuseeSpring
 from geartrain.wings import wing
 
 if TYPE_CHECKING:
@@ -107,6 +110,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
             yield from formulas
     yield from _structure(train)
     yield _circuits(train)
+    yield from coupling_sections(train)
     yield from _phasing(found.closure)
     if len(declared.links) <= MOST_SQUARE:
         others = "gear pairs and couplings" if declared.couplings else "gear pairs"
@@ -152,6 +156,9 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
         from geartrain.report.gear_pairs import teeth_sections
 
         yield from teeth_sections(found.train, found.teeth, found.pins)
+    if found.couplings:
+        yield varying_section(found.couplings)
+    yield from _fusees(found.train)
     if found.torques:
         from geartrain.report.torque_report import loaded_sections
 
@@ -162,6 +169,34 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
         from geartrain.report.motion_report import moving_sections
 
         yield from moving_sections(found.train, found.motion, bool(found.teeth))
+
+
+def _fusees(train: GearTrain) -> Iterator[Section]:
+    """Yield a section on the torque of each spring with a fusee over its run."""
+    runs: dict[FuseeSpring, str | None] = {}
+    for state in train.states or (None,):
+        drive = train.declaration.case(state).drive
+        if drive is not None and drive.spring is not None and (chained := drive.spring.chained) is not None:
+            runs.setdefault(chained, state)
+    for chained, state in runs.items():
+        run, turns = chained.run(), chained.fusee.turns
+        rows = [
+            ("torque, fully wound", f"{run.first:.6g} N m"),
+            ("torque at the end", f"{run.last:.6g} N m"),
+            ("maximum torque", f"{run.maximum:.6g} N m after {run.maximum_at:.4g} turns"),
+            ("minimum torque", f"{run.minimum:.6g} N m after {run.minimum_at:.4g} turns"),
+            ("mean torque", f"{run.mean:.6g} N m"),
+        ]
+        if chained.fusee.torque is not None:
+            rows = [("torque", f"{run.mean:.6g} N m")]
+        rows += [
+            ("radius of the fusee", f"{1000 * run.radii[0]:.5g} mm to {1000 * run.radii[1]:.5g} mm"),
+            ("length of chain", f"{1000 * run.chain:.6g} mm"),
+            ("winding left", f"{run.left:.5g} turns"),
+            ("energy", f"{run.energy:.6g} J"),
+        ]
+        text = f"Torque of the spring at its fusee over {turns} turns of the fusee, without friction."
+        yield Section(titled(state, "fusee"), (text,), (Table(("quantity", "value"), rows),))
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
@@ -280,7 +315,7 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
 
     def teeth(circuit: Circuit, side: int) -> str:
         name = circuit.wheels[side]
-        if circuit.kind != "gear":
+        if not circuit.by_teeth:
             return coupling_model(circuit.kind).SIDES[side]
         return f"{name} {wheels[name][1].count}"
 
@@ -423,7 +458,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
         return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
     if train.mechanics.faults:
         return "teeth cannot turn", False
-    failed = sum(len(answer.failures) for answer in answers)
+    failed = sum(len(answer.failures) + sum(each.fails for each in answer.one_way) for answer in answers)
     if failed:
         return f"{failed} expectation{'' if failed == 1 else 's'} failed", False
     kinds = dict.fromkeys(answer.verdict.kind for answer in answers)

@@ -28,6 +28,7 @@ from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minu
 from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
+from geartrain.scene.coupling_shapes import find_shapes
 from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
@@ -416,6 +417,7 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
+        shapes=find_shapes(stage),
         dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
         pointers=pointers,
         movement=moved.movement,

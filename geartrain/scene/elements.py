@@ -319,6 +319,8 @@ class SceneShiftElement:
     """True if the element is engaged in this state."""
     text: str
     """Description of the brake or clutch, such as `B brakes ring`."""
+    one_way: bool = False
+    """True for a one-way clutch in force, which is closed if it holds and open if it overruns."""
 
 
 @dataclass(frozen=True, slots=True)

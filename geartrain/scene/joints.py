@@ -93,14 +93,18 @@ def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
     """Return the brakes and clutches in the order declared, each engaged or open in one state."""
     declared = stage.train.declaration
-    closed = stage.train.kinematics.cases[state].engaged
+    case = stage.train.kinematics.cases[state]
+    actions = {each.name: each for each in case.one_way}
     found = []
     for name, clutch in declared.clutches.items():
         links = clutch.locks or (clutch.fixes or declared.frame,)
         bodies = tuple(stage.body[link] for link in links)
         brakes = clutch.locks is None
         text = f"{name} {'brakes' if brakes else 'joins'} {' and '.join(links)}"
-        found.append(SceneShiftElement(name, "brake" if brakes else "clutch", bodies, name in closed, text))
+        if name in actions:
+            text += f" one way ({'holds' if actions[name].holds else 'overruns'})"
+        closed, one_way = name in case.engaged, name in actions
+        found.append(SceneShiftElement(name, "brake" if brakes else "clutch", bodies, closed, text, one_way))
     return tuple(found)
 
 

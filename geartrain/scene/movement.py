@@ -263,7 +263,7 @@ def find_movement(stage: SceneContext) -> MovementStart:
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
     if stage.unbuilt:
         return _mean_movement(stage, stage.unbuilt)
-    if not stage.meshes and not stage.train.mechanics.pins:
+    if not stage.meshes and not stage.train.mechanics.couplings:
         return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _starting_angles(stage))
     try:
         motion = stage.train.motion(stage.answer.state, tuple(stage.train.declaration.links))

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.numerics.polylines import simplified
 from geartrain.numerics.results import Result
 from geartrain.numerics.vectors import Vector, across, minus, plus, size, unit_or_z
@@ -286,7 +287,7 @@ def _places(
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
-        yield link, ("escapement", stage.body[stage.train.kinematics.tree.top[link]], _rim(own))
+        yield link, ("escapement", stage.body[pallet_link(escapement, stage.train.kinematics.tree)], _rim(own))
     for pair in pairs:
         yield pair.id, ("pair", pair.carrier, pitch_point(*(wheels[each] for each in pair.wheels)))
     for coupling in couplings:

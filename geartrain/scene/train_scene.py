@@ -244,6 +244,8 @@ class Scene(Shown):
     """Declared pendulum and weight of a built scene; otherwise empty."""
     waves: Sequence[SceneWave] = ()
     """Strain waves that deflect flexible wheels into mesh with their rings."""
+    shapes: Sequence[ScenePart] = ()
+    """Parts of couplings other than pins, such as belts, cams and stars; also in a scene that is not built."""
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"

@@ -38,6 +38,14 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "pin_follower": CouplingKind("pins", "PinFollower", varies=True),
     "pins_in_holes": CouplingKind("pins", "PinsInHoles"),
     "parallel": CouplingKind("pins", "Parallel"),
+    "belt": CouplingKind("belt", "Belt"),
+    "ratio": CouplingKind("ratio", "Ratio"),
+    "universal_joint": CouplingKind("laws", "UniversalJoint", varies=True),
+    "elliptical": CouplingKind("laws", "EllipticalPair", varies=True),
+    "pitch_curve": CouplingKind("laws", "PitchCurvePair", varies=True),
+    "law": CouplingKind("laws", "TabledLaw", varies=True),
+    "geneva": CouplingKind("steps", "Geneva", varies=True),
+    "step": CouplingKind("steps", "Step", varies=True),
 }
 """Kinds of couplings by the value of `kind` in declarations."""
 
@@ -66,6 +74,10 @@ class CouplingRow(NamedTuple):
     """Coefficient of link i, above 0."""
     b: int
     """Coefficient of link j, -m a."""
+    wheels: tuple[str, str] | None = None
+    """Wheels of links i and j if a and b are their tooth counts, apart from the sign; else None."""
+    carrier: str | None = None
+    """Link k as declared; None for the transfer vertex of links i and j."""
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
@@ -84,6 +96,20 @@ class Coupling(BaseModel):
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
     """True if the coupling may join each of several equal links to one other link."""
+    LOCKS_BACK: ClassVar[bool] = False
+    """True if the driven side cannot drive, because the device locks it."""
+    PARALLEL: ClassVar[str] = "its parts must move in the same plane"
+    """Reason why the axes of the links must be parallel; "" if they may have any directions."""
+    NEEDS_DISTANCE: ClassVar[bool] = True
+    """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
+    UNKNOWN: ClassVar[str] = ""
+    """Properties of this kind that are not known or not modelled, as nouns for reports."""
+    OBLIQUE: ClassVar[bool] = False
+    """True if the axes of the two links need not be parallel."""
+    NEGLECTED: ClassVar[tuple[str, str] | None] = None
+    """Effect on torques that is not computed, and the reason; None if there is no such effect."""
+    HOLDS: ClassVar[bool] = False
+    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -109,9 +135,34 @@ class Coupling(BaseModel):
         return self.id or "~".join(self.ends[:2])
 
     @property
+    def row_names(self) -> tuple[str, ...]:
+        """Names of the rows that the coupling adds to the Willis system."""
+        return (self.name,)
+
+    @property
+    def about(self) -> str:
+        """Sizes of the coupling as declared, as text for reports; "" if there are none."""
+        return ""
+
+    def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
+        """Yield what is wrong with the coupling, why, and how to correct it, from its links and wheels.
+
+        wheels   wheel -> its link and its declaration; all parts that the coupling names are declared
+        """
+        links = self.links(wheels)
+        if twice := next((link for link in links if links.count(link) > 1), None):
+            why = f"{' and '.join(dict.fromkeys(self.SIDES))} must be on different links"
+            yield f"coupling '{self.name}' joins '{twice}' to itself", why, "name the other link"
+
+    @property
     def mean(self) -> Fraction:
         """Exact mean speed of the driven side divided by the speed of the driving side, relative to the carrier."""
         return Fraction(1)
+
+    @property
+    def bounds(self) -> tuple[Fraction, Fraction] | None:
+        """Minimum and maximum of `mean` if it is known with a tolerance; None for an exact mean ratio."""
+        return None
 
     @property
     def transmission(self) -> TransmissionFunction | None:
@@ -119,9 +170,31 @@ class Coupling(BaseModel):
         return None
 
     @property
+    def formula(self) -> str:
+        """Driven angle q as a function of the driver's angle S in closed form; empty if there is none."""
+        return ""
+
+    def on_axes(self, angle: float) -> Self:
+        """Return the coupling with the angle between its axes [rad] filled in where it is needed and not declared."""
+        del angle
+        return self
+
+    @property
     def periods_per_turn(self) -> Fraction:
         """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
         return Fraction(1)
+
+    @property
+    def remark(self) -> str:
+        """Predicate that describes motion about the mean, such as "moves 1/4 of the time"; empty if there is none."""
+        return ""
+
+    @property
+    def friction_torque(self) -> Fraction:
+        """Mean friction torque [N m] on the driven link against its motion relative to the carrier, such as the
+        torque of a jumper; it does not depend on the load.
+        """
+        return Fraction(0)
 
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
         """Return the links that the coupling joins, the driving link first.
@@ -150,6 +223,12 @@ class Coupling(BaseModel):
                             for at, each in enumerate(value))  # fmt: skip
 
     @property
+    def torques(self) -> Iterator[Quantity]:
+        """Declared energies, such as the loss of a jumper; all torques of the train then have units."""
+        values = (getattr(self, name) for name in type(self).model_fields)
+        return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
+
+    @property
     def lengths(self) -> Iterator[Quantity]:
         """Declared lengths of the coupling, which have units if any length of the train has one."""
         values = (getattr(self, name) for name in type(self).model_fields)
@@ -171,3 +250,12 @@ class Coupling(BaseModel):
             else:
                 changed[key] = tuple(names.get(each, each) for each in value)
         return self.model_copy(update=changed)
+
+
+def unmodelled_properties(couplings: Sequence[Coupling]) -> list[str]:
+    """Return the properties of couplings that are not known or not modelled, with the names of the couplings."""
+    named: dict[str, list[str]] = {}
+    for each in couplings:
+        if each.UNKNOWN:
+            named.setdefault(each.UNKNOWN, []).append(each.name)
+    return [f"{what} of {', '.join(names)}" for what, names in named.items()]

@@ -32,7 +32,7 @@ class SpeedRatio(Result):
     --------
     >>> from geartrain.teeth import PinToSlotTransmission
     >>> SpeedRatio.of(PinToSlotTransmission(2, 1)).to_dict()
-    {'mean': 1.0, 'exact': '1', 'min': 0.6666666666666666, 'max': 2.0}
+    {'mean': 1.0, 'exact': '1', 'min': 0.6666666666666667, 'max': 2.0}
     """
 
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))

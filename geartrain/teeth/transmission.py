@@ -133,15 +133,21 @@ class TransmissionFunction(Shown, ABC):
     >>> transmission = PinToSlotTransmission(2, 1)
     >>> transmission.ratio, transmission.period == 2 * pi, round(degrees(transmission.error_range()[1]), 9)
     (Fraction(1, 1), True, 30.0)
-    >>> [float(speed) for speed in transmission.speed([0, pi])]
-    [2.0, 0.6666666666666666]
+    >>> [round(float(speed), 9) for speed in transmission.speed([0, pi])]
+    [2.0, 0.666666667]
     """
 
     ratio: Fraction
     period: float
     friction: float = 0.0
+    waves: int = 1
+    """Number of periods of the fastest component of the transmission error between kinks, in one period."""
     slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
+    dwell: Fraction = Fraction(0)
+    """Fraction of the period during which the driven side is at rest; 1 for steps at once."""
+    at_once: bool = False
+    """True if the driven side moves at once, so that the transmission error is discontinuous."""
 
     def _summary(self) -> str:
         return f"ratio {self.ratio}, period {degrees(self.period):.6g} deg, friction {self.friction:g}"
@@ -376,6 +382,14 @@ class TransmissionFunction(Shown, ABC):
         """
         return self
 
+    def mirrored(self) -> TransmissionFunction:
+        """Return the transmission function of a coupling whose driver's mean motion is against the declared sense of
+        its angle; by default this function itself.
+
+        Its error at S is minus the error of this function at -S. Override it in functions whose error is not odd.
+        """
+        return self
+
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
         """Return the transmission function for selected columns of an array of angles.
 
@@ -475,11 +489,26 @@ class ExactRatio(TransmissionFunction):
         return np.full(np.shape(S), value)
 
 
+class LosslessTransmission(TransmissionFunction):
+    """Transmission function without a model of friction: the only losses are those of a declared efficiency."""
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Return the efficiency at driver angles S, which is 1."""
+        import numpy as np
+
+        return np.ones(np.shape(S))
+
+    def efficiency_minimum(self) -> float:
+        """Return the minimum efficiency, which is 1."""
+        return 1.0
+
+
 class DerivedTransmission(TransmissionFunction):
     """Transmission function with the motion of an underlying function, and with other losses or another evaluation."""
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
+        self.waves, self.dwell, self.at_once = transmission.waves, transmission.dwell, transmission.at_once
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

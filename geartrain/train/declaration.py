@@ -6,10 +6,11 @@ Also the epoch (a date, and the turns of the input at that date) and the effecti
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
@@ -181,6 +182,9 @@ class Train(Declared):
     revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs in mesh")
     couplings: tuple[DeclaredCoupling, ...] = Field((), description="Couplings of links other than gear pairs")
+    belts: tuple[str, ...] = Field(
+        (), description="Belts or chains around two wheels, `first ~ second`: a short form, read into `couplings`"
+    )
     inputs: ByName[Speed] = Field(
         {},
         validate_default=True,
@@ -346,27 +350,50 @@ class Train(Declared):
         """Inputs, brakes, locks, loads and drive of each state; a single entry for a train without states."""
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
-    def case(self, state: str | None) -> StateCase:
-        """Return all prescriptions in one state: inputs, brakes, locks, loads and drive.
+    def one_way_clutches(self, state: str | None) -> tuple[str, ...]:
+        """Return the names of the one-way clutches that are in force in one state.
 
         Parameters
         ----------
         state : str or None
             A declared state; None for a train without states.
         """
+        free = () if state is None else self.states[state].free
+        return tuple(name for name, each in self.clutches.items() if each.one_way is not None and name not in free)
+
+    def case(self, state: str | None, holding: Sequence[str] | None = None) -> StateCase:
+        """Return all prescriptions in one state: inputs, brakes, locks, loads and drive.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None for a train without states.
+        holding : sequence of str, optional
+            One-way clutches that hold; by default found from speeds and torques.
+        """
+        if holding is None and self.one_way_clutches(state):
+            if state not in self._decided_cases:
+                # depends on speeds and torques, whose modules import this one and load only if they are needed
+                module = import_module("geartrain.dynamics.torques.one_way_clutches")
+                self._decided_cases[state] = module.decide_case(self, state)
+            return self._decided_cases[state]
         own = self.states[state] if state is not None else State()
+        closed = {name for name in own.engaged if self.clutches[name].one_way is None}.union(holding or ())
+        engaged = tuple(name for name in dict.fromkeys((*own.engaged, *self.clutches)) if name in closed)
         inputs = self.inputs if own.inputs is None else own.inputs
         fixed = list(self.fixed if own.fixed is None else own.fixed)
         locks = list(self.locks if own.locks is None else own.locks)
         clutches: dict[tuple[str, ...], str] = {}
-        for name in own.engaged:
+        senses = {links: frozenset((1, -1)) for links in [*((link,) for link in fixed), *locks]}
+        for name in engaged:
             clutch = self.clutches[name]
             if clutch.fixes is not None:
                 fixed.append(clutch.fixes)
-                clutches[(clutch.fixes,)] = name
             if clutch.locks is not None:
                 locks.append(clutch.locks)
-                clutches[clutch.locks] = name
+            links = clutch.links
+            clutches[links] = f"{clutches[links]} and {name}" if links in clutches else name
+            senses[links] = senses.get(links, frozenset()) | clutch.senses
         outputs = dict(self.outputs)
         for name, output in own.outputs.items():
             inherited = outputs.get(name)
@@ -380,18 +407,40 @@ class Train(Declared):
             inputs={link: self._speed(speed) for link, speed in inputs.items()},
             # without duplicates: a brake may fix a link that is fixed in every state
             fixed=tuple(dict.fromkeys(fixed)),
-            locks=tuple(locks),
+            locks=tuple(dict.fromkeys(locks)),
             outputs=outputs,
             loc=loc,
-            engaged=own.engaged,
+            engaged=engaged,
             clutches=clutches,
-            loads=self.loads if own.loads is None else own.loads,
+            loads=self.loads_in(state),
             solve_for=self.solve_for if own.solve_for is None else own.solve_for,
             exact=all(self._is_exact(speed) for speed in inputs.values()),
             drive=drive,
             expect=own.expect or self.expect or "determined",
             rate=self.rate if drive is None or drive.rate is None else drive.rate,
+            senses={links: next(iter(each)) for links, each in senses.items() if len(each) == 1},
         )
+
+    def loads_in(self, state: str | None) -> Mapping[str, Quantity]:
+        """Return the loads in one state by link.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None for a train without states.
+        """
+        own = None if state is None else self.states[state].loads
+        return self.loads if own is None else own
+
+    @cached_property
+    def _decided_cases(self) -> dict[str | None, StateCase]:
+        return {}
+
+    def __copy__(self) -> Train:
+        """Return a copy without the decisions on one-way clutches, which depend on all values of the train."""
+        copied = super().__copy__()
+        copied.__dict__.pop("_decided_cases", None)
+        return copied
 
     def check_state(self, state: str | None) -> None:
         """Raise `QuestionError` if a state is not declared.
@@ -458,8 +507,14 @@ class Train(Declared):
             A declared state; None for a train without states.
         """
         bearings = (part.bearing.sliding for part in self.links.values() if part.bearing is not None)
-        torques = [torque for torque in (*self.case(state).loads.values(), *bearings) if torque.value]
-        return bool(torques) and all(torque.unit is not None for torque in torques)
+        torques = [torque for torque in (*self.loads_in(state).values(), *bearings) if torque.value]
+        # friction of a jumper has a unit
+        return bool(torques or self.has_jumpers) and all(torque.unit is not None for torque in torques)
+
+    @property
+    def has_jumpers(self) -> bool:
+        """True if a coupling has friction that does not depend on the load."""
+        return any(coupling.friction_torque for coupling in self.couplings)
 
     def is_loaded(self, state: str | None) -> bool:
         """Return True if torques are declared in a state, by loads or by friction of bearings.
@@ -469,7 +524,7 @@ class Train(Declared):
         state : str or None
             A declared state; None for a train without states.
         """
-        return bool(self.case(state).loads) or any(link.bearing for link in self.links.values())
+        return bool(self.loads_in(state)) or self.has_jumpers or any(link.bearing for link in self.links.values())
 
     def _speed(self, speed: Quantity) -> Fraction:
         """Convert a prescribed speed to the train's unit."""

@@ -1,7 +1,8 @@
-"""Rewriting of a declaration's turning pairs and gear pairs in short or in long forms.
+"""Rewriting of a declaration's turning pairs, gear pairs and belts in short or in long forms.
 
-Only these two sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their
-entries. An entry with keys that its short form cannot express stays long.
+Only these sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their
+entries. An entry with keys that its short form cannot express stays long. The section `couplings` is renamed to
+`belts`, or the reverse, only if all couplings of the train are belts around two wheels.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ _WIDTH = 120
 _NAME = re.compile(r"[^\s~'\"\[\]{},:#&*!|>%@`][^\s~'\"\[\]{},:#]*")
 """Pattern of a name that needs no quotes, not even in a flow list."""
 _Loader: Any = yaml.SafeLoader
+_RENAMED = {"couplings": "belts", "belts": "couplings"}
+"""Sections whose name differs between the two forms."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,8 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    r"""Rewrite a declaration in short form: turning pairs grouped by axis, gear pairs without other keys as `a ~ b`.
+    r"""Rewrite a declaration in short form: turning pairs grouped by axis, gear pairs and belts without other keys as
+    `a ~ b`.
 
     Parameters
     ----------
@@ -47,11 +51,12 @@ def with_short_forms(text: str) -> str:
     >>> print(with_short_forms("gears:\n  - {pair: [p, w]}"), end="")
     gears: [p ~ w]
     """
-    return _rewritten(text, {"revolutes": _short_joints, "gears": partial(_pairs, write=_short_pair)})
+    gears = partial(_pairs, write=_short_pair)
+    return _rewritten(text, {"revolutes": _short_joints, "gears": gears, "couplings": _short_belts})
 
 
 def with_long_forms(text: str) -> str:
-    r"""Rewrite a declaration in long form: every turning pair and every gear pair is a separate mapping.
+    r"""Rewrite a declaration in long form: every turning pair, gear pair and belt is a separate mapping.
 
     Parameters
     ----------
@@ -68,7 +73,8 @@ def with_long_forms(text: str) -> str:
     >>> print(*with_long_forms("gears:\n  - p ~ w").splitlines(), sep=" /")
     gears: /  - {pair: [p, w]}
     """
-    return _rewritten(text, {"revolutes": _long_joints, "gears": partial(_pairs, write=_long_pair)})
+    gears = partial(_pairs, write=_long_pair)
+    return _rewritten(text, {"revolutes": _long_joints, "gears": gears, "belts": _long_belts})
 
 
 def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[str] | None]]) -> str:
@@ -77,7 +83,8 @@ def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[
     # in a declaration in braces, sections do not begin on lines of their own
     if not isinstance(root, yaml.MappingNode) or root.flow_style:
         return text
-    parts = [(key, value) for key, value in root.value if key.value in writers]
+    names = {key.value for key, _ in root.value}
+    parts = [(key, value) for key, value in root.value if key.value in writers and _RENAMED.get(key.value) not in names]
     # from the last section to the first, so that the line numbers of earlier sections stay valid
     for key, value in sorted(parts, key=lambda part: -part[0].start_mark.line):
         written = _SectionSource(text, key, value)
@@ -185,6 +192,21 @@ def _short_pair(written: _SectionSource, node: yaml.Node) -> str:
     return " ~ ".join(wheels)
 
 
+def _short_belts(written: _SectionSource) -> list[str] | None:
+    """Return the lines of a section of belts around two wheels; None if there are other couplings."""
+    entries = []
+    for node in written.items:
+        parts = _parts(node)
+        around = parts.get("around")
+        wheels = [written.source(each) for each in around.value] if isinstance(around, yaml.SequenceNode) else []
+        if set(parts) != {"kind", "around"} or parts["kind"].value != "belt":
+            return None
+        if len(wheels) != 2 or not all(map(_NAME.fullmatch, wheels)):
+            return None
+        entries.append(written.entry(" ~ ".join(wheels), node))
+    return list(_section("belts", entries, written.head, "[]", "- ")) if entries else None
+
+
 # ------------------------------------------------------------------------------------------------------------- to long
 
 
@@ -210,6 +232,15 @@ def _long_pair(written: _SectionSource, node: yaml.Node) -> str:
         first, second = (wheel.strip() for wheel in node.value.split("~"))
         return f"{{pair: [{first}, {second}]}}"
     return written.source(node)
+
+
+def _long_belts(written: _SectionSource) -> list[str] | None:
+    pairs = [_long_pair(written, node) for node in written.items]
+    if not pairs or not all(pair.startswith("{pair: ") for pair in pairs):
+        return None
+    nodes = zip(pairs, written.items, strict=True)
+    entries = [written.entry(pair.replace("{pair: ", "{kind: belt, around: ", 1), node) for pair, node in nodes]
+    return list(_section("couplings", entries, written.head, "", "- "))
 
 
 def _pairs(written: _SectionSource, write: Callable[[_SectionSource, yaml.Node], str]) -> list[str] | None:

@@ -241,7 +241,11 @@ def _read_tooth_form(raw: Any) -> Any:
 
 
 def _read_coupling(raw: Any) -> Any:
-    """Return a coupling from its keys. An unknown kind is validated against all kinds, so that the error lists them."""
+    """Return a coupling from its keys. An unknown kind is validated against all kinds, so that the error lists them;
+    without `kind`, a coupling with a `ratio` is of kind ratio.
+    """
+    if isinstance(raw, dict) and "ratio" in raw and "kind" not in raw:
+        raw = {"kind": "ratio", **raw}
     return _read_model(raw, "kind", COUPLINGS)
 
 

@@ -55,6 +55,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
         ((*loc, "loads", link), torque) for loc, part in _cases(train) for link, torque in (part.loads or {}).items()
     ]
     found += [(("links", name, "bearing"), part.bearing.sliding) for name, part in train.links.items() if part.bearing]
+    found += [(("couplings", at), each) for at, coupling in enumerate(train.couplings) for each in coupling.torques]
     found += [(loc, torque) for loc, drive in declared_drives(train) for torque in drive.torques]
     named = next((torque for _, torque in found if torque.unit is not None), None)
     for loc, torque in found:
@@ -234,6 +235,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _couplings(train)
     yield from _unresolved(train)
     yield from _prescriptions(train)
+    yield from _one_way(train)
     yield from _reconstruction(train)
     yield from declared_units(train)
 
@@ -392,9 +394,10 @@ def _wheels(train: Train) -> Iterator[Problem]:
                 place,
             )
     for at, coupling in enumerate(train.couplings):
-        if coupling.name in names:
-            yield _duplicate(train, "coupling", coupling.name, "couplings", at)
-        names.add(coupling.name)
+        for name in dict.fromkeys((coupling.name, *coupling.row_names)):
+            if name in names:
+                yield _duplicate(train, "coupling", name, "couplings", at)
+            names.add(name)
 
 
 def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
@@ -408,14 +411,10 @@ def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
 
 def _couplings(train: Train) -> Iterator[Problem]:
     for at, coupling in enumerate(train.couplings):
-        if len(set(coupling.ends)) < len(coupling.ends):
-            twice = next(link for link in coupling.ends if coupling.ends.count(link) > 1)
-            yield Problem(
-                f"coupling '{coupling.name}' joins '{twice}' to itself",
-                f"{' and '.join(coupling.SIDES)} must be on different links",
-                "name the other link",
-                train.place("couplings", at),
-            )
+        known = {"link": train.links, "wheel": train.wheels}
+        # unknown names are reported as such
+        if all(name in known[kind] for kind, name, _ in coupling.references()):
+            yield from (Problem(*each, train.place("couplings", at)) for each in coupling.problems(train.wheels))
 
 
 def _unresolved(train: Train) -> Iterator[Problem]:
@@ -449,12 +448,14 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
             yield from _output_references(train, name, output, (*loc, "outputs", name))
     if train.escapement is not None:
         yield "link", train.escapement.link, ("escapement", "link")
+        yield "link", train.escapement.on, ("escapement", "on")
     yield "link", train.crank, ("crank",)
     yield "link", train.solve_for, ("solve_for",)
     for name, clutch in train.clutches.items():
         yield from (("link", link, ("clutches", name)) for link in (*(clutch.locks or ()), clutch.fixes))
     for name, state in train.states.items():
-        yield from (("clutch", clutch, ("states", name, "engaged", at)) for at, clutch in enumerate(state.engaged))
+        for key, named in (("engaged", state.engaged), ("free", state.free)):
+            yield from (("clutch", clutch, ("states", name, key, at)) for at, clutch in enumerate(named))
     stated: list[tuple[Loc, Any]] = [((key,), getattr(train, key)) for key in ("epoch", "cutting", "fitting")]
     for link, each in train.links.items():
         for name, wheel in each.wheels.items():
@@ -513,6 +514,19 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
             "name the link of the escape wheel",
             train.place("escapement", "link"),
         )
+
+
+def _one_way(train: Train) -> Iterator[Problem]:
+    """Yield problems of clutches under `free`, which must be one-way and not engaged in the same state."""
+    for name, state in train.states.items():
+        for at, clutch in enumerate(state.free):
+            place = train.place("states", name, "free", at)
+            if clutch in train.clutches and train.clutches[clutch].one_way is None:
+                why = "`free` withdraws one-way clutches, and other clutches are open unless they are engaged"
+                yield Problem(f"'{clutch}' is not a one-way clutch", why, "omit it from `free`", place)
+            elif clutch in state.engaged:
+                why = "it is required to hold, and not in force"
+                yield Problem(f"'{clutch}' is engaged and free", why, "remove it from `engaged` or `free`", place)
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import pi, tau
-from typing import Annotated
+from math import inf, pi, tau
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Problem
@@ -27,10 +27,12 @@ from geartrain.numerics.quantity import (
     Torque,
     TorsionalStiffness,
     above_zero,
+    bad,
     not_below_zero,
 )
-from geartrain.numerics.results import Shown
+from geartrain.numerics.results import Result, Shown
 from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id, Nothing, exactly_one
+from geartrain.train.fusees import Fusee, FuseeSpring
 from geartrain.train.outputs import Output
 
 GRAVITY = 9.80665
@@ -55,6 +57,27 @@ class SpringDrive(Declared):
     turns: Annotated[Figure, not_below_zero("give the turns of winding at the start, 0 or more")] = Field(
         description="Turns of winding at the start"
     )
+    barrel: Annotated[MeasuredLength, above_zero("give a length such as 15 mm")] | None = Field(
+        None, description="Radius of the barrel to the middle line of the chain; needs `fusee`"
+    )
+    fusee: Fusee | None = Field(None, description="Fusee on the driving link, turned by a chain from the barrel")
+
+    @model_validator(mode="after")
+    def _check_fusee(self) -> SpringDrive:
+        if (self.barrel is None) != (self.fusee is None):
+            fix = "give `barrel: 15 mm` and `fusee: {turns: 6, torque: 0.27 N m}`, or neither"
+            raise bad("drive", "`barrel` and `fusee` must be given together", fix)
+        if (chained := self.chained) is not None and (end := chained.end) < inf:
+            what = f"the spring has run down after {end:.6g} of the {chained.fusee.turns} turns of the fusee"
+            raise bad("drive", what, "give more `turns` of winding, fewer turns of the fusee, or smaller radii")
+        return self
+
+    @property
+    def chained(self) -> FuseeSpring | None:
+        """Spring with its fusee; None without a fusee."""
+        if self.barrel is None or self.fusee is None:
+            return None
+        return FuseeSpring(self.stiffness.si, tau * float(self.turns.value), self.barrel.si, self.fusee)
 
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].
@@ -64,6 +87,8 @@ class SpringDrive(Declared):
         unwound : float
             Angle by which the link has turned [rad].
         """
+        if (chained := self.chained) is not None:
+            return chained.torque(unwound)
         return self.stiffness.si * (tau * float(self.turns.value) - unwound)
 
 
@@ -151,14 +176,18 @@ class Drive(Declared):
 
     @property
     def pull(self) -> float | None:
-        """Torque of a weight at its drum [N m]: mass times gravity times radius; None for other drives."""
+        """Constant torque of a weight at its drum, mass times gravity times radius, or of a spring at its equalised
+        fusee [N m]; None for other drives.
+        """
+        if self.spring is not None and self.spring.fusee is not None and self.spring.fusee.torque is not None:
+            return self.spring.fusee.torque.si
         if self.weight is None or self.drum is None:
             return None
         return self.weight.si * GRAVITY * self.drum.si
 
     @property
     def steady_torque(self) -> float | None:
-        """Constant torque of a torque drive or a weight [N m]; None for other drives."""
+        """Constant torque of a torque drive, a weight or an equalised fusee [N m]; None for other drives."""
         return next((torque.si for torque in self.torques), self.pull)
 
     @property
@@ -170,7 +199,7 @@ class Drive(Declared):
 class Escapement(Declared):
     """Escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
-    Angles are relative to the link that carries the escape wheel, on which the pallets are mounted.
+    Angles are relative to the link on which the pallets are mounted, by default the link that carries the escape wheel.
 
     See Also
     --------
@@ -186,6 +215,9 @@ class Escapement(Declared):
 
     link: Id = Field(description="Link of the escape wheel")
     teeth: Count = Field(description="Tooth count of the escape wheel")
+    on: Id | None = Field(
+        None, description="Link with the pallets; default the link that carries the axis of the escape wheel"
+    )
     beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
         description="Time between beats, each of which lets half a tooth pass"
     )
@@ -228,8 +260,24 @@ class Escapement(Declared):
         return (link, count) == (self.link, self.teeth)
 
 
+def _read_sense(raw: object) -> object:
+    if raw in ("forward", "backward", None):
+        return raw
+    raise PydanticCustomError(
+        "one_way",
+        "`one_way` needs a sense of rotation",
+        {
+            "why": f"{raw!r} is not a sense",
+            "fix": "write `one_way: forward` or `one_way: backward`: the sense in which it may turn",
+        },
+    )
+
+
 class Clutch(Declared):
     """Brake (`fixes`) or clutch (`locks`); exactly one of the two keys is required.
+
+    With `one_way` it is an overrunning clutch, freewheel or ratchet, which is in force in every state: it holds, or it
+    overruns in the given sense, depending on speeds and torques.
 
     See Also
     --------
@@ -239,10 +287,30 @@ class Clutch(Declared):
 
     fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
     locks: tuple[Id, Id] | None = Field(None, description="Two links that the clutch locks together")
+    one_way: Annotated[Literal["forward", "backward"] | None, BeforeValidator(_read_sense)] = Field(
+        None,
+        description="Sense in which a one-way clutch overruns: the fixed link may turn only forward or backward; the "
+        "second of two locked links may turn only forward or backward relative to the first",
+    )
+    teeth: Count | None = Field(None, description="Tooth count of a ratchet, which takes hold within one tooth")
 
     @model_validator(mode="after")
     def _has_one_key(self) -> Clutch:
+        if self.teeth is not None and self.one_way is None:
+            raise PydanticCustomError(
+                "teeth", "`teeth` applies only to a one-way clutch", {"fix": "add `one_way: forward`, or omit `teeth`"}
+            )
         return exactly_one(self, "a clutch", ("fixes", "locks"))
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Fixed link, or the two links that are locked together."""
+        return self.locks or (self.fixes or "",)
+
+    @property
+    def senses(self) -> frozenset[int]:
+        """Signs of the torques that it can exert on the last of `links`: 1, -1 or both."""
+        return frozenset((1, -1)) if self.one_way is None else frozenset((1 if self.one_way == "forward" else -1,))
 
 
 class State(Declared):
@@ -254,7 +322,11 @@ class State(Declared):
     StateCase : prescriptions in force in one state
     """
 
-    engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are engaged, by name")
+    engaged: tuple[Id, ...] = Field(
+        (),
+        description="Clutches and brakes that are engaged, by name; a one-way clutch named here is required to hold",
+    )
+    free: tuple[Id, ...] = Field((), description="One-way clutches that are not in force, by name")
     fixed: tuple[Id, ...] | None = Field(None, description="Links fixed to the frame; default from the train")
     locks: tuple[tuple[Id, Id], ...] | None = Field(
         None, description="Pairs of links that are locked together; default from the train"
@@ -301,6 +373,60 @@ class Remove(Declared):
 # ----------------------------------------------------------------------------------------------------------- state case
 
 
+@dataclass(frozen=True)
+class OneWayAction(Result):
+    """Action of a one-way clutch in one state: it holds, or it overruns.
+
+    See Also
+    --------
+    StateCase : its field `one_way`
+    """
+
+    name: str
+    """Name of the clutch."""
+    holds: bool
+    """True if the clutch holds, False if it overruns."""
+    slip: Fraction | None
+    """Speed of its second link relative to its first in the sense in which it overruns [unit of the train]; 0 if it
+    holds, None if undetermined.
+    """
+    torque: Fraction | None
+    """Torque that it exerts on its second link, or on the link that it fixes; 0 if it overruns, None if undetermined.
+    In N m, or a number, if loads are declared; otherwise divided by the torque of the input.
+    """
+    torque_unit: str = ""
+    """Unit of `torque`, such as `N m`; empty for a number without a unit."""
+    required: bool = False
+    """True if the state names the clutch under `engaged`, so that it must hold."""
+    teeth: int | None = None
+    """Tooth count of a ratchet; None for another clutch."""
+
+    @property
+    def fails(self) -> bool:
+        """True if the clutch is required to hold and overruns."""
+        return self.required and not self.holds
+
+    def text(self, unit: str = "") -> str:
+        """Return the action as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
+
+        Parameters
+        ----------
+        unit : str
+            Unit of speeds.
+        """
+        if self.holds:
+            amount = "" if self.torque is None else f" ({f'{decimal(self.torque, 6)} {self.torque_unit}'.strip()})"
+            amount = " without torque" if self.torque == 0 else amount
+            text = f"holds{amount}"
+        else:
+            text = "overruns" + ("" if self.slip is None else f" at {f'{decimal(self.slip, 6)} {unit}'.strip()}")
+        text += f"; takes hold within 1/{self.teeth} turn" if self.teeth else ""
+        return f"{self.name} {text}" + ("; FAILS: it is required to hold" if self.fails else "")
+
+    def _summary(self) -> str:
+        return self.text()
+
+
 @dataclass(frozen=True, slots=True)
 class StateCase(Shown):
     """Prescriptions of a train in one state, including values inherited from the train.
@@ -326,7 +452,7 @@ class StateCase(Shown):
     loc: Loc
     """Path of the keys that declare the inputs."""
     engaged: tuple[str, ...]
-    """Names of engaged clutches and brakes."""
+    """Names of engaged clutches and brakes, including the one-way clutches that hold."""
     clutches: Mapping[tuple[str, ...], str]
     """Name of the brake or clutch for each fixed link and each pair of locked links."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
@@ -349,6 +475,20 @@ class StateCase(Shown):
     """
     problems: tuple[Problem, ...] = ()
     """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
+    senses: Mapping[tuple[str, ...], int] = field(default_factory=dict)
+    """Sign of the torque that one-way clutches can exert on the last link, by fixed link or locked links that are held
+    only by one-way clutches of one sense.
+    """
+    one_way: tuple[OneWayAction, ...] = ()
+    """One-way clutches in force, in the order of declaration."""
+    notes: tuple[str, ...] = ()
+    """Notes on the one-way clutches, such as what happens if the output drives."""
+
+    @property
+    def closed(self) -> tuple[str, ...]:
+        """Names in `engaged` without the one-way clutches that hold without torque."""
+        idle = {each.name for each in self.one_way if each.torque == 0}
+        return tuple(name for name in self.engaged if name not in idle)
 
     def given(self, link: str) -> str:
         """Return the prescribed speed of a link as text, such as `sun = 1400`.

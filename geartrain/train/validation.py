@@ -3,6 +3,7 @@ fix.
 
 `revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the other links.
 `gears: [s ~ p]`: a pair of two wheels.
+`belts: [p ~ q]`: a coupling of kind belt around two wheels.
 """
 
 from __future__ import annotations
@@ -275,7 +276,8 @@ _MARK = "~"
 def has_short_forms(data: Mapping[str, Any]) -> bool:
     """Return True if plain data contain short forms, or bare lists instead of pairs."""
     pairs = (each for key in ("gears", "revolutes") if isinstance(data.get(key), list | tuple) for each in data[key])
-    return isinstance(data.get("revolutes"), Mapping) or any(isinstance(each, str | list | tuple) for each in pairs)
+    short = isinstance(data.get("revolutes"), Mapping) or bool(data.get("belts"))
+    return short or any(isinstance(each, str | list | tuple) for each in pairs)
 
 
 def written_out(root: YamlNode) -> YamlNode:
@@ -287,6 +289,7 @@ def written_out(root: YamlNode) -> YamlNode:
     short_joints = joints if joints is not None and isinstance(joints.value, dict) else None
     short_gears = [each for each in gears.items if isinstance(each.value, str)] if gears is not None else []
     _check_short_forms(joints, gears, short_joints, short_gears)
+    root = _with_belts(root)
     changed: dict[str, YamlNode] = {}
     if short_joints is not None:
         changed["revolutes"] = YamlNode(list(_joints(short_joints)), short_joints.place)
@@ -294,6 +297,32 @@ def written_out(root: YamlNode) -> YamlNode:
         pairs = [_pair(each) if isinstance(each.value, str) else each for each in gears.items]
         changed["gears"] = YamlNode(pairs, gears.place)
     return YamlNode({**root.mapping, **changed}, root.place, root.keys) if changed else root
+
+
+def _with_belts(root: YamlNode) -> YamlNode:
+    """Return the declaration with `belts` added to its couplings. Raises `DeclarationError` for entries that are not
+    two wheels with a tilde between them.
+    """
+    belts = root.mapping.get("belts")
+    if belts is None or not belts.items:
+        return root
+    wrong = [each for each in belts.items if not isinstance(each.value, str) or len(_wheels(each.value)) != 2]
+    if wrong:
+        problems = (_invalid_pair(each, "belt", "p ~ q") for each in wrong)
+        raise DeclarationError(first_problems(problems, len(wrong)))
+    couplings = root.mapping.get("couplings", YamlNode([], belts.place))
+    if not isinstance(couplings.value, list):
+        return root  # validation reports it
+    added = [_belt(each) for each in belts.items]
+    rest = {key: node for key, node in root.mapping.items() if key != "belts"}
+    merged = {**rest, "couplings": YamlNode([*couplings.items, *added], couplings.place)}
+    return YamlNode(merged, root.place, {"couplings": belts.place, **root.keys})
+
+
+def _belt(belt: YamlNode) -> YamlNode:
+    wheels = _pair(belt).mapping["pair"]
+    parts = {"kind": YamlNode("belt", belt.place), "around": wheels}
+    return YamlNode(parts, belt.place, dict.fromkeys(parts, belt.place))
 
 
 def _check_short_forms(
@@ -343,12 +372,13 @@ def _wheels(text: str) -> list[str]:
     return [name.strip() for name in text.split(_MARK)]
 
 
-def _invalid_pair(gear: YamlNode) -> Problem:
+def _invalid_pair(pair: YamlNode, noun: str = "gear pair", example: str = "sun ~ planet") -> Problem:
+    text = pair.value if isinstance(pair.value, str) else " ".join(texts(pair))
     # separators that are written by mistake instead of a tilde
-    names = re.split(r"\s*[-,/]\s*|\s+", gear.value.strip())
-    fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else "for example, write `sun ~ planet`"
-    why = "a pair is two wheels with a tilde between them"
-    return Problem(f"'{gear.value}' is not a gear pair", why, fix, gear.place)
+    names = re.split(r"\s*[-,/]\s*|\s+", text.strip())
+    fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else f"for example, write `{example}`"
+    why = f"a {noun.removeprefix('gear ')} is two wheels with a tilde between them"
+    return Problem(f"'{text}' is not a {noun}", why, fix, pair.place)
 
 
 def _pair(gear: YamlNode) -> YamlNode:

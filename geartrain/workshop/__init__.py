@@ -1,6 +1,7 @@
 """Workshop: files to cut, wheels with cutting errors, Monte Carlo trials, tooth sizes and error budgets.
 
 export        outlines, plates, solids, graphs and tables of a train as files; proof that the cut parts turn
+rexs          gear units in the exchange format REXS, written and read
 cutting       wheels with cutting errors: jams, clashes, loss of contact, and their transmission functions
 monte_carlo   Monte Carlo trials of cutting errors and of friction: probabilities with intervals, Sobol indices
 budget        error budget of each pointer: ratio, pins, teeth, lost motion, cutting (`find_budget`)

@@ -41,7 +41,7 @@ def test_json_holds_the_torque_over_the_turns_at_its_top_level(pin: Path) -> Non
 
 def test_text_tells_extremes_energies_and_losses(pin: Path) -> None:
     text = call("torques", pin, "--turns", "1", *SAMPLES).output
-    for said in ("12.0981949", "50.9784589", "lost in pins", "everything repeats after 1 turn", "over 1 turn of"):
+    for said in ("12.0981949", "50.9784589", "lost in couplings", "everything repeats after 1 turn", "over 1 turn of"):
         assert said in text
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import pi
 from pathlib import Path
 
 import pytest
 from commands import call
 
-from geartrain import load
+from geartrain import DeclarationError, load
 from geartrain.scene import build_scene
 from geartrain.workshop import BudgetQuestion, find_budget
 
@@ -106,3 +107,30 @@ drive: {{weight: 0.1 kg, drum: 2 mm}}
 def test_no_pendulum_is_hung_on_an_escape_wheel_that_is_carried_round() -> None:
     dial = "dials: {face: {face: front}}\noutputs: {carriage: {dial: face}}\n"
     assert not build_scene(load(carried("70", 7, 15, "1 s, pendulum: 994 mm") + dial)).hangers
+
+
+def test_e1_pallets_on_the_carriage_see_600_turns_an_hour() -> None:
+    # 80/10 and 75/10 turn the carriage 60 times an hour; the escape pinion rolls on a fixed wheel: 70/7 turns more
+    train = load(f"extends: {CASE}\nname: e1\nescapement: {{link: escape, teeth: 15, beat: 0.2 s, on: carriage}}")
+    relative = train.solve()["escape"] - train.solve()["carriage"]
+    assert relative == 600
+    assert 3600 / (relative * 2 * 15) == Fraction(1, 5)
+    assert 3600 / (train.solve()["escape"] * 2 * 15) == Fraction(2, 11)
+    loads = "drive: null\nloads: {centre: 2 N mm}\nsolve_for: escape"
+    torques = load(f"extends: {CASE}\nname: e1\n{loads}").torques()
+    assert torques.external["escape"] == -torques.external["carriage"] == Fraction(-2, 600) / 1000
+    assert (torques.power_in, torques.efficiency) == (Fraction(2, 1000), 1)
+
+
+def test_e2_a_tourbillon_in_a_fixed_ring_beats_450_times_a_minute() -> None:
+    train = load(carried("105, internal: true", 7, 15, "0.133333333333 s"))
+    speeds = train.solve()
+    assert (speeds["escape"], speeds["escape"] - speeds["carriage"]) == (-14, -15)
+    assert 60 / (15 * Fraction(2 * 15)) == Fraction(2, 15)
+    run = train.dynamics(turns=0.1, skip=0, fast=False)
+    assert 60 * run["escape"].impact_rate == pytest.approx(450, rel=1e-6)  # type: ignore[union-attr]
+
+
+def test_pallets_must_stay_beside_the_escape_wheel() -> None:
+    with pytest.raises(DeclarationError, match="pallets on 'plate' do not stay beside the escape wheel 'escape'"):
+        load(f"extends: {CASE}\nname: e1\nescapement: {{link: escape, teeth: 15, beat: 0.2 s, on: plate}}").solve()

@@ -443,8 +443,8 @@ def test_a_weight_is_set_against_what_the_train_needs(drag: str, enough: bool) -
     assert weight.needed == over_turn.starting_torque == pytest.approx(float(drag[:3]) * 0.72 / 0.9**3, rel=1e-12)
     assert weight.suffices is enough
     page = to_markdown([describe_budget(found)])
-    assert f"The weight gives {PULL:.4g} N m at 'great'." in page
-    assert ("the weight suffices" in page) == enough
+    assert f"The drive gives {PULL:.4g} N m at 'great'." in page
+    assert ("the drive suffices" in page) == enough
 
 
 def test_a_year_of_the_crank_stands_in_the_budget() -> None:

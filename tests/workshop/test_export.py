@@ -6,9 +6,7 @@ import csv
 import io
 import json
 import re
-from collections.abc import Iterator
 from fractions import Fraction
-from itertools import pairwise
 from math import atan2, hypot, pi, radians
 
 import networkx as nx
@@ -275,82 +273,6 @@ def test_every_row_of_a_declaration_is_in_its_tables(name: str) -> None:
     assert len(found["couplings"]) == len(train.declaration.couplings)
     assert {row["state"] for row in found["links"]} == (set(train.states) or {""})
     assert all(row["holds"] == "yes" for row in found["outputs"])
-
-
-# ----------------------------------------------------------------------------------------------------------------- REXS
-
-# what REXS 1.4 says of the attributes used: unit, and key of the value
-ATTRIBUTES = {
-    "number_of_teeth": (None, "integer"),
-    "normal_module": ("mm", "floating_point"),
-    "axial_module": ("mm", "floating_point"),
-    "normal_pressure_angle": ("deg", "floating_point"),
-    "helix_angle_reference_diameter": ("deg", "floating_point"),
-    "pitch_angle": ("deg", "floating_point"),
-    "face_width": ("mm", "floating_point"),
-    "center_distance": ("mm", "floating_point"),
-    "u_coordinate_on_shaft": ("mm", "floating_point"),
-    "u_axis_vector": ("mm", "floating_point_array"),
-    "support_vector": ("mm", "floating_point_array"),
-    "w_axis_vector": ("mm", "floating_point_array"),
-    "reference_component_for_position": (None, "reference_component"),
-    "defines_speed": (None, "boolean"),
-    "rotational_speed": ("1 / min", "floating_point"),
-}
-COMPONENTS = {
-    *("gear_unit", "gear_casing", "shaft", "cylindrical_gear", "ring_gear", "bevel_gear", "worm_gear"),
-    *("cylindrical_stage", "bevel_stage", "worm_stage"),
-}
-
-
-def rexs(name: str) -> dict[str, object]:
-    train = load(name)
-    work = SolidModel(train, ManufacturingSizes(), train.states[0] if train.states else None)
-    return dict(json.loads(train_file(work, "rexs"))["model"])
-
-
-def attributes(model: dict) -> Iterator[dict]:  # type: ignore[type-arg]
-    for component in model["components"]:
-        yield from component["attributes"]
-    for case in model.get("load_spectrum", {"load_cases": []})["load_cases"]:
-        for component in case["components"]:
-            yield from component["attributes"]
-
-
-@pytest.mark.parametrize("name", ["planetary", "nrel-grc-750", "bevel-differential", "worm", "freeth-2021"])
-def test_rexs_has_the_parts_units_and_relations_that_its_version_1_4_allows(name: str) -> None:
-    model = rexs(name)
-    assert model["version"] == "1.4"
-    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+\d\d:\d\d", str(model["date"]))
-    components = {each["id"]: each for each in model["components"]}  # type: ignore[attr-defined]
-    assert len(components) == len(model["components"])  # type: ignore[arg-type]
-    assert {each["type"] for each in components.values()} <= COMPONENTS
-    for each in attributes(model):
-        unit, key = ATTRIBUTES[each["id"]]
-        assert each.get("unit") == unit
-        assert set(each) == {"id", key} | ({"unit"} if unit else set())
-    for relation in model["relations"]:  # type: ignore[attr-defined]
-        assert all(components[ref["id"]]["type"] == ref["hint"] for ref in relation["refs"])
-        roles = {ref["role"] for ref in relation["refs"]}
-        assert roles == {"assembly": {"assembly", "part"}, "stage": {"stage", "gear_1", "gear_2"}}[relation["type"]]
-
-
-def test_rexs_carries_teeth_distances_and_speeds_of_a_turbine_gearbox() -> None:
-    model = rexs("nrel-grc-750")
-    components = {each["name"]: each for each in model["components"]}  # type: ignore[attr-defined]
-    declaration = load("nrel-grc-750").declaration
-    for wheel, (_, kind) in declaration.wheels.items():
-        values = {each["id"]: each for each in components[wheel]["attributes"]}
-        assert values["number_of_teeth"]["integer"] == kind.count
-        assert components[wheel]["type"] == ("ring_gear" if kind.internal else "cylindrical_gear")
-    for first, second in pairwise(["s21", "p39"]):
-        stage = next(gear.name for gear in declaration.gears if set(gear.pair) == {first, second})
-        (distance,) = (each["floating_point"] for each in components[stage]["attributes"])
-        module = next(e["floating_point"] for e in components[first]["attributes"] if e["id"] == "normal_module")
-        assert distance == pytest.approx(module * (21 + 39) / 2)
-    running = model["load_spectrum"]["load_cases"][0]["components"]  # type: ignore[index]
-    speeds = {each["name"]: each["attributes"][0]["floating_point"] for each in running}
-    assert speeds["low"] / speeds["rotor"] == pytest.approx(1 + 99 / 21), "Willis: 1 + ring over sun"
 
 
 def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
+from geartrain.dynamics.motion.error_composition import PLAIN, REST, ErrorSamples
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
 from geartrain.numerics.kernels import kernel
 from geartrain.numerics.rounding_bounds import SPLITTER, split
@@ -228,7 +228,7 @@ def compose(
             e, v = delta[source, :size], slope[source, :size]
             transmission_along(transmissions, source, S, e, v, scratch[:size], cell[:size])
             _sign(sources, source, w, e, v)
-            behind[source] += _count_negative(w)
+            behind[source] += _count_below(w, -REST * sources.mean[source])
         for output in range(len(offset)):
             error[output, begin : begin + size] = offset[output]
             rate[output, begin : begin + size] = 0.0
@@ -284,10 +284,10 @@ def _sign(sources: ComposedSources, source: int, w: Floats, error: Floats, slope
 
 
 @kernel
-def _count_negative(speed: Floats) -> int:
+def _count_below(speed: Floats, bound: float) -> int:
     found = 0
     for each in speed:
-        found += each < 0.0
+        found += each < bound
     return found
 
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 _CHUNK = 32768  # maximum number of positions evaluated at once
 _NUMBERS = 1 << 23  # maximum number of stored angles: longer trains use smaller chunks
+REST = 1e-9  # of the mean speed of a driver: slower motion backwards is rounding of a dwell
 PLAIN = 1  # periods up to which a plain product gives the phase of the driver to rounding
 
 
@@ -65,6 +66,11 @@ class PairErrorSource:
     def start(self) -> float:
         """Forward angle of the driver at position 0 of the input, without the errors of links [rad]."""
         return self.phase - self.set_back
+
+    @property
+    def pace(self) -> float:
+        """Mean number of periods of the fastest component of the transmission function per revolution of the input."""
+        return float(self.cycles) * self.transmission.waves
 
     @property
     def mean(self) -> float:
@@ -283,7 +289,9 @@ class ErrorComposition:
             value, tau = source.transmission.error_and_speed(S[0])
             error[own] = source.sense * value
             rate[own] = source.sense * (tau - float(source.transmission.ratio)) * turning[0]
-        yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)
+        yield from (
+            source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < -REST * source.mean
+        )
 
     def _coupled(self, step: CompositionStep) -> CoupledErrors:
         sources = [self.sources[at] for at in step.sources]

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, evaluate
+from geartrain.dynamics.motion.error_composition import REST, ErrorComposition, InputPhase, evaluate
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
@@ -114,12 +114,12 @@ class PairKinks:
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
         ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum
-        ahead = self.shift(ends.ravel())[1].reshape(ends.shape) >= 0
+        ahead = self.shift(ends.ravel())[1].reshape(ends.shape) >= -REST * self.source.mean
         turning = ahead[:, 1:] != ahead[:, :-1]
         low, high, first = ends[:, :-1][turning], ends[:, 1:][turning], ahead[:, :-1][turning]
         for _ in range(_HALVINGS if len(low) else 0):
             middle = (low + high) / 2
-            before = (self.shift(middle)[1] >= 0) == first
+            before = (self.shift(middle)[1] >= -REST * self.source.mean) == first
             low, high = np.where(before, middle, low), np.where(before, high, middle)
         stops = ends[:, 1:].copy()
         stops[turning] = low
@@ -186,10 +186,10 @@ class KinkSearch:
 
     @cached_property
     def step(self) -> float:
-        """Maximum width of a narrow step [revolutions]: a quarter of the mean period of the fastest transmission
-        function; infinite if every error is constant.
+        """Maximum width of a narrow step [revolutions]: a quarter of the mean period of the fastest component of a
+        transmission function; infinite if every error is constant.
         """
-        fastest = max((float(pair.source.cycles) for pair in self.pairs), default=0.0)
+        fastest = max((pair.source.pace for pair in self.pairs), default=0.0)
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:

@@ -103,6 +103,16 @@ class TransmissionErrorCurve(Tabular, Result):
 _MAIN = 3  # outputs in a summary
 
 
+def _refuse_jumps(composition: ErrorComposition) -> None:
+    """Raise `GearTrainError` if a step at once moves its own driver, whose position is then not unique."""
+    for step in composition.steps:
+        jumping = [composition.sources[at].id for at in step.sources if composition.sources[at].transmission.at_once]
+        if step.coupled and jumping:
+            what = f"the step of '{jumping[0]}' turns its own driver"
+            why = "a step at once has no position of the driver during the step"
+            raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
+
+
 class Motion(Shown):
     """Motion of a train including the errors of its teeth and pins, as a function of the revolutions of its input.
 
@@ -234,6 +244,7 @@ class Motion(Shown):
         """
         backlash, (teeth, pins) = self._errors.backlash(way), self._start
         found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
+        _refuse_jumps(found)
         sources = tuple(
             replace(
                 each,

@@ -79,8 +79,8 @@ class PairErrors:
     def driven_side(self, circuit: Circuit) -> int:
         """Return 0 if the circuit's first link is driven, 1 if its second link is driven.
 
-        The transmission function of a pin gives the angle of its slot, even if the slot drives, because pins and slots
-        have no backlash.
+        The transmission function of a coupling gives the angle of its driven link, such as a slot, even if this link
+        drives, because couplings have no backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
@@ -136,6 +136,8 @@ class PairErrors:
         driver = self.train.relative(ends[1 - driven], carrier)
         forward = -1 if driver < 0 else 1
         sense = self.sense(circuit)
+        if circuit.kind != "gear" and self.train.way * forward < 0:
+            transmission = transmission.mirrored()
         # a follower with the mean ratio 0 has no sense: its error counts in the driver's sense
         if not circuit.b:
             sense = forward
@@ -163,9 +165,10 @@ class PairErrors:
         """Return the driver's forward angle [rad] at which a tooth of the first wheel has the declared phase of the
         pair.
 
-        For a pin and slot the phase refers to the pin. If the first wheel is driven, its transmission function is
-        inverted. A planet between sun and ring has no independent phase in its second pair: its first pair determines
-        the phase, with half a pitch added if its tooth count is odd and the contacts are on opposite sides.
+        It is 0 for a coupling, whose transmission function includes its phase. If the first wheel is driven, its
+        transmission function is inverted. A planet between sun and ring has no independent phase in its second pair:
+        its first pair determines the phase, with half a pitch added if its tooth count is odd and the contacts are on
+        opposite sides.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:
@@ -181,7 +184,9 @@ class PairErrors:
                 )
                 return (pitches % 1) * transmission.period
         phase = self.train.phases.get(circuit.id, 0.0)
-        if driven == 1 or circuit.kind != "gear":
+        if circuit.kind != "gear":
+            return 0.0
+        if driven == 1:
             return phase * transmission.period
         phase -= self.train.meshes[circuit.id].tooth_phase
         wanted = phase * float(transmission.ratio) * transmission.period

@@ -208,7 +208,7 @@ def _outputs(setting: LoadCase) -> UnitLoads:
     """Return unit loads at every output, against its motion."""
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
-    return {name: drag for name, (of, base) in ends.items() if (drag := _drag(setting, of, base))}
+    return {name: drag for name, (of, base) in ends.items() if (drag := drag_torques(setting, of, base))}
 
 
 def _shafts(setting: LoadCase) -> UnitLoads:
@@ -219,7 +219,7 @@ def _shafts(setting: LoadCase) -> UnitLoads:
 def _joints(setting: LoadCase) -> UnitLoads:
     """Return unit loads at every link, against its rotation in its bearing."""
     links = (link for link in setting.train.links if link != setting.train.frame)
-    return {link: drag for link in links if (drag := _drag(setting, link, setting.bearer(link)))}
+    return {link: drag for link in links if (drag := drag_torques(setting, link, setting.bearer(link)))}
 
 
 _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
@@ -234,7 +234,7 @@ it.
 """
 
 
-def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
+def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
     """Return a unit torque between two links against their relative rotation, by link; empty if they are at relative
     rest.
     """
@@ -322,7 +322,7 @@ def _driver_of(setting: LoadCase, circuit: Circuit, way: FlowDirections, source:
     if turn is None:
         return _open(setting, circuit, "the relative speed of its two sides is not determined")
     if not turn:
-        what = "its slot only oscillates" if circuit.swings else "its two sides have no relative motion"
+        what = "its driven side only oscillates" if circuit.swings else "its two sides have no relative motion"
         return _open(setting, circuit, f"{what}, so no power flows on average")
     return _open(setting, circuit, "no power flows through it")
 
@@ -332,7 +332,8 @@ def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
 
 
 def _assumed_driver(train: Train, circuit: Circuit) -> str:
-    """Return the assumed driver of a pair whose driver is undetermined: the pin, or the wheel with fewer teeth.
+    """Return the assumed driver of a pair whose driver is undetermined: the driving link of a coupling as declared,
+    or the wheel with fewer teeth.
 
     An external wheel precedes a ring gear, and wheels with equal tooth counts are ordered by name.
     """

@@ -195,15 +195,19 @@ def _is_consistent(
     """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
         return False
-    bound = [column for column, value in values.items() if value is None and (sides[column] or columns[column].barred)]
+    bound = [
+        column
+        for column, value in values.items()
+        if value is None and (sides[column] or columns[column].barred or columns[column].sense)
+    ]
     if not bound:
         return True
     solved = eliminate_block(columns, block, sides, _forms(known)).forms()
     demands: list[LinearForm] = []
     for column in bound:
         form = solved.get(column, {column: Fraction(1)})
-        # required sign of the torque: power in the direction of the side
-        way = -sides[column] * columns[column].turn
+        # required sign of the torque: power in the direction of the side, or the sense of a one-way clutch
+        way = -sides[column] * columns[column].turn or columns[column].sense
         demands.append({at: way * value for at, value in form.items()})
         if columns[column].barred:
             demands.append({at: -way * value for at, value in form.items()})

@@ -13,7 +13,7 @@ from functools import cached_property
 
 from geartrain.dynamics.gear_meshes import CouplingMesh
 from geartrain.dynamics.torques.torque_results import BearingTorque
-from geartrain.kinematics.circuits import Axes, Circuit, Tree
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, pallet_link
 from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate
@@ -211,10 +211,10 @@ class LoadCase:
     def reacts_on(self, link: str) -> str:
         """Return the link on which the reaction of an unknown torque acts: usually the frame.
 
-        For the escape wheel it is the link that carries this wheel, because the pallets are mounted there.
+        For the escape wheel it is the link on which the pallets are mounted.
         """
         escapement = self.train.escapement
-        return self.train.frame if escapement is None or link != escapement.link else self.bearer(link)
+        return self.train.frame if escapement is None or link != escapement.link else pallet_link(escapement, self.tree)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
         """Return the speed of a circuit's first link relative to its carrier; at 0 no power flows through the pair."""
@@ -222,21 +222,36 @@ class LoadCase:
 
     @cached_property
     def bearings(self) -> tuple[BearingTorque, ...]:
-        """Friction torque of every bearing with friction, against the rotation of its link: equation (10).
+        """Friction torque of every bearing with friction, against the rotation of its link: equation (10). It includes
+        the mean torque of jumpers on the link.
 
         The torque is 0 if the speed in the joint is 0 or undetermined.
         """
         found = []
-        for link in self.train.links:
-            if not (friction := self.bearing(link)):
-                continue
-            carrier = self.tree.parent[link][0]
+        for (link, carrier), friction in self._rubbing.items():
             relative = self.relative(link, carrier) or Fraction(0)
             # Coulomb friction has the sign of the relative speed
             torque = friction * ((relative > 0) - (relative < 0))
             reaction = Fraction(0) if carrier == self.train.frame else self.sense(carrier) * torque
             found.append(BearingTorque(link, carrier, -self.sense(link) * torque, reaction, torque * relative))
         return tuple(found)
+
+    @property
+    def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
+        """Friction torques above 0 that do not depend on the load, by the link and the link that carries it."""
+        own = (
+            (link, self.tree.parent[link][0], friction) for link in self.train.links if (friction := self.bearing(link))
+        )
+        jumpers = (
+            (each.i, each.carrier, self.couplings[each.id].friction_torque)
+            for each in self.circuits
+            if each.kind != "gear"
+        )
+        found: dict[tuple[str, str], Fraction] = {}
+        for link, carrier, friction in (*own, *jumpers):
+            if friction:
+                found[link, carrier] = found.get((link, carrier), Fraction(0)) + friction
+        return found
 
     def bearing(self, link: str) -> Fraction:
         """Return the friction torque of a link's bearing, 0 if none is declared [N m, or number without a unit]."""

@@ -167,6 +167,7 @@ def find_neglected_effects(
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
+    found += _of_couplings(setting, busy)
     found += _bearings(setting) if bearings else _all_bearings(setting)
     shared = tuple(circuit.id for circuit in busy if circuit.id in set(neither))
     if shared:
@@ -196,8 +197,11 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
     found = [
         *_pins_without_dimensions(setting, setting.circuits),
         *_teeth(setting, setting.circuits, all_mean_efficiencies(setting)),
+        *_of_couplings(setting, setting.circuits),
         *_inertia(setting),
     ]
+    if jumpers := tuple(each.name for each in setting.train.couplings if each.friction_torque):
+        found.append(NeglectedEffect("friction of jumpers", jumpers, "it is known as a mean over a turn only"))
     if at_means:
         why = "these pairs are redundant, so the phase of their teeth is not known: mean efficiencies are used"
         found.append(NeglectedEffect("variation within a turn", tuple(at_means), why))
@@ -206,24 +210,32 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Yield the friction of pins in followers, and of pins in slots without declared dimensions."""
-    couplings = setting.couplings
-    bearing_friction = [
-        circuit for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
-    ]
+    bearing_friction = _rubbing_pins(setting, busy)
     if swinging := tuple(circuit.id for circuit in bearing_friction if not circuit.b):
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
     yield from _pins_without_dimensions(setting, [circuit for circuit in bearing_friction if circuit.b])
 
 
+def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
+    """Yield the effects of couplings that are not computed, such as the side loads of joints."""
+    named: dict[tuple[str, str], list[str]] = {}
+    for circuit in busy:
+        if circuit.kind != "gear" and (effect := setting.couplings[circuit.id].NEGLECTED) is not None:
+            named.setdefault(effect, []).append(circuit.id)
+    yield from (NeglectedEffect(what, tuple(names), why) for (what, why), names in named.items())
+
+
 def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    couplings = setting.couplings
-    bearing_friction = [
-        circuit.id for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
-    ]
-    if bare := tuple(name for name in bearing_friction if name not in setting.joints):
+    if bare := tuple(circuit.id for circuit in _rubbing_pins(setting, busy) if circuit.id not in setting.joints):
         why = "it depends on `pin_radius` and `offset`, which are not declared"
         yield NeglectedEffect("friction of pins", bare, why)
+
+
+def _rubbing_pins(setting: LoadCase, busy: Sequence[Circuit]) -> list[Circuit]:
+    """Return the circuits of pins with friction."""
+    pins = {pin.name for pin in setting.train.pin_couplings if setting.has_friction(pin)}
+    return [circuit for circuit in busy if circuit.id in pins]
 
 
 def _teeth(
@@ -309,8 +321,12 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
         declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
         if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.has_friction and not declared))):
             found.append(circuit.id)
-    if found:
-        yield NeglectedEffect("variation within a turn", tuple(found), f"{_MEAN}, about which they vary with position")
+    resting = [name for name in found if name in setting.joints and setting.joints[name].transmission.dwell]
+    if moving := tuple(name for name in found if name not in resting):
+        yield NeglectedEffect("variation within a turn", moving, f"{_MEAN}, about which they vary with position")
+    if resting:
+        why = f"{_MEAN}; at rest the driver carries no torque, and the driven link is held by its lock on the carrier"
+        yield NeglectedEffect("variation within a turn", tuple(resting), why)
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:

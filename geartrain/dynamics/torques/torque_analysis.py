@@ -355,7 +355,7 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
     requested.
     """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
-    if not loads and not any(map(setting.bearing, setting.train.links)):
+    if not loads and not any(map(setting.bearing, setting.train.links)) and not setting.train.has_jumpers:
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     question = _requested(setting, loads, solve_for)
@@ -368,6 +368,17 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
 def torques_unknown(state: str | None) -> Torques:
     """Return the result for a state whose speeds are undetermined."""
     return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
+
+
+def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
+    """Compute the torques under given torques on links while power enters at the inputs; bearing friction is
+    neglected.
+    """
+    if (verdict := _without_axis(setting, drag)) is not None:
+        return Torques(setting.case.state, verdict)
+    links = power_inputs(setting)
+    question = TorqueQuestion(drag, links, len(links) == len(setting.case.inputs) and not setting.forms)
+    return _balanced(setting, question, bearings=False, flows_only=True)
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
@@ -464,6 +475,10 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
+    if balance.senses and not found and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
+        names = _overrunning(setting, any_way[0])
+        text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
+        return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
     question = LoadedBalance(balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
@@ -480,6 +495,16 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
         verdict = _with_reason(unknown, verdict)
         return Torques(state, verdict, unknown.links, neglected=neglected)
     return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
+
+
+def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
+    """Return the one-way clutches that hold but have a torque in the sense in which they overrun; if there are none,
+    those with an undetermined torque.
+    """
+    senses = setting.case.senses
+    held = [each for each in _held(setting, flow) if each.links in senses]
+    wrong = [each for each in held if each.torques and senses[each.links] * each.torques[-1] < 0]
+    return tuple(each.clutch or "" for each in wrong or held if wrong or each.torques is None)
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
@@ -520,7 +545,19 @@ def build_balance(
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
         find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
         shares,
+        _reactions(setting, requested),
+        case.senses,
     )
+
+
+def _reactions(setting: LoadCase, requested: Iterable[str]) -> dict[str, tuple[str, int]]:
+    """Return, for each unknown torque whose reaction does not act on the frame, the link of the reaction and the
+    reaction to a unit torque.
+    """
+    bases = ((link, setting.reacts_on(link)) for link in requested)
+    return {
+        link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases if base != setting.train.frame
+    }
 
 
 def _brakes(setting: LoadCase) -> tuple[str, ...]:
@@ -575,6 +612,13 @@ def _torques(
     for found in (solved.external, solved.brakes):
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
+    reactions = {
+        link: (base, way * solved.external[link])
+        for link, (base, way) in balance.reactions.items()
+        if solved.external.get(link)
+    }
+    for base, torque in reactions.values():
+        external[base] = external.get(base, Fraction(0)) + torque
     # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
     for link, torque in bearing_friction.items():
         external[link] -= torque
@@ -591,6 +635,8 @@ def _torques(
         setting.bearings if bearing_friction else (),
         _held(setting, flow),
         neglected,
+        reactions,
+        {each.name: each.slip for each in setting.case.one_way if not each.holds},
     )
 
 

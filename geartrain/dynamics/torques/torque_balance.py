@@ -118,10 +118,12 @@ class TorqueUnknown:
     """Sign of the rolling speed of the first lossy mesh."""
     barred: bool = False
     """True if no power can flow, so that the torque must be 0."""
+    sense: int = 0
+    """Required sign of the torque, of a one-way clutch; 0 for any sign."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
         """Return True if a torque transmits power in the direction of `side`, or no power."""
-        if self.barred and torque:
+        if (self.barred and torque) or self.sense * torque < 0:
             return False
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
@@ -144,6 +146,7 @@ class TorqueBalance:
     held      links braked to the frame; `locks` are pairs of links locked together, with the senses of both axes
     ties      groups of meshes with equal multipliers, such as meshes of equal planets
     shares    declared fractions of the torque on a wheel
+    senses    sign of the torque on the last link, by held link or locked links that one-way clutches hold
     """
 
     links: tuple[str, ...]
@@ -155,6 +158,7 @@ class TorqueBalance:
     ties: tuple[tuple[str, ...], ...] = ()
     shares: tuple[LoadShares, ...] = ()
     reactions: Mapping[str, tuple[str, int]] = field(default_factory=dict)
+    senses: Mapping[tuple[str, ...], int] = field(default_factory=dict)
 
     @cached_property
     def columns(self) -> tuple[TorqueUnknown, ...]:
@@ -170,9 +174,17 @@ class TorqueBalance:
         ]
         outside += [((link, one),) for link in self.held]
         outside += [((a, Fraction(s)), (b, Fraction(-t))) for (a, s), (b, t) in self.locks]
-        plain = [TorqueUnknown({0: _row((self._at[link], value) for link, value in each if link in self._at)})
-                 for each in outside]  # fmt: skip
+        rows = [_row((self._at[link], value) for link, value in each if link in self._at) for each in outside]
+        plain = [TorqueUnknown({0: row}, sense=sense) for row, sense in zip(rows, self._signs, strict=True)]
         return (*(self._column(tuple(group)) for group in groups.values()), *plain)
+
+    @property
+    def _signs(self) -> tuple[int, ...]:
+        """Required sign of each unknown torque without a mesh: external torques, brakes and locks; 0 for any sign."""
+        held = (self.senses.get((link,), 0) for link in self.held)
+        # the unknown torque of a lock acts on its first link, and with the opposite sign on the second
+        locks = (-t * self.senses.get((a, b), 0) for (a, _), (b, t) in self.locks)
+        return (*(0 for _ in self.unknown), *held, *locks)
 
     @cached_property
     def rows(self) -> Mapping[int, Fraction]:

@@ -174,6 +174,7 @@ TorqueVerdictKind = Literal[
     "indeterminate",
     "contradictory",
     "unbalanced",
+    "overrunning",
     "undecided",
     "unloaded",
     "still",
@@ -196,6 +197,7 @@ class TorqueVerdict(Result):
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
     - `contradictory`: declared shares of pairs contradict the balance.
     - `unbalanced`: the loads set the train in motion, and no torques on the requested links can balance them.
+    - `overrunning`: a one-way clutch that must hold would overrun.
     - `undecided`: several links could have the unknown torque.
     - `unloaded`: no load and no friction of a bearing is declared.
     - `still`: the train or the requested link is at rest, or its speed is undetermined.
@@ -330,6 +332,14 @@ class Torques(FrozenFields, Tabular, TrainResult):
     """Brakes and locks with the torques that they exert."""
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that the torques do not include."""
+    reactions: Mapping[str, tuple[str, Fraction]] = field(default_factory=dict)
+    """Link of `requested` whose reaction does not act on the frame -> link of the reaction, and its torque, which
+    `external` includes. The pallets of an escapement are such a link.
+    """
+    overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
+    """Speed at which each one-way clutch overruns, without torque and loss [unit of the train], by clutch; None if
+    undetermined.
+    """
 
     def _meaning(self, column: str) -> str:
         text = self.MEANINGS[column]
@@ -396,7 +406,12 @@ class Torques(FrozenFields, Tabular, TrainResult):
     @property
     def power_in(self) -> Fraction:
         """Power that enters the train [unit of torque times the train's unit of speed]."""
-        return sum((power for power in self.powers.values() if power > 0), Fraction(0))
+        powers = dict(self.powers)
+        for link, (base, torque) in self.reactions.items():
+            # power passes between both links of a reaction only through their relative motion
+            passed = torque * self.speeds.get(base, Fraction(0))
+            powers[link], powers[base] = powers[link] + passed, powers[base] - passed
+        return sum((power for power in powers.values() if power > 0), Fraction(0))
 
     @property
     def bearing_loss(self) -> Fraction:

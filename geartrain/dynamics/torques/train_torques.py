@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.load_case import input_and_output
 from geartrain.dynamics.torques.torque_analysis import drive, find_torques, torques_unknown
-from geartrain.dynamics.torques.torque_results import DrivenWay
+from geartrain.dynamics.torques.torque_results import DrivenWay, TorqueVerdict
 from geartrain.errors import check_choice
 
 if TYPE_CHECKING:
@@ -39,4 +40,22 @@ def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]
     declared = train.declaration
     found = input_and_output(declared, declared.case(declared.state_or_first(state)))
     ways = [] if found is None else [found, found[::-1]]
-    return [DrivenWay(solve_driven(train, load, source, state), source, load) for source, load in ways]
+    return [
+        DrivenWay(_without_rests(train, solve_driven(train, load, source, state)), source, load)
+        for source, load in ways
+    ]
+
+
+def _without_rests(train: TrainMechanics, torques: Torques) -> Torques:
+    """Return the torques, with the verdict `self-locking` if power flows back through a coupling with a lock, which
+    holds its driven link at rest.
+    """
+    wheels = train.declaration.wheels
+    locked = {
+        row.id: row.driven for each in train.declaration.couplings if each.LOCKS_BACK for row in each.rows(wheels)
+    }
+    for pair in torques.pairs.values():
+        if pair.driver == locked.get(pair.id):
+            text = f"'{pair.driver}' is held by the lock of '{pair.id}' while it rests"
+            return replace(torques, verdict=TorqueVerdict("self-locking", text))
+    return torques

@@ -78,7 +78,7 @@ class CycleEnergy(Result):
     mesh: float
     """Energy lost in gear pairs, 0 or more [J, or rad if torques are numbers without a unit]."""
     pin: float
-    """Energy lost in pins and slots, 0 or more [J, or rad if torques are numbers without a unit]."""
+    """Energy lost in couplings such as pins in slots, 0 or more [J, or rad if torques are numbers without a unit]."""
     bearing: float
     """Energy lost in bearings, 0 or more [J, or rad if torques are numbers without a unit]."""
 
@@ -108,7 +108,7 @@ class CycleEnergy(Result):
 
     @property
     def lost(self) -> float:
-        """Energy lost in pairs, pins and bearings [J, or rad if torques are numbers without a unit]."""
+        """Energy lost in pairs, couplings and bearings [J, or rad if torques are numbers without a unit]."""
         return self.mesh + self.pin + self.bearing
 
 

@@ -107,9 +107,12 @@ class BasicEfficiency(ContactLosses):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques, reduced by the efficiency for the side that drives."""
+        """Return the torques, reduced by the efficiency for the side that drives.
+
+        Where the ratio is negative, as on the return stroke of a follower, the other side drives.
+        """
         del transmission, at, static
-        ahead, back = way > 0, way < 0
+        ahead, back = way * tau > 0, way * tau < 0
         barred = (ahead & (self.driver <= 0)) | (back & (self.driven <= 0))
         arrives = np.where(ahead, self.driver if self.driver > 0 else 1.0, 1.0)
         returns = np.where(back, self.driven if self.driven > 0 else 1.0, 1.0)
@@ -309,8 +312,9 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
 
 def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     coupling, joint = setting.couplings[circuit.id], setting.joints.get(circuit.id)
-    if coupling.efficiency is not None and circuit.b:
-        return _constant_efficiency(setting, circuit, first=False)
+    if (declared := coupling.efficiency) is not None:
+        driver, driven = float(declared.forward.base), float(declared.backward.base)
+        return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
     friction = setting.train.friction_of(coupling)
     if not isinstance(joint, PinMesh) or friction is None or not friction.has_friction:
         return ContactLosses()

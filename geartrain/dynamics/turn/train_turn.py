@@ -184,24 +184,31 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
         for end in (link, setting.tree.parent[link][0]):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
-    bases = {link: setting.reacts_on(link) for link in question.links}
-    reactions = {
-        link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items() if base != frame
-    }
-    balanced = replace(build_balance(setting, known, question.links), reactions=reactions)
-    whole = generic_balance(balanced)
+    whole = generic_balance(build_balance(setting, known, question.links))
     balance = without_pairs(whole, idle_pairs(whole))
     busy = replace(
         setting, circuits=[each for each in setting.circuits if each.id in {mesh.id for mesh in balance.meshes}]
     )
     links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, circuit.carrier)}
-    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, *bases.items())
+    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, question.links)
+    links.update(map(setting.reacts_on, question.links))
     teeth = {mesh.name: mesh for mesh in problem.teeth}
+    _refuse_jumps(busy)
     motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
     positions = PositionMotion(motion, followed_pairs(busy, teeth))
     contacts = find_contacts(busy, positions, teeth)
     loads = {link: float(torque) for link, torque in question.loads.items()}
     return TurnBalance(busy, positions, balance, contacts, loads, bearings)
+
+
+def _refuse_jumps(setting: LoadCase) -> None:
+    """Raise `QuestionError` if a coupling that transmits torque moves at once."""
+    for circuit in setting.circuits:
+        joint = setting.joints.get(circuit.id)
+        if joint is not None and joint.transmission.at_once:
+            what = f"the torque of '{circuit.id}' over a turn is not defined"
+            why = "a step at once has no force; only the mean torque is known"
+            raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
 
 
 @dataclass

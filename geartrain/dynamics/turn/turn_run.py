@@ -179,7 +179,7 @@ class TurnRun:
     @cached_property
     def narrowest(self) -> float:
         """Period of the fastest transmission function [revolutions of the input]."""
-        fastest = max((float(each.cycles) for each in self.train.motion.sources.values()), default=0.0)
+        fastest = max((each.pace for each in self.train.motion.sources.values()), default=0.0)
         # the length of the run if no pair is evaluated at positions
         return 1 / max(fastest, 1 / self.span)
 

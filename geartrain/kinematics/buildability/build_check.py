@@ -221,13 +221,14 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
 def check_mates(train: Train) -> Iterator[BuildFinding]:
     """Yield findings of rule W1: wheels without a gear pair.
 
-    A wheel is exempt if its link has a pin or slot, if it is the escape wheel, or if it has a note.
+    A wheel is exempt if a belt goes around it, if its link is in another coupling, if it is the escape wheel, or if it
+    has a note.
     """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
-    coupled = {link for coupling in train.couplings for link in coupling.links(train.wheels)}
+    named = {(kind, name) for coupling in train.couplings for kind, name, _ in coupling.references()}
     escapement = train.escapement
     for name, (link, wheel) in train.wheels.items():
-        if name in meshing or link in coupled or wheel.note:
+        if name in meshing or wheel.note or not named.isdisjoint({("wheel", name), ("link", link)}):
             continue
         if escapement is not None and escapement.has_wheel(link, wheel.count):
             continue
@@ -337,6 +338,10 @@ def check_build(
     yield from check_skew(train, tree, pairs, sizes)
     yield from check_triangles(sizes)
     yield from check_shared_wheels(pairs, outlines)
+    if any(circuit.kind == "belt" for circuit in circuits):
+        from geartrain.kinematics.buildability.belt_drives import check_belts
+
+        yield from check_belts(train, tree, circuits)
     yield from _planets(train, tree, circuits, sizes, outlines)
     yield from check_clutches(train, tree)
 

@@ -21,7 +21,7 @@ from geartrain.kinematics.buildability.build_findings import BuildFinding, Build
 from geartrain.kinematics.circuits import Axes, Circuit, Tree
 from geartrain.numerics.graphs import RatioSets
 from geartrain.numerics.quantity import millimetres
-from geartrain.numerics.vectors import cross, dot, minus
+from geartrain.numerics.vectors import cross, dot
 
 if TYPE_CHECKING:
     from geartrain.teeth.tooth_form import ToothForm
@@ -307,6 +307,19 @@ _MM = ("mm",)
 Node = tuple[str, ...]
 
 
+def axis_distance(train: Train, axes: tuple[str, str]) -> Fraction | None:
+    """Return the distance of two parallel axes [mm]; None unless the positions of both are declared."""
+    declared = [train.axes[label] for label in axes if label in train.axes]
+    if len(declared) < 2 or declared[0].position is None or declared[1].position is None:
+        return None
+    here, there = (tuple(map(millimetres, axis.position or ())) for axis in declared)
+    x, y, z = (figure.value for figure in declared[0].direction)
+    apart = there[0] - here[0], there[1] - here[1], there[2] - here[2]
+    # component of the offset normal to the direction of the axes
+    across = cross(apart, (x, y, z))
+    return Fraction(sqrt(dot(across, across) / dot((x, y, z), (x, y, z))))
+
+
 class PitchDistances:
     """Modules and centre distances of one train, as far as they follow from its declaration."""
 
@@ -396,24 +409,12 @@ class PitchDistances:
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
         """Record the distance between two parallel axes if the positions of both axes are declared."""
-        declared = [self.train.axes[label] for label in axes if label in self.train.axes]
         node = ("axes", *axes)
-        if node in self.placed or len(declared) < 2 or axes[0] == axes[1]:
+        if node in self.placed or axes[0] == axes[1]:
             return
-        here, there = (axis.position for axis in declared)
-        if here is None or there is None:
-            return
-        x, y, z = (figure.value for figure in declared[0].direction)
-        apart = minus(
-            (millimetres(there[0]), millimetres(there[1]), millimetres(there[2])),
-            (millimetres(here[0]), millimetres(here[1]), millimetres(here[2])),
-        )
-        # distance of parallel axes: component of their offset normal to the direction
-        across = cross(apart, (x, y, z))
-        far = sqrt(dot(across, across) / dot((x, y, z), (x, y, z)))
-        if far:
+        if far := axis_distance(self.train, axes):
             self.placed[node] = "the positions"
-            self.sizes.join(_MM, node, Fraction(far))
+            self.sizes.join(_MM, node, far)
 
     def _distances(self) -> Iterator[BuildFinding]:
         for pair in self.pairs:

@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 from geartrain.kinematics.circuits.fundamental import Circuit, find_circuits
-from geartrain.kinematics.circuits.joint_tree import Axes, Tree, close_joints, find_tree, rigid_across_axes, rigid_place
+from geartrain.kinematics.circuits.joint_tree import (
+    Axes,
+    Tree,
+    check_pallets,
+    close_joints,
+    find_tree,
+    pallet_link,
+    rigid_across_axes,
+    rigid_place,
+)
 
 __all__ = [
     "Axes",
     "Circuit",
     "Tree",
+    "check_pallets",
     "close_joints",
     "find_circuits",
     "find_tree",
+    "pallet_link",
     "rigid_across_axes",
     "rigid_place",
 ]

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
-from math import atan2, sqrt
+from math import atan2, degrees, pi, sqrt
 from typing import NamedTuple
 
 from geartrain.errors import DeclarationError, GearTrainError, Problem, RangeError
@@ -52,9 +52,11 @@ class Circuit(NamedTuple):
     b: int
     """Coefficient b of the speed of link j relative to the carrier in the Willis equation."""
     wheels: tuple[str, str]
-    """Ids of the two wheels; for a coupling, links i and j."""
+    """Ids of the two wheels; for a coupling without teeth, links i and j."""
     note: str = ""
-    """Note that the sense of rotation is only a convention; empty if it is determined."""
+    """Remark: the sense of rotation is only a convention, or the links turn as one body; empty without a remark."""
+    by_teeth: bool = True
+    """True if a and b are the tooth counts of `wheels`, apart from the sign; False for couplings without teeth."""
 
     @property
     def swings(self) -> bool:
@@ -91,10 +93,13 @@ class Circuit(NamedTuple):
         counts : mapping of str to int
             Wheel -> tooth count, 1 or more. Other wheels keep their counts.
         """
-        if self.kind != "gear" or counts.keys().isdisjoint(self.wheels):
+        if not self.by_teeth or counts.keys().isdisjoint(self.wheels):
             return self
         a, b = (counts.get(wheel, abs(old)) for wheel, old in zip(self.wheels, (self.a, self.b), strict=True))
         return self._replace(a=a if self.a > 0 else -a, b=b if self.b > 0 else -b)
+
+
+_SOLID = "with a ratio of 1, these coaxial links turn as one body, whatever the carrier: that is a lock"
 
 
 class WillisEquation(NamedTuple):
@@ -148,23 +153,120 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             continue
         circuits.append(Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note))
     for at, coupling in enumerate(train.couplings):
-        for row in coupling.rows(wheels):
-            found = _coupling_circuit(train, axes, coupling, row, at)
-            (problems if isinstance(found, Problem) else circuits).append(found)  # type: ignore[arg-type]
+        found = _coupling_circuits(train, axes, coupling, at)
+        problems += [each for each in found if isinstance(each, Problem)]
+        circuits += [each for each in found if isinstance(each, Circuit)]
     if problems:
         raise DeclarationError(problems)
     return tuple(circuits)
 
 
+def _coupling_circuits(train: Train, axes: Axes, coupling: Coupling, at: int) -> Sequence[Circuit | Problem]:
+    """Return the circuits of a coupling, which have one carrier, or the problem that prevents them."""
+    wheels = [name for kind, name, _ in coupling.references() if kind == "wheel"]
+    declared = [train.wheels[name][1] for name in wheels]
+    if any(wheel.count is None for wheel in declared):
+        return (_no_count(train, wheels, declared),)
+    found = [_coupling_circuit(train, axes, coupling, row, at) for row in coupling.rows(train.wheels)]
+    circuits = [each for each in found if isinstance(each, Circuit)]
+    if len(circuits) < len(found):
+        return [each for each in found if isinstance(each, Problem)]
+    first, *others = circuits
+    for other in others:
+        if other.carrier != first.carrier:
+            return (_two_carriers(train, coupling, first, other, at),)
+    for one, other in combinations(circuits, 2):
+        if axes.tree.axis(one.i) == axes.tree.axis(other.i):
+            return (_no_carrier(train, axes.tree, coupling.name, one.i, other.i, ("couplings", at)),)
+    return circuits
+
+
 def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: CouplingRow, at: int) -> Circuit | Problem:
     tree = axes.tree
     carrier = _carrier(tree, row.driven, row.driver)
+    if carrier is None and not coupling.NEEDS_DISTANCE:
+        carrier = _coaxial_carrier(tree, row.driven, row.driver, row.carrier)
+    elif row.carrier not in (None, carrier) and carrier is not None:
+        return _another_carrier(train, row, carrier, at)
     if carrier is None:
+        if row.carrier is not None and _shared_axis(tree, row.driven, row.driver) is not None:
+            return _not_coaxial(train, row, at)
         return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
-    labels = tree.axis_seen_from(carrier, row.driven), tree.axis_seen_from(carrier, row.driver)
-    if not axes.are_parallel(labels):
-        return _oblique_pin(train, coupling, labels, at)
-    return Circuit(row.id, coupling.kind, row.driven, row.driver, carrier, row.a, row.b, (row.driven, row.driver))
+    labels = _labels(tree, carrier, row.driven, row.driver)
+    b = row.b
+    if coupling.OBLIQUE:
+        if problem := _wrong_angle(train, axes, coupling, labels, at):
+            return problem
+        # both sides turn in the same sense about directions less than 90 degrees apart
+        b *= axes.sense(labels)
+    elif not coupling.PARALLEL:
+        # the ratio is that of the speeds about each link's own axis
+        b *= axes.sign(labels[0]) * axes.sign(labels[1])
+    elif not axes.are_parallel(labels):
+        return _oblique(train, coupling, row, labels, at)
+    ends = (row.driven, row.driver)
+    note = _SOLID if row.a + b == 0 and _shared_axis(tree, *ends) is not None else ""
+    return Circuit(row.id, coupling.kind, *ends, carrier, row.a, b, row.wheels or ends, note, row.wheels is not None)
+
+
+def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
+    """Return the label of the axis about which links i and j turn relative to each other; None if they have two axes.
+
+    The link that bears an axis belongs to it.
+    """
+    for link, other in ((i, j), (j, i)):
+        axis = tree.axis(link)
+        if axis is not None and (tree.axis(other) == axis or tree.top[link] == other):
+            return axis
+    return None
+
+
+def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | None:
+    """Return the carrier of a coaxial pair: the declared one, or the link that bears the axis. None if the pair is not
+    coaxial, or if the carrier is not a third link on its axis.
+    """
+    axis = _shared_axis(tree, i, j)
+    if axis is None:
+        return None
+    bearer = next(tree.top[link] for link in (i, j) if tree.axis(link) == axis)
+    carrier = declared or bearer
+    return carrier if carrier not in (i, j) and (carrier == bearer or tree.axis(carrier) == axis) else None
+
+
+def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
+    """Return the couplings of a train, with the angle between their axes filled in where it follows from `axes`."""
+    axes = Axes(train, tree)
+    found = []
+    for coupling in train.couplings:
+        if coupling.OBLIQUE:
+            driver, driven = coupling.links(train.wheels)
+            carrier = _carrier(tree, driven, driver)
+            if carrier is not None and (angle := axes.angle(_labels(tree, carrier, driven, driver))) is not None:
+                coupling = coupling.on_axes(angle)
+        found.append(coupling)
+    return tuple(found)
+
+
+def _labels(tree: Tree, carrier: str, driven: str, driver: str) -> tuple[str, str]:
+    return tree.axis_seen_from(carrier, driven), tree.axis_seen_from(carrier, driver)
+
+
+def _wrong_angle(train: Train, axes: Axes, coupling: Coupling, labels: tuple[str, str], at: int) -> Problem | None:
+    """Return the problem of a joint whose axes do not have its angle, or are perpendicular; None if they fit."""
+    between, place = axes.angle(labels), train.place("couplings", at)
+    if between is None:
+        return None
+    if between > pi / 2 - _SAME_ANGLE:
+        what = f"coupling '{coupling.name}': the axes '{labels[1]}' and '{labels[0]}' are perpendicular"
+        return Problem(what, "a joint at 90 deg does not turn", "declare directions less than 90 deg apart", place)
+    declared = getattr(coupling, "angle", None)
+    if declared is not None and abs(declared.si - between) > _SAME_ANGLE:
+        what = (
+            f"coupling '{coupling.name}': its angle is {declared.text}, but its axes are at {degrees(between):.6g} deg"
+        )
+        fix = "omit `angle`, which follows from `axes`, or correct a direction"
+        return Problem(what, "both declare the same angle", fix, place)
+    return None
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
@@ -208,12 +310,47 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 
-def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
+def _oblique(train: Train, coupling: Coupling, row: CouplingRow, labels: Sequence[str], at: int) -> Problem:
+    sides = [f"'{label}' of {link}" for label, link in zip(labels, _sides(coupling, row), strict=True)]
     return Problem(
-        f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
-        "a pin and its slot or hole must move in the same plane",
-        "declare parallel directions in `axes`, or join the links by bevel wheels",
+        f"coupling '{coupling.name}': the axes {sides[1]} and {sides[0]} are not parallel",
+        coupling.PARALLEL,
+        "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels",
         train.place("couplings", at),
+    )
+
+
+def _sides(coupling: Coupling, row: CouplingRow) -> tuple[str, str]:
+    """Return the driven and the driving side of a coupling as named in messages, such as `its slot` or `'b'`."""
+    first, second = coupling.SIDES
+    return (f"its {first}", f"its {second}") if first != second else (f"'{row.driven}'", f"'{row.driver}'")
+
+
+def _two_carriers(train: Train, coupling: Coupling, first: Circuit, other: Circuit, at: int) -> Problem:
+    return Problem(
+        f"coupling '{coupling.name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
+        f"'{other.carrier}' those of '{other.j}' and '{other.i}'",
+        f"the distance between '{first.i}' and '{other.i}' changes, and a {coupling.kind} keeps its length",
+        f"join all its links to one carrier, or declare a {coupling.kind} for each carrier",
+        train.place("couplings", at),
+    )
+
+
+def _another_carrier(train: Train, row: CouplingRow, carrier: str, at: int) -> Problem:
+    return Problem(
+        f"'{row.carrier}' is not the carrier of coupling '{row.id}'",
+        f"'{row.driver}' and '{row.driven}' turn about two axes at a fixed distance on '{carrier}'",
+        f"omit `carrier`, or write `carrier: {carrier}`",
+        train.place("couplings", at, "carrier"),
+    )
+
+
+def _not_coaxial(train: Train, row: CouplingRow, at: int) -> Problem:
+    return Problem(
+        f"'{row.carrier}' is not coaxial with '{row.driver}' and '{row.driven}'",
+        "the carrier of a coaxial pair turns on the axis of the pair, or bears this axis",
+        "name a link on this axis as `carrier`, or omit it for the link that bears the axis",
+        train.place("couplings", at, "carrier"),
     )
 
 
@@ -227,6 +364,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     )
 
 
+_SAME_ANGLE = 1e-3  # rad: tolerance of the angle of a joint, because written directions are rounded
 _MEET = 1e-3  # relative to the distance between two declared points: closer axes intersect, as positions are rounded
 
 

@@ -24,7 +24,7 @@ from geartrain.numerics.elimination import eliminate
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel, size
-from geartrain.train import StateCase, Train, Wheel
+from geartrain.train import Escapement, StateCase, Train, Wheel
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +64,26 @@ class Tree(FrozenFields):
         up, down = ways_to_common_ancestor(i, j, self.above)
         labels = [self.parent[link][1] for link in [*up[:-1], *down[-2::-1]]]
         return up + down[-2::-1], labels
+
+
+def pallet_link(escapement: Escapement, tree: Tree) -> str:
+    """Return the link on which the pallets of an escapement are mounted."""
+    return escapement.on or tree.top[escapement.link]
+
+
+def check_pallets(train: Train, tree: Tree) -> None:
+    """Raise `DeclarationError` if the pallets of the escapement do not stay beside the escape wheel."""
+    escapement = train.escapement
+    if escapement is None or escapement.on is None:
+        return
+    link, on, bearer = escapement.link, escapement.on, tree.top[escapement.link]
+    # a link on the same axis of the same carrier turns about the escape wheel
+    coaxial = on != link and tree.bears(bearer, on) and tree.axis(on) == tree.axis(link)
+    if on != bearer and not coaxial:
+        what = f"pallets on '{on}' do not stay beside the escape wheel '{link}'"
+        fix = f"write `on: {bearer}`, or a link that turns about the axis of '{link}'"
+        place = train.place("escapement", "on")
+        raise DeclarationError([Problem(what, f"'{bearer}' carries the axis of '{link}'", fix, place)])
 
 
 @collector_paused()
@@ -313,6 +333,20 @@ class Axes:
         0.
         """
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
+
+    def angle(self, labels: tuple[str, str]) -> float | None:
+        """Return the angle between two axes as lines [rad], 0 to pi/2; None if neither direction is declared."""
+        if self.directions.keys().isdisjoint(labels):
+            return None
+        angle, _ = self._crossing(*labels)
+        return min(angle, pi - angle)
+
+    def sense(self, labels: tuple[str, str]) -> int:
+        """Return 1 if speeds of the same sign about the reference directions of two axes have directions less than 90
+        degrees apart, else -1.
+        """
+        first, second = (self.direction(label) for label in labels)
+        return self.sign(labels[0]) * self.sign(labels[1]) * (-1 if dot(first, second) < 0 else 1)
 
     def are_one_line(self, one: str, other: str) -> bool:
         """Return True if two axes with declared positions are collinear. Axes without positions are never collinear."""

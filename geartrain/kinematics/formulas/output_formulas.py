@@ -276,7 +276,7 @@ class SymbolicEquations:
         sign of the coefficient.
         """
         given = (circuit.a, circuit.b)[side]
-        variable = self._free.get(circuit.wheels[side]) if circuit.kind == "gear" else None
+        variable = self._free.get(circuit.wheels[side]) if circuit.by_teeth else None
         if variable is None:
             return self._constant(given)
         size = Laurent.variable(variable, self.width)

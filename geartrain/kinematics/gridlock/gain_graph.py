@@ -29,7 +29,7 @@ class GainGraph:
     gains: Mapping[int, Gain]
     """Gain of each mesh whose gain is not 1: speed of its second node divided by speed of its first."""
     firm: frozenset[int] = frozenset()
-    """Meshes that cannot be disengaged, such as pins in slots."""
+    """Couplings, which cannot be disengaged."""
 
     @cached_property
     def at(self) -> list[list[int]]:

@@ -65,7 +65,7 @@ def find_locked_networks(parts: Components) -> list[LockedNetwork]:
         group: ([], [], {}) for group in groups
     }
     index, group_of = parts.index, parts.node_group
-    for circuit, (_, _, i, j, k, _, b, _, _) in enumerate(parts.circuits):
+    for circuit, (_, _, i, j, k, _, b, *_) in enumerate(parts.circuits):
         # a follower is not a mesh
         if not b:
             continue

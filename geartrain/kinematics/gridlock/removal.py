@@ -200,7 +200,7 @@ class Gridlock(Result):
         if self.release is not None:
             yield f"to free the train, {self.release}"
         elif not self.moves:
-            yield "no set of meshes was found to free it: pins in slots lock it, or there are too many meshes to try"
+            yield "no set of meshes was found to free it: couplings lock it, or there are too many meshes to try"
 
 
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:

@@ -153,7 +153,7 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
     omitted: list[UnplacedPair] = []
     for circuit in circuits:
         if circuit.kind != "gear":
-            omitted.append(UnplacedPair(circuit.id, "a pin in a slot has no teeth"))
+            omitted.append(UnplacedPair(circuit.id, "it has no teeth in mesh"))
             continue
         first, second = (axes.get(tree.axis_seen_from(circuit.carrier, link), plain) for link in (circuit.i, circuit.j))
         found = _contact(train, circuit, first, second)

@@ -49,7 +49,7 @@ class Mobility(Result):
     gear_pairs: int
     """Number of gear pairs."""
     couplings: int
-    """Number of couplings, such as pins in slots. The number j_G is the sum of `gear_pairs` and `couplings`."""
+    """Number of rows of couplings, such as pins in slots. The number j_G is the sum of `gear_pairs` and `couplings`."""
     by_rank: int
     """Mobility by rank, links - 1 - rank of all circuits; it is correct for every train."""
     redundant: int

@@ -20,6 +20,7 @@ from geartrain.train.outputs import looks_away
 from geartrain.train.wheel_stock import wheel_thickness
 
 if TYPE_CHECKING:
+    from geartrain.teeth.coupling import Coupling
     from geartrain.teeth.lantern import Lantern
 
 Point = tuple[float, float]
@@ -138,18 +139,22 @@ class PitchContact:
 
 
 @dataclass(frozen=True, slots=True)
-class PinSlotTie:
-    """Coupling by a pin: links and axes of pin and slot, and the distance between the axes [mm] if it is declared."""
+class CouplingTie:
+    """Coupling of two axes: driver and driven link, their axes, and the distance between the axes [mm] if it is
+    declared.
+    """
 
     links: tuple[str, str]
     axes: tuple[str, str]
     offset: Fraction | None
     encloses: bool
-    """True if the pin's circle encloses the slot's axis, so that the two axes are close together."""
+    """True if a pin's circle encloses the slot's axis, so that the two axes are close together."""
+    wish: float | None = None
+    """Preferred distance [mm] if nothing determines the distance; None without a preference."""
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of pin and slot in alphabetical order, which is the same for all pairs between the two axes."""
+        """Axes of both links in alphabetical order, which is the same for all pairs between the two axes."""
         return min(self.axes), max(self.axes)
 
 
@@ -168,7 +173,7 @@ class DeclaredGeometry:
     axis: Mapping[str, str]
     """Axis of every wheel; wheels that mesh are listed first."""
     contacts: tuple[PitchContact, ...]
-    ties: tuple[PinSlotTie, ...]
+    ties: tuple[CouplingTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
     thickness: Mapping[str, float]
     """Declared thickness by wheel [mm], for wheels with a declared thickness."""
@@ -182,6 +187,8 @@ class DeclaredGeometry:
     """Axis of the first input, which is at the origin if no position is declared; None without inputs."""
     discs: Mapping[str, float]
     """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
+    belts: tuple[Mapping[str, float], ...] = ()
+    """Radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -213,14 +220,17 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
     lines = {line.label: line for line in _lines(declared, tree)}
     axis: dict[str, str] = {}
     contacts, ties, strays = [], [], []
-    couplings = {coupling.name: coupling for coupling in declared.pin_couplings}
+    pins = {coupling.name: coupling for coupling in declared.pin_couplings}
+    wishes = {row.id: _preferred_distance(each) for each in declared.couplings for row in each.rows(declared.wheels)}
     stretches = _stretches(train)
     for circuit in train.circuits:
         ends = tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
         if circuit.kind != "gear":
-            offset = couplings[circuit.id].offset
-            apart = None if offset is None else millimetres(offset)
-            ties.append(PinSlotTie((circuit.j, circuit.i), ends[::-1], apart, circuit.b != 0))
+            pin = pins.get(circuit.id)
+            apart = None if pin is None or pin.offset is None else millimetres(pin.offset)
+            encloses = pin is not None and circuit.b != 0
+            if ends[0] != ends[1]:
+                ties.append(CouplingTie((circuit.j, circuit.i), ends[::-1], apart, encloses, wishes[circuit.id]))
             continue
         for wheel, end in zip(circuit.wheels, ends, strict=True):
             if axis.setdefault(wheel, end) != end:
@@ -242,7 +252,17 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         _dial_ends(declared, tree, lines, front),
         next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
         dict(_lantern_discs(declared)),
+        tuple(_belts(train)),
     )
+
+
+def _belts(train: GearTrain) -> Iterator[Mapping[str, float]]:
+    """Yield the radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
+    carriers = {circuit.id: circuit.carrier for circuit in train.circuits if circuit.kind == "belt"}
+    for belt in train.declaration.couplings if carriers else ():
+        if belt.kind == "belt" and any(True for _ in belt.lengths):
+            axes = (train.kinematics.tree.axis_seen_from(carriers[belt.row_names[0]], link) for link in belt.ends)
+            yield {axis: float(millimetres(size)) / 2 for axis, size in zip(axes, belt.lengths, strict=True)}
 
 
 def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
@@ -344,3 +364,18 @@ def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> in
         flip *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1
     # a (w_i - w_k) + b (w_j - w_k) = 0: with equal signs of a and b the relative speeds are opposite
     return (-1 if circuit.a * circuit.b > 0 else 1) * flip
+
+
+_APART = 40.0  # distance of the axes of a coupling [mm] if no size is declared
+_BELT = 1.25  # distance of pulleys divided by the largest diameter
+
+
+def _preferred_distance(coupling: Coupling) -> float | None:
+    """Return the distance of the axes of a coupling [mm] if no positions are declared; None without a preference."""
+    around = getattr(coupling, "around", None)
+    if isinstance(around, Mapping):
+        return _BELT * float(max(millimetres(diameter) for diameter in around.values()))
+    declared = getattr(coupling, "centre_distance", None)
+    if declared is not None:
+        return float(millimetres(declared))
+    return _APART if coupling.kind in ("elliptical", "pitch_curve", "law", "geneva", "step") else None

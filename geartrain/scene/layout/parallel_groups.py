@@ -23,7 +23,7 @@ import numpy as np
 
 from geartrain.numerics.graphs import DisjointSets, joined_groups
 from geartrain.numerics.vectors import Vector, dot, plus
-from geartrain.scene.layout.declared_geometry import AxisLine, Parallels, PinSlotTie, Point, upwards
+from geartrain.scene.layout.declared_geometry import AxisLine, CouplingTie, Parallels, Point, upwards
 from geartrain.scene.layout.plan_problem import plan_problem
 from geartrain.scene.layout.plan_search import plan_axes
 from geartrain.scene.layout.swept_overlap import SweptDistances, WheelBlock, find_plan_overlap, swept_distances
@@ -96,7 +96,7 @@ def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str
     }
 
 
-def _pins(blocks: Sequence[WheelBlock], ties: Sequence[PinSlotTie]) -> Iterator[tuple[str, str]]:
+def _pins(blocks: Sequence[WheelBlock], ties: Sequence[CouplingTie]) -> Iterator[tuple[str, str]]:
     """Yield the widest wheels of the links of a pin and its slot, if the pin's circle encloses the slot's axis."""
     widest = _widest([block for block in blocks if not block.across])
     for tie in ties:

@@ -42,6 +42,8 @@ class PlanProblem:
     """Axis -> direction in plan towards a crossing mate, which is preferably placed outside the other axes."""
     places: Mapping[str, int] = field(default_factory=dict)
     """Axis of a planet -> number of positions around its pivot at which its teeth mesh with both sun and ring."""
+    belts: Sequence[Mapping[str, float]] = ()
+    """Radii of the pulleys of each belt by axis [mm]."""
 
     def radius(self, label: str) -> float:
         """Return the radius of the widest wheel of an axis [mm]."""
@@ -79,6 +81,7 @@ def plan_problem(
         dict(_rows(declared, parallels, crossing)),
         dict(_sides(declared, parallels, [each for each in crossing if each.side.mate_axis not in standing])),
         dict(_assembly_places(declared, parallels)),
+        declared.belts,
     )
 
 
@@ -101,7 +104,8 @@ def _chosen_distances(
             if tie.encloses:
                 found[pair] = _ENCLOSED * min(radius[end] for end in pair)
             elif joined.are_apart(*pair):
-                found[pair] = _TIED * radius[tie.axes[0]]
+                clear = 1.1 * sum(radius[end] for end in pair)
+                found[pair] = _TIED * radius[tie.axes[0]] if tie.wish is None else max(tie.wish, clear)
             joined.join(*pair)
     for label, pivot in pivots.items():
         if pivot in radius and joined.are_apart(label, pivot):

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 
 _HARD = 100.0  # cost per mm of overlap of wheels in one level
+_PULLEYS = 1.1  # minimum distance of two pulleys of one belt, divided by the sum of their radii
 _OVER = 1.0  # cost per mm of overlap of discs in different levels, because fewer levels are better
 _COVER = 2.0  # cost per mm of a disc over another axis, whose arbor it may hit
 
@@ -89,7 +90,9 @@ class PlanClearance:
 
 
 def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanProblem) -> Floats:
-    """Return minimum distances [mm] between axes whose wheels share a level and do not mesh; 0 for other axes."""
+    """Return minimum distances [mm] between axes whose wheels share a level and do not mesh, and between the pulleys of
+    one belt; 0 for other axes.
+    """
     need = np.zeros((len(discs), len(discs)))
     clusters: dict[int, list[tuple[int, str]]] = {}
     for at, own in enumerate(discs):
@@ -99,6 +102,11 @@ def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanPr
         for (a, one), (b, other) in combinations(members, 2):
             if a != b and frozenset((one, other)) not in problem.mates:
                 need[a, b] = need[b, a] = max(need[a, b], discs[a][one].outer + discs[b][other].outer)
+    number = {label: at for at, label in enumerate(problem.labels)}
+    for belt in problem.belts:
+        for one, other in combinations(belt.keys() & number.keys(), 2):
+            a, b = number[one], number[other]
+            need[a, b] = need[b, a] = max(need[a, b], _PULLEYS * (belt[one] + belt[other]))
     return need
 
 

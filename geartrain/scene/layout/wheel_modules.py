@@ -26,7 +26,7 @@ from statistics import median
 from geartrain.numerics.graphs import RatioSets, joined_groups
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, across, cross, dot, minus, size, unit
-from geartrain.scene.layout.declared_geometry import ContactSide, DeclaredGeometry, PinSlotTie, PitchContact
+from geartrain.scene.layout.declared_geometry import ContactSide, CouplingTie, DeclaredGeometry, PitchContact
 from geartrain.teeth.standard_teeth import DEDENDUM
 
 # -------------------------------------------------------------------------------------------------------- closed chains
@@ -215,7 +215,7 @@ class _ModuleSearch:
         if far and other and not (ends[0] in self.given and ends[1] in self.given):
             ratios.join(*ends, far / other)
 
-    def _join_nearby(self, ratios: RatioSets[int], tie: PinSlotTie) -> None:
+    def _join_nearby(self, ratios: RatioSets[int], tie: CouplingTie) -> None:
         """Record that the axes of a pin and its slot, which are close together, are equally far from each axis that
         both mesh with.
 

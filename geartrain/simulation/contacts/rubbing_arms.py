@@ -22,6 +22,7 @@ from geartrain.teeth.rubbed_transmission import RubbedTransmission
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.coupling import Coupling
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
@@ -83,12 +84,12 @@ def _friction_term(
 
 
 def separate_rubbing(
-    moving: MotionProblem, gears: Sequence[GearPair] = ()
+    moving: MotionProblem, declared: Sequence[GearPair | Coupling] = ()
 ) -> tuple[dict[str, tuple[TabledFunction, TabledFunction]], tuple[str, ...]]:
     """Return friction terms of the drive flanks by pair, and the names of pairs and pins whose friction is neglected.
 
     Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at
-    some angle, and gears with a declared efficiency below 1 have none.
+    some angle, and pairs and couplings with a declared efficiency below 1 have none.
     """
     found: dict[str, tuple[TabledFunction, TabledFunction]] = {}
     left = []
@@ -102,9 +103,9 @@ def separate_rubbing(
         elif mesh.has_friction:
             left.append(mesh.name)
     left += [joint.coupling.name for joint in moving.couplings if joint.transmission.friction]
-    for gear in gears:
-        if gear.name not in found and gear.efficiency is not None and gear.efficiency.forward.base < 1:
-            left.append(gear.name)
+    for pair in declared:
+        if pair.name not in found and pair.efficiency is not None and pair.efficiency.forward.base < 1:
+            left.append(pair.name)
     return found, tuple(dict.fromkeys(left))
 
 
@@ -125,8 +126,8 @@ def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
     return plus, minus, minus, plus
 
 
-def constant_ratio_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
-    """Return the friction terms of a pair with a constant ratio and a declared efficiency for each driving direction.
+def efficiency_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
+    """Return the friction terms of a pair with a declared efficiency for each driving direction.
 
     None means that the pair has no loss. Raises `GearTrainError` if the pair is self-locking forwards.
     """
@@ -135,11 +136,18 @@ def constant_ratio_arms(transmission: TransmissionFunction, forward: float, back
     if forward <= 0:
         why = f"its efficiency is {forward:g} in the direction of the power flow, so it locks"
         raise GearTrainError(Problem(f"{label} cannot be simulated in time", why, "declare an `efficiency` above 0"))
-    ratio = float(transmission.ratio)
-
-    def constant(value: float) -> TabledFunction:
-        return tabled_function(lambda S: np.full(np.shape(S), value), transmission)
-
     # backwards the driven wheel drives, so losses reduce its torque on the driver
-    ahead, back = constant(ratio * (1 / forward - 1)), constant(ratio * (max(backward, 0.0) - 1))
+    more, less = 1 / forward - 1, max(backward, 0.0) - 1
+    steady = transmission.speed_range()[0] >= 0
+
+    def table(driving: float, returning: float) -> TabledFunction:
+        def term(S: Floats) -> Floats:
+            tau = transmission.speed(S)
+            # with a negative ratio the driven side moves backwards, and power flows the other way
+            return tau * np.where(tau >= 0, driving, returning)
+
+        # a term has a kink where the ratio passes 0
+        return tabled_function(term, transmission) if steady else tabled_function(term, transmission, _ROUGH)
+
+    ahead, back = table(more, less), table(less, more)
     return ahead, back, back, ahead

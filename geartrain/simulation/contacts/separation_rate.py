@@ -94,7 +94,7 @@ def find_separation(
     inertias, moving = find_link_inertias(train, state), find_motion_problem(train, state, without)
     declared, case = train.declaration, train.kinematics.case(state)
     acting = find_inertial_loads(declared, case, train.tree, inertias, moving.speeds)
-    rubbing, uncounted = separate_rubbing(moving, declared.gears)
+    rubbing, uncounted = separate_rubbing(moving, (*declared.gears, *declared.couplings))
     contacts = InertialContacts(moving, acting, rubbing=rubbing)
     period = contacts.motion.period
     # without a common period one revolution is searched
@@ -107,7 +107,10 @@ def find_separation(
     rates, places, narrowest = _minimum_rates(contacts, kinks, turns)
     leaping = _jump_positions(contacts, kinks, narrowest)
     found = []
+    held = {name for each in declared.couplings if each.HOLDS for name in each.row_names}
     for pair, name in enumerate(contacts.pairs):
+        if name in held:
+            continue
         rate, at = (0.0, leaping[pair]) if pair in leaping else (float(rates[pair]), float(places[pair]))
         found.append(PairSeparation(name, None if rate == inf else rate / tau, at, pair in leaping))
     found.sort(key=lambda each: (inf if each.rate is None else each.rate, each.pair))
@@ -115,8 +118,12 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` has a result: all torques have units, and a link that can move has inertia."""
+    """Return True if `find_separation` has a result: all torques have units, a link that can move has inertia, and no
+    coupling moves at once.
+    """
     declared = train.declaration
+    if any(each.transmission.at_once for each in train.couplings):
+        return False
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
     from geartrain.simulation.contacts.link_inertia import find_link_inertias

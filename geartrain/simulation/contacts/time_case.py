@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 from geartrain.dynamics.pair_speeds import radians_per_second
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import pallet_link
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -87,7 +88,7 @@ def find_time_case(
     given = {gear.name: train.restitution_of(gear) for gear in train.gears}
     given |= {row.id: train.restitution_of(each) for each in train.couplings for row in each.rows(train.wheels)}
     escapement = train.escapement
-    passed = None if escapement is None else problem.seen_ratio(escapement.link, tree.top[escapement.link])
+    passed = None if escapement is None else problem.seen_ratio(escapement.link, pallet_link(escapement, tree))
     turning = rate if rate is not None else _declared_rate(train, case, problem, passed, scale)
     bounces = {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()}
     if escapement is not None:
@@ -184,6 +185,11 @@ def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: Mo
     if drive.steady_torque is not None:
         return PowerInput(link, "torque", torque=way * drive.steady_torque, inertia=inertia)
     if drive.spring is not None:
+        if drive.spring.fusee is not None:
+            what, why = "a fusee with declared radii cannot be simulated in time", "its torque varies with its angle"
+            mean = drive.spring.chained.run().mean if drive.spring.chained else 0.0
+            fix = f"declare its mean torque, `drive: {{torque: {mean:.6g} N m}}`, or a `torque` of the fusee"
+            raise QuestionError(Problem(what, why, fix))
         wound = way * tau * float(drive.spring.turns.value)
         return PowerInput(link, "spring", stiffness=drive.spring.stiffness.si, wound=wound)
     assert hand is not None

@@ -19,12 +19,14 @@ import numpy as np
 from geartrain.dynamics.gear_meshes import CouplingMesh, PinMesh
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
-from geartrain.simulation.contacts.rubbing_arms import Arms, constant_ratio_arms, pin_arms, tooth_arms
+from geartrain.simulation.contacts.rubbing_arms import Arms, efficiency_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
+from geartrain.teeth.coupling import unmodelled_properties
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -109,6 +111,7 @@ class TrainModel:
         left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.computes_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
+        found += unmodelled_properties(self.train.couplings)
         return tuple(found)
 
     @property
@@ -144,8 +147,8 @@ class TrainModel:
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
             return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.has_friction and mesh.computes_losses)
-        gear = self._gears.get(circuit.id)
-        return gear is not None and gear.efficiency is not None and gear.efficiency.forward.base < 1
+        declared = self._efficiencies.get(circuit.id)
+        return declared is not None and declared.forward.base < 1
 
     @cached_property
     def _meshes(self) -> Mapping[str, GearMesh]:
@@ -156,8 +159,10 @@ class TrainModel:
         return {joint.coupling.name: joint for joint in self.problem.couplings}
 
     @cached_property
-    def _gears(self) -> Mapping[str, Any]:
-        return {gear.name: gear for gear in self.train.gears}
+    def _efficiencies(self) -> Mapping[str, Any]:
+        """Declared efficiencies of gear pairs and of the rows of couplings, by name; None where none is declared."""
+        gears = {gear.name: gear.efficiency for gear in self.train.gears}
+        return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 
     @cached_property
     def prescribed(self) -> Mapping[str, float]:
@@ -271,8 +276,7 @@ class TrainModel:
         if circuit.id in self._couplings:
             joint = self._couplings[circuit.id]
             if not isinstance(joint, PinMesh):
-                front = tabled_angle(joint.transmission)
-                return front, front, None, joint.transmission
+                return self._coupling_flanks(joint, self.sources[circuit.id].transmission)
             transmission = joint.transmission
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
@@ -285,6 +289,17 @@ class TrainModel:
         front = tabled_angle(mesh.transmission)
         back = front if mesh.verdict.backlash <= 0 else tabled_angle(mesh.coast)
         return front, back, tooth_arms(mesh), mesh.transmission
+
+    @staticmethod
+    def _coupling_flanks(
+        joint: CouplingMesh, transmission: TransmissionFunction
+    ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
+        """Return `_flanks` of a coupling without backlash, with the losses of its declared efficiency."""
+        label = f"coupling '{joint.coupling.name}'"
+        _refuse_jump(label, transmission)
+        front, ways = tabled_angle(transmission), joint.coupling.efficiency
+        declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
+        return front, front, efficiency_arms(transmission, *declared, label), transmission
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""
@@ -304,14 +319,14 @@ class TrainModel:
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 
     def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
-        ways = self._gears[circuit.id].efficiency
+        ways = self._efficiencies[circuit.id]
         if ways is None:
             return None
         passed = float(ways.forward.base), float(ways.backward.base)
-        # efficiencies are declared for the first wheel as driver
-        if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
+        # efficiencies are declared for the first wheel as driver; the driver of a coupling is its first link
+        if circuit.kind == "gear" and self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
-        return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
+        return efficiency_arms(transmission, *passed, f"pair '{circuit.id}'")
 
     # ----------------------------------------------------------------------------------------- other parts of the model
 
@@ -340,8 +355,10 @@ class TrainModel:
         return found
 
     def _stops(self) -> Iterator[Stop]:
+        escapement = self.train.escapement
         for link, (pitch, beat) in self.case.escapements.items():
-            base = self.tree.top[link]  # pallets are carried by the link that bears the escape wheel
+            assert escapement is not None  # it is the only stop
+            base = pallet_link(escapement, self.tree)
             way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
@@ -376,6 +393,13 @@ class TrainModel:
             tuple(self._stops()),
             tuple(self._springs()),
         )
+
+
+def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
+    """Raise `QuestionError` if a coupling moves its driven link at once."""
+    if transmission.at_once:
+        fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
+        raise QuestionError(Problem(f"the dynamics of {label} cannot be simulated", "a step at once has no force", fix))
 
 
 def _sparse(form: Floats) -> dict[int, float]:

@@ -257,7 +257,7 @@ def _energy(run: TimeRun) -> Section:
         "input by springs": energy.springs,
         "lost in bearings": energy.bearings,
         "lost to viscous drag": energy.drag,
-        "lost by friction of teeth and pins": energy.friction,
+        "lost in pairs and couplings": energy.friction,
         "lost in impacts" if run.model == "rigid" else "lost by damping of teeth": energy.impact_loss,
         "numerical dissipation": energy.steps,
         "increase of kinetic energy": energy.kinetic,

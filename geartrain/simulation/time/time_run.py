@@ -261,7 +261,7 @@ class EnergyAccount(Result):
     drag: float
     """Energy lost to viscous drag [J]."""
     friction: float
-    """Energy lost to friction of teeth and pins [J]."""
+    """Energy lost to friction of teeth and pins, and by declared efficiencies [J]."""
     impact_loss: float
     """Energy lost in impacts, or in the damping of compliant teeth [J]."""
     steps: float

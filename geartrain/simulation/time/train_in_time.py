@@ -96,6 +96,12 @@ def model_in_time(
         train.kinematics.case(state),
         find_motion_problem(train, state, without),
     )
+    if case.one_way:
+        names = ", ".join(each.name for each in case.one_way)
+        what = f"the simulation in time does not include the one-way clutches {names}"
+        why = "a one-way clutch takes hold and lets go during the motion"
+        fix = "withdraw them by `free` in a state, or declare clutches that hold both ways"
+        raise QuestionError(Problem(what, why, fix, declared.place("clutches")))
     if rate is not None:
         # a given rate is positive; the sense follows from the declared inputs
         rate *= problem.way

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.teeth.couplings.series_transmission import SeriesTransmission
 from geartrain.teeth.transmission import TransmissionFunction, check_friction
 
 if TYPE_CHECKING:
@@ -95,8 +96,8 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
     check_friction(friction)
 
 
-class PinToSlotTransmission(PinTransmission):
-    """Transmission function of a pin that drives a slot.
+class PinToSlotTransmission(SeriesTransmission, PinTransmission):
+    """Transmission function of a pin that drives a slot, a `SeriesTransmission` with rho = min(r, e) / max(r, e).
 
     The slot angle is S + atan2(e sin S, r - e cos S) for r > e, and -atan2(r sin S, e - r cos S) for r < e. The mean
     ratio is 1 if the pin's circle encloses the slot's axis (r > e), otherwise 0. With a mean ratio of 0 the slot is a
@@ -136,24 +137,10 @@ class PinToSlotTransmission(PinTransmission):
     driver = "pin"
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
-        super().__init__(pin_radius, offset, friction)
-        self.ratio = Fraction(1 if pin_radius > offset else 0)
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the slot]: slot angle minus mean motion."""
-        S = np.asarray(S, dtype=float)
-        less, more = min(self.r, self.e), max(self.r, self.e)
-        # more - less cos S as a sum, which does not cancel near r = e
-        along = (more - less) + 2 * less * np.sin(S / 2) ** 2
-        error = np.asarray(np.arctan2(less * np.sin(S), along))
-        return error if self.r > self.e else -error
-
-    def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S [rad]: r (r - e cos S)/(r^2 + e^2 - 2 r e cos S), with pin radius r
-        and axis offset e.
-        """
-        along, square = self._reach(S)
-        return np.asarray(self.r * along / square)
+        PinTransmission.__init__(self, pin_radius, offset, friction)
+        less, more = min(pin_radius, offset), max(pin_radius, offset)
+        ratio, factor = (Fraction(1), 1.0) if pin_radius > offset else (Fraction(0), -1.0)
+        SeriesTransmission.__init__(self, ratio, factor, 1, less / more, (more - less) / more)
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Return two distances at driver angles S: r - e cos S, and the square of the distance of the pin from the
@@ -165,15 +152,6 @@ class PinToSlotTransmission(PinTransmission):
         half = np.sin(np.asarray(S, dtype=float) / 2)
         along = (self.r - self.e) + 2 * self.e * half**2
         return along, (self.r - self.e) ** 2 + 4 * self.r * self.e * half**2
-
-    def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio.
-
-        With pin radius r and axis offset e, the ratio is 1/(1 + e/r) where the pin is farthest from the slot's axis,
-        and 1/(1 - e/r) where it is nearest.
-        """
-        far, near = self.r / (self.r + self.e), self.r / (self.r - self.e)
-        return min(far, near), max(far, near)
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S [rad]; 0 at the dead points of a follower with friction.

@@ -41,6 +41,7 @@ class PinCoupling(Coupling):
 
     ENDS = ("pin", "slot")
     SIDES = ("slot", "pin")
+    PARALLEL = "a pin and its slot or hole must move in the same plane"
 
     pin: str = Field(description="Link that carries the pin")
     slot: str = Field(description="Link that has the slot")

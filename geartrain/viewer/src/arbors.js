@@ -36,6 +36,9 @@ export function spans(scene) {
     places[pin].push(along(scene.bodies[pin], pin_at));
     places[slot].push(along(scene.bodies[slot], slot_at));
   }
+  for (const { body, place, height, direction } of scene.shapes) {
+    if (isParallel(scene.bodies[body].direction, direction)) places[body].push(along(scene.bodies[body], place) - height, along(scene.bodies[body], place) + height);
+  }
   for (const { body, dial } of scene.pointers) {
     if (dial !== null && !scene.dials[dial].plate && scene.dials[dial].look !== "ball") places[body].push(along(scene.bodies[body], scene.dials[dial].centre));
   }

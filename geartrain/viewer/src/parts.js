@@ -2,13 +2,13 @@
 
 import { ShapeUtils, Vector2 } from "three";
 
-import { PARTS } from "./colours.js";
+import { BRASS, PARTS } from "./colours.js";
 import { isOpened } from "./cutaway.js";
 import { Shape, swept } from "./shape.js";
 import { barOf, paneOf } from "./sight.js";
 import { along, endsOf, frameAt, isParallel, offAxis, vector } from "./space.js";
 
-const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin };
+const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4] };
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // wall of a cup, which continues a flexible wheel
 export const ROUND = 84; // vertices of a circle as wide as a train
@@ -24,7 +24,14 @@ export const colourOf = ({ kind }) => COLOURS[kind] ?? PARTS.arbor;
  * can hide wheels, else null; `pane` is the obstacle of a frame plate, and `bar` that of a pillar.
  */
 export function builtParts(scene, main) {
-  return scene.parts.map((part) => {
+  return partsOf(scene, scene.parts, main);
+}
+
+/** Parts of couplings other than pins, as in `builtParts`. */
+export const shapeParts = (scene, main) => partsOf(scene, scene.shapes, main);
+
+function partsOf(scene, parts, main) {
+  return parts.map((part) => {
     const { body, kind, place, direction, across } = part;
     const flat = part.outlines.length > 0;
     const upright = isParallel(direction, main.toArray());
@@ -115,7 +122,7 @@ export function rodsOf(scene, index) {
 
 /** Points whose convex hull contains all parts in the zero pose: {point, body, at}, with `at` of the part. */
 export function cornersOf(scene, main) {
-  return scene.parts.flatMap(({ body, place, direction, across, bands, outlines, height }) => {
+  return [...scene.parts, ...scene.shapes].flatMap(({ body, place, direction, across, bands, outlines, height }) => {
     const matrix = frameAt(place, direction, across);
     const flat = (outlines[0] ?? []).flatMap((x, n, all) => (n % 2 ? [] : [[x, all[n + 1], height / 2], [x, all[n + 1], -height / 2]]));
     const round = bands.flatMap(([low, high, r]) => [low, high].flatMap((z) => [[r, 0, z], [-r, 0, z], [0, r, z], [0, -r, z]]));

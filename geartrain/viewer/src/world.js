@@ -12,7 +12,7 @@ import { couplingParts, crankOf, hangerParts } from "./joints.js";
 import { Looks } from "./looks.js";
 import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
-import { builtParts, cornersOf, rodsOf } from "./parts.js";
+import { builtParts, cornersOf, rodsOf, shapeParts } from "./parts.js";
 import { Poses } from "./poses.js";
 import { Sight } from "./sight.js";
 import { along, isParallel, offAxis, onAxis, sharesAxis, vector } from "./space.js";
@@ -68,6 +68,7 @@ export class World {
     this.wheels = scene.wheels.map((wheel, index) => new WheelPart(scene, index, hub(wheel), size, palette));
     for (const part of this.wheels) part.castBody(this.adder(this.castings[0], part));
     for (const part of built.length ? built : supports(scene, reach, radii, size)) this.put(part);
+    for (const part of shapeParts(scene, this.main)) this.put(part);
     const made = new Set(scene.parts.map(({ name }) => name));
     for (const coupling of scene.couplings) {
       if (!made.has(`${coupling.id} pin`) && !made.has(`${coupling.id} pin 1`)) couplingParts(scene, coupling, size).forEach((part) => this.put(part));

@@ -179,13 +179,13 @@ def _efficiency(value: float | None) -> str:
 
 
 def _weight(crank: CrankLoad) -> Iterator[str]:
-    """Yield a sentence on the weight that drives the train, if there is one."""
+    """Yield a sentence on the weight or the equalised fusee that drives the train, if there is one."""
     weight = crank.weight
     if weight is None:
         return
-    text = f"The weight gives {weight.torque:.4g} N m at '{weight.link}'."
+    text = f"The drive gives {weight.torque:.4g} N m at '{weight.link}'."
     if weight.needed is not None:
-        word = "the weight suffices" if weight.suffices else "the weight does not suffice"
+        word = "the drive suffices" if weight.suffices else "the drive does not suffice"
         text += f" The train needs up to {weight.needed:.4g} N m to start; {word}."
     if weight.mean is not None and weight.minimum is not None:
         text += f" The torque at '{weight.wheel}' is {weight.mean:.4g} N m on average and at least {weight.minimum:.4g}"

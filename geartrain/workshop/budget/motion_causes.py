@@ -203,7 +203,7 @@ def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCaus
     first = next(iter(found.pairs[name].items()), None)
     worst = f", largest by {first[0]} ({first[1]:.3g} deg by itself)" if first else ""
     more = f"; {bare}, so they add no ripple here" if known.bare else ""
-    backlash = f"; backlash of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
+    backlash = f"; backlash of {', '.join(known.pins)} unknown" if known.pins else ""
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
     lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + backlash)
     if known.real and most < _ROUNDING:  # teeth without backlash lose no motion, which is rarely meant

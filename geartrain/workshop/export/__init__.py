@@ -5,7 +5,7 @@ Lengths are in mm, in GLB in m. The outlines are described in docs/shapes.md. Th
 file_set         files of an export, and tables as CSV
 triangle_files   STL and GLB
 step_file        STEP
-rexs             REXS
+joint_tree       URDF and MJCF
 cut_sheets       outlines of wheels and plates, laid out on sheets
 parts_list       list of parts with their stock and fits
 assembly_guide   README of a folder: assembly in steps, with pictures

@@ -20,7 +20,7 @@ from geartrain.workshop.export.cut_sheets import cut_sheets, wheel_drawing, whee
 from geartrain.workshop.export.parts_list import parts_list, to_csv
 from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prove_train
 from geartrain.workshop.export.proof.train_proof import are_installed
-from geartrain.workshop.export.rexs import to_rexs
+from geartrain.workshop.rexs.unit_export import omitted_parts, to_rexs
 
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
@@ -33,6 +33,7 @@ KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
 SUFFIXES = {
     **{".glb": "glb", ".stl": "stl", ".step": "step", ".stp": "step"},
     **{".graphml": "graphml", ".dot": "dot", ".gv": "dot", ".rexsj": "rexs", ".json": "rexs"},
+    **{".rexs": "rexs-xml", ".urdf": "urdf", ".xml": "mjcf"},
 }
 """Kind of a file with a whole train, by suffix."""
 
@@ -90,7 +91,7 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
     ----------
     work : SolidModel
         Solid model of the train.
-    kind : {"stl", "glb", "step", "graphml", "dot", "rexs"}
+    kind : {"stl", "glb", "step", "graphml", "dot", "rexs", "rexs-xml", "urdf", "mjcf"}
         Kind of file.
     turns : Fraction, optional
         Revolutions of the driving link in the animation of a GLB; by default one period, or ten if the period is long.
@@ -115,6 +116,10 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
     >>> train_file(work, "dot").decode().splitlines()[0]
     'graph "planetary-24-18-60" {'
     """
+    if kind in ("stl", "step") and not work.parts:
+        why = "only wheels, pins and plates have solids, and it declares none"
+        fix = "declare the wheels of its links, or choose another format, such as .graphml"
+        raise GearTrainError(Problem(f"'{work.train.name}' has no parts to make", why, fix))
     if kind == "glb":
         from geartrain.workshop.export.triangle_files import to_glb
 
@@ -128,8 +133,12 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
         from geartrain.workshop.export.step_file import to_step
 
         return to_step(work)
+    if kind in ("urdf", "mjcf"):
+        from geartrain.workshop.export.joint_tree import to_mjcf, to_urdf
+
+        return (to_urdf if kind == "urdf" else to_mjcf)(work).encode("utf-8")
     text = {"graphml": graph.to_graphml, "dot": graph.to_dot}.get(kind)
-    found = to_rexs(work) if text is None else text(work.train.graph) + "\n"
+    found = to_rexs(work, xml=kind == "rexs-xml") if text is None else text(work.train.graph) + "\n"
     return found.encode("utf-8")
 
 
@@ -293,6 +302,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
         found += work.blanks.notices
     if {"svg", "dxf"} & set(kinds):
         found += work.couplings.notices
+    found += [problem for kind in kinds for problem in simplifications(work, kind)]
     if "step" in kinds:
         from geartrain.workshop.export.step_file import omitted
 
@@ -302,6 +312,17 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     for problem in found:
         once.setdefault(problem.text, problem)
     return [*once.values()]
+
+
+def simplifications(work: SolidModel, kind: str) -> list[Problem]:
+    """Return the parts of a train that a format for other programs omits or simplifies; empty for other formats."""
+    if kind in ("rexs", "rexs-xml"):
+        return [*omitted_parts(work)]
+    if kind in ("urdf", "mjcf"):
+        from geartrain.workshop.export.joint_tree import mean_ratios
+
+        return [*mean_ratios(work)]
+    return []
 
 
 def kind_of(name: str) -> str:

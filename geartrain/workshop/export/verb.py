@@ -44,7 +44,11 @@ def run(
     to: Annotated[Path | None, typer.Option("--to", help="Write all files to this folder.")] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--output-file", "-o", help="Write one file: .glb, .stl, .step, .graphml, .dot, .rexsj or .fmu."),
+        typer.Option(
+            "--output-file",
+            "-o",
+            help="Write one file: .glb, .stl, .step, .graphml, .dot, .rexsj, .rexs, .urdf, .xml (MJCF) or .fmu.",
+        ),
     ] = None,
     kinds: Annotated[
         str | None,
@@ -205,7 +209,7 @@ def _sheet(text: str) -> tuple[float, float]:
 
 
 def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
-    from geartrain.workshop.export.file_set import WHEEL_SUFFIXES, kind_of, train_file, wheel_file
+    from geartrain.workshop.export.file_set import WHEEL_SUFFIXES, kind_of, simplifications, train_file, wheel_file
 
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
@@ -216,6 +220,8 @@ def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction |
     kind = "" if wheel is not None else kind_of(out.name)
     to = sink(out, force)
     to.write(wheel_file(work, wheel, suffix) if wheel is not None else train_file(work, kind, turns))
+    for problem in simplifications(work, kind):
+        tell(f"note: {problem}")
 
 
 def _write_folder(

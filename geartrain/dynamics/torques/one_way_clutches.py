@@ -1,0 +1,373 @@
+"""One-way clutches (freewheels, overrunning clutches, ratchets) of a train in one state: which hold, and which overrun.
+
+A clutch between links a and b that may turn in the sense s = 1 (forward) or -1 (backward) satisfies the complementarity
+conditions s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, with the torque T on b. The patterns of holding clutches
+are enumerated. A pattern is rejected if its speeds contradict each other, if the slip of an overrunning clutch is not
+positive (at equal speeds a clutch holds), if a holding clutch has a torque in the sense in which it overruns, or if the
+loads set the train in motion. Speeds are exact, and torques include declared losses.
+
+If no loads are declared, each output resists its own rotation in turn. An output that no pattern can drive decides
+nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations
+
+from geartrain.dynamics.torques.drivers import drag_torques
+from geartrain.dynamics.torques.load_case import PRESCRIBED, LoadCase
+from geartrain.dynamics.torques.torque_analysis import find_torques, power_inputs, resist
+from geartrain.dynamics.torques.torque_results import Torques, TorqueVerdict
+from geartrain.dynamics.train_mechanics import TrainMechanics
+from geartrain.errors import DeclarationError, Problem
+from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.circuits.joint_tree import close_joints, rigid_across_axes
+from geartrain.kinematics.train_kinematics import TrainKinematics
+from geartrain.numerics.elimination import LinearForm, add_into, eliminate, feasible
+from geartrain.train import Clutch, StateCase, Train
+from geartrain.train.states import OneWayAction
+
+MOST_CLUTCHES = 12
+"""Maximum number of one-way clutches in one state: 2^12 patterns are enumerated."""
+
+_REJECTED = ("unbalanced", "overrunning")
+
+
+@dataclass(frozen=True)
+class ClutchPattern:
+    """Set of holding clutches with its prescriptions, its speeds, and the slip of the overrunning clutches."""
+
+    holding: tuple[str, ...]
+    case: StateCase
+    setting: LoadCase | None
+    """Load case of the pattern; None if its speeds contradict each other."""
+    slips: Mapping[str, Fraction | None]
+    """Speed at which each other clutch overruns [unit of the train]; None if undetermined."""
+
+    moves: bool
+    """True if the other clutches can overrun together, for some values of the undetermined speeds."""
+
+    @property
+    def stopped(self) -> tuple[str, ...]:
+        """Clutches that are assumed to overrun but do not."""
+        return tuple(name for name, slip in self.slips.items() if slip is not None and slip <= 0)
+
+
+def decide_case(train: Train, state: str | None) -> StateCase:
+    """Return the prescriptions of a state with the one-way clutches that hold, and the action of each clutch.
+
+    The case has a problem if the declaration does not decide which clutches hold. Raises `DeclarationError` for a
+    clutch between links on different axes, and for more than `MOST_CLUTCHES` clutches.
+    """
+    return _Decision(TrainMechanics(TrainKinematics(train)), state, train.one_way_clutches(state)).case()
+
+
+def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
+    """Return True if linear forms can all be positive for the same values of the unknowns.
+
+    column   column that no form uses
+
+    The forms are made homogeneous: with a factor t >= 1 of the constants, positive values can be scaled to 1 or more.
+    """
+    scaled: list[LinearForm] = [{column: Fraction(1), PRESCRIBED: Fraction(-1)}]
+    for form in forms:
+        unknowns = {at: value for at, value in form.items() if at != PRESCRIBED}
+        scaled.append({**unknowns, column: form.get(PRESCRIBED, Fraction(0)), PRESCRIBED: Fraction(-1)})
+    return feasible(scaled)
+
+
+@dataclass(frozen=True)
+class _Decision:
+    train: TrainMechanics
+    state: str | None
+    names: tuple[str, ...]
+
+    def case(self) -> StateCase:
+        self._refuse()
+        if swinging := self._swinging():
+            return self._refused(*swinging)
+        if not self._moving:
+            return self._answer(self._contradictory(), {}, ())
+        chosen = list(dict.fromkeys(each.holding for ways in self._fitting.values() for each in ways))
+        if len(chosen) > 1:
+            return self._refused(*self._undecided(chosen))
+        if not chosen:
+            pattern, released = self._released()
+            return self._answer(pattern, {}, (f"{_joined(released)} lets go under this load",) if released else ())
+        pattern = next(each for each in self._moving if each.holding == chosen[0])
+        deciding = {load: self._torques(pattern, load) for load, ways in self._fitting.items() if ways}
+        return self._answer(pattern, deciding, tuple(self._reversed(pattern, deciding)))
+
+    # -------------------------------------------------------------------------------------------------------- patterns
+
+    @cached_property
+    def _patterns(self) -> Mapping[tuple[str, ...], ClutchPattern]:
+        found: dict[tuple[str, ...], ClutchPattern] = {}
+        for some in (each for size in range(len(self.names) + 1) for each in combinations(self.names, size)):
+            fewer = (found.get(some[:at] + some[at + 1 :]) for at in range(len(some)))
+            # contradictory speeds remain contradictory if more clutches hold
+            if all(each is not None and each.setting is not None for each in fewer):
+                found[some] = self._pattern(some)
+        return found
+
+    def _pattern(self, holding: tuple[str, ...]) -> ClutchPattern:
+        own = self.train
+        (case,) = close_joints(own.declaration, own.tree, [own.declaration.case(self.state, holding)])
+        setting = own.make_load_case(case)
+        others = [name for name in self.names if name not in holding]
+        slips = {name: None if setting is None else self._slip(setting, name) for name in others}
+        moves = setting is not None and all(slip is None or slip > 0 for slip in slips.values())
+        if setting is not None and moves and setting.forms:
+            moves = can_be_positive(
+                [self._slip_form(setting, name, setting.forms) for name in others], len(setting.forms)
+            )
+        return ClutchPattern(holding, case, setting, slips, moves)
+
+    def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
+        """Return a clutch, its first link (the frame for a brake), its second link and its sense."""
+        clutch = self.train.declaration.clutches[name]
+        first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
+        (sense,) = clutch.senses
+        return clutch, first, second, sense
+
+    def _slip(self, setting: LoadCase, name: str) -> Fraction | None:
+        _, first, second, sense = self._clutch(name)
+        relative = setting.relative(second, first)
+        return None if relative is None else sense * setting.sense(second) * relative
+
+    def _slip_form(self, setting: LoadCase, name: str, speeds: Mapping[str, LinearForm]) -> LinearForm:
+        """Return the slip of a clutch as a linear form, from the linear forms of the speeds."""
+        _, first, second, sense = self._clutch(name)
+        form: LinearForm = {}
+        add_into(form, speeds[second], sense)
+        add_into(form, speeds[first], -sense * setting.sense(first) * setting.sense(second))
+        return form
+
+    @cached_property
+    def _moving(self) -> Sequence[ClutchPattern]:
+        """Patterns whose speeds satisfy all conditions."""
+        return [each for each in self._patterns.values() if each.moves]
+
+    def _contradictory(self) -> ClutchPattern:
+        """Return a pattern with contradictory speeds, if possible one that is reached by stopping the clutches that
+        would turn the wrong way.
+        """
+        pattern = self._patterns[()]
+        while pattern.setting is not None and pattern.stopped:
+            held = {*pattern.holding, *pattern.stopped}
+            pattern = self._pattern(tuple(name for name in self.names if name in held))
+        others = (each for each in self._patterns.values() if each.setting is None)
+        return pattern if pattern.setting is None else next(others, pattern)
+
+    # ----------------------------------------------------------------------------------------------------------- loads
+
+    @cached_property
+    def _loads(self) -> Mapping[str, tuple[str, str] | None]:
+        """Loads that are applied one at a time: an output with its two links, or None for all declared loads."""
+        declared, case = self.train.declaration, self._patterns[()].case
+        if declared.is_loaded(self.state):
+            return {" and ".join(case.loads) or "the bearings": None}
+        ends = {name: output.links(name, declared.frame) for name, output in case.outputs.items()}
+        outputs = {name: each for name, each in ends.items() if each[0] not in case.inputs}
+        top = self.train.tree.top
+        borne = [link for link in declared.links if top.get(link) == declared.frame and link not in case.inputs]
+        return outputs or {link: (link, declared.frame) for link in borne}
+
+    def _torques(self, pattern: ClutchPattern, load: str, way: int = 1) -> Torques | None:
+        """Return the torques under one load, reversed if `way` is -1; None if the load is at rest in the pattern."""
+        setting, links = pattern.setting, self._loads[load]
+        assert setting is not None
+        if links is None:
+            loads = {link: replace(torque, value=way * torque.value) for link, torque in pattern.case.loads.items()}
+            return find_torques(replace(setting, case=replace(setting.case, loads=loads)), flows_only=True)
+        if setting.relative(*links) is None:
+            return Torques(self.state, TorqueVerdict("unbalanced", f"the speed of '{load}' is not determined"))
+        drag = {link: way * torque for link, torque in drag_torques(setting, *links).items()}
+        return resist(setting, drag) if drag else None
+
+    def _fits(self, pattern: ClutchPattern, load: str, way: int = 1) -> bool:
+        if pattern.setting is not None and not pattern.holding and not pattern.setting.forms:
+            return True  # nothing holds, and every speed is determined
+        found = self._torques(pattern, load, way)
+        return found is None or found.verdict.kind not in _REJECTED
+
+    @cached_property
+    def _fitting(self) -> Mapping[str, Sequence[ClutchPattern]]:
+        """Patterns that satisfy all conditions under each load."""
+        return {load: [each for each in self._moving if self._fits(each, load)] for load in self._loads}
+
+    def _released(self) -> tuple[ClutchPattern, tuple[str, ...]]:
+        """Return the pattern with the minimum number of violations, without the clutches that let go, and these."""
+        found = []
+        for pattern in self._moving:
+            kinds = [each.verdict for load in self._loads if (each := self._torques(pattern, load)) is not None]
+            wrong = {name for each in kinds if each.kind == "overrunning" for name in each.candidates}
+            missing = sum(each.kind == "unbalanced" for each in kinds)
+            released = self._members(pattern, wrong)
+            # of equal numbers, a pattern that names what lets go, then the one with the fewest holding clutches
+            found.append((len(wrong) + missing, not released, len(pattern.holding), pattern.holding, released))
+        *_, holding, released = min(found)
+        return self._patterns[tuple(name for name in holding if name not in released)], released
+
+    def _members(self, pattern: ClutchPattern, named: set[str]) -> tuple[str, ...]:
+        """Return the holding clutches of a pattern that occur in names such as `A and B` of clutches on one link."""
+        joined = {pattern.case.clutches[links] for links in pattern.case.senses} & named
+        return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
+
+    def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
+        """Yield a note for each load that releases a clutch if it drives the train, instead of being driven."""
+        for load, forward in deciding.items():
+            if forward is None or not pattern.holding or (self._loads[load] is None and not pattern.case.loads):
+                continue
+            backward = self._torques(pattern, load, -1)
+            if backward is None or backward.verdict.kind != "overrunning":
+                continue
+            released = self._members(pattern, set(backward.verdict.candidates))
+            others = [each for each in self._moving if self._fits(each, load, -1)]
+            taking = [name for each in others[:1] for name in each.holding if name not in pattern.holding]
+            then = f"{_joined(taking)} holds" if taking else "no engine braking"
+            yield f"driven from {load} {_joined(released)} lets go: {then}"
+
+    # ---------------------------------------------------------------------------------------------------------- answer
+
+    def _answer(
+        self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None], notes: tuple[str, ...]
+    ) -> StateCase:
+        state = self.state
+        required = () if state is None else self.train.declaration.states[state].engaged
+        actions = []
+        # if the speeds contradict each other, only the clutches that hold have a meaning
+        for name in self.names if pattern.setting is not None else pattern.holding:
+            holds, slip = name in pattern.holding, pattern.slips.get(name)
+            torque, unit = self._torque(pattern, name, deciding) if holds else (Fraction(0), "")
+            teeth = self._clutch(name)[0].teeth
+            slip = Fraction(0) if holds else slip
+            actions.append(OneWayAction(name, holds, slip, torque, unit, name in required, teeth))
+        relieved = {each.name for each in actions if each.holds and each.torque == 0}
+        return replace(pattern.case, one_way=tuple(actions), notes=(*notes, *self._shared(pattern, relieved)))
+
+    def _torque(
+        self, pattern: ClutchPattern, name: str, deciding: Mapping[str, Torques | None]
+    ) -> tuple[Fraction | None, str]:
+        """Return the torque of a holding clutch on its second link and its unit; None if it depends on the loads."""
+        links, found, unit = self._clutch(name)[0].links, set[Fraction | None](), ""
+        source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
+        for load, torques in deciding.items():
+            held = next((each for each in torques.held if each.links == links), None) if torques else None
+            if torques is None or held is None or held.torques is None:
+                return None, ""
+            if self._is_relieved(pattern, name, held.torques[-1]):
+                return Fraction(0), ""
+            if held.clutch != name:
+                return None, ""
+            if self._loads[load] is None:
+                return held.torques[-1], "N m" if self.train.declaration.has_torque_units(self.state) else ""
+            given = torques.external.get(source[0]) if len(torques.requested) == 1 and source else None
+            found.add(held.torques[-1] / given if given else None)
+            unit = f"times the torque of {source[0]}" if source else ""
+        return (found.pop(), unit) if len(found) == 1 and None not in found else (None, "")
+
+    def _is_relieved(self, pattern: ClutchPattern, name: str, torque: Fraction) -> bool:
+        """Return True if a brake or lock on the same links takes a torque that the clutch cannot take."""
+        clutch, _, _, sense = self._clutch(name)
+        return clutch.links not in pattern.case.senses and sense * torque < 0
+
+    def _shared(self, pattern: ClutchPattern, relieved: Collection[str]) -> Iterator[str]:
+        """Yield notes on clutches that hold the same links together, and on speeds that vary within a turn."""
+        case = pattern.case
+        for links in dict.fromkeys(self._clutch(name)[0].links for name in pattern.holding):
+            clutches = self.train.declaration.clutches
+            names = [name for name in case.engaged if clutches[name].links == links and name not in relieved]
+            if len(names) > 1:
+                yield f"{_joined(names)} both hold; how they share the torque is not known"
+        for name, couplings in self._varying.items():
+            ids = _joined([each.id for each in couplings])
+            yield f"{name} is decided by mean speeds, but {ids} varies within a turn"
+        groups: dict[tuple[str, str], dict[int, str]] = {}
+        for name in self.names:
+            _, first, second, sense = self._clutch(name)
+            ends, sense = ((first, second), sense) if first <= second else ((second, first), -sense)
+            groups.setdefault(ends, {}).setdefault(sense, name)
+        for name, *others in (tuple(each.values()) for each in groups.values()):
+            if others:
+                clutch = self._clutch(name)[0]
+                held = f"'{clutch.links[-1]}'"
+                fix = f"{{fixes: {clutch.fixes}}}" if clutch.fixes else f"{{locks: [{', '.join(clutch.links)}]}}"
+                yield f"{name} and {others[0]} together hold {held}: write a brake or a clutch, such as {name}: {fix}"
+
+    # -------------------------------------------------------------------------------------------------------- refusals
+
+    def _refused(self, what: str, why: str, fix: str) -> StateCase:
+        state = self.state
+        place = self.train.declaration.place(*(("clutches",) if state is None else ("states", state)))
+        case = self._patterns[()].case
+        return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
+
+    def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> tuple[str, str, str]:
+        """Return what, why and fix of a state in which several patterns remain."""
+        common = set(chosen[0]).intersection(*chosen[1:])
+        open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
+        ways = {
+            load: " or ".join(_joined(each.holding) or "none" for each in found)
+            for load, found in self._fitting.items()
+            if found
+        }
+        why = "; ".join(f"with a load on {load}: {way} holds" for load, way in ways.items())
+        some = "{" + ", ".join(f"{load}: -1" for load in list(ways)[:1]) + "}"
+        return f"whether {_joined(open_)} holds depends on the loads", why, f"declare `loads`, such as `loads: {some}`"
+
+    @cached_property
+    def _varying(self) -> Mapping[str, Sequence[Circuit]]:
+        """Couplings with varying ratio on which the slip of each clutch depends; clutches without any are omitted.
+
+        The rows of such couplings get a symbol each; the slip of the clutch contains these symbols.
+        """
+        setting = self._patterns[()].setting
+        varying = [each for each in setting.circuits if each.swings] if setting is not None else []
+        if setting is None or not varying:
+            return {}
+        symbols = {each.id: -1 - at for at, each in enumerate(varying)}
+        index = {link: at for at, link in enumerate(setting.train.links)}
+        rows: list[LinearForm] = []
+        for row in setting.system.equations:
+            form = {index[link]: Fraction(factor) for link, factor in row.terms}
+            rows.append(form | ({symbols[row.label]: Fraction(1)} if row.label in symbols else {}))
+        solved = eliminate(rows).forms()
+        forms = {link: solved.get(at, {at: Fraction(1)}) for link, at in index.items()}
+        slips = {name: self._slip_form(setting, name, forms) for name in self.names}
+        found = {name: [each for each in varying if symbols[each.id] in slip] for name, slip in slips.items()}
+        return {name: each for name, each in found.items() if each}
+
+    def _swinging(self) -> tuple[str, str, str] | None:
+        """Return what, why and fix if a clutch is driven by a link that swings to and fro; None if there is none."""
+        for name, couplings in self._varying.items():
+            _, first, second, _ = self._clutch(name)
+            if not all(each.ratio for each in couplings):
+                what = f"the speed behind the one-way clutch '{name}' is not a ratio of tooth counts"
+                why = f"'{first}' or '{second}' swings to and fro, and {name} passes on only one sense of this motion"
+                return what, why, f"withdraw it by `free: [{name}]` in a state"
+        return None
+
+    def _refuse(self) -> None:
+        declared, frame = self.train.declaration, self.train.declaration.frame
+        if len(self.names) > MOST_CLUTCHES:
+            what = f"{len(self.names)} one-way clutches are in force"
+            why = f"at most {MOST_CLUTCHES} can be decided, because all patterns of holding clutches are tried"
+            raise DeclarationError([Problem(what, why, "withdraw some by `free`", declared.place("clutches"))])
+        base = replace(declared.case(self.state, ()), inputs={}, fixed=(), locks=())
+        for name in self.names:
+            clutch, first, second, _ = self._clutch(name)
+            alone = replace(base, fixed=clutch.links) if clutch.fixes else replace(base, locks=((first, second),))
+            if first == second or any(rigid_across_axes(declared, self.train.tree, alone)):
+                what = f"the one-way clutch '{name}' is not between two coaxial links"
+                why = f"'{first if first != second else frame}' and '{second}' do not turn about one common axis"
+                fix = "name two coaxial links, or fix a link that turns on the frame"
+                raise DeclarationError([Problem(what, why, fix, declared.place("clutches", name))])
+
+
+def _joined(names: Sequence[str]) -> str:
+    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))

@@ -1,0 +1,294 @@
+"""Periodic functions of one variable, given by points or by harmonics: values, derivatives, extremes and moments.
+
+Points are interpolated by a periodic cubic spline, by the monotone cubics of Fritsch and Carlson (PCHIP), by straight
+lines, or by steps. Extremes are found between the points too: every smooth interval is sampled more finely than the
+function varies, and each stationary point between two samples is a bracketed root of the derivative.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import cached_property
+from math import inf, isfinite, pi, sqrt
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.roots import roots_by_false_position
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.numerics.arrays import Floats
+
+Interpolation = Literal["pchip", "cubic", "linear", "steps"]
+"""Interpolation between points: monotone cubics, a periodic cubic spline, straight lines, or the last point's value."""
+
+_FEWEST_POINTS = {"pchip": 3, "cubic": 4, "linear": 2, "steps": 2}
+_PER_WAVE = 32  # samples of the shortest wave
+_PER_INTERVAL = 9  # samples of each smooth interval, in which a point's interpolant is a cubic
+_INSET = 16 * float(np.finfo(float).eps)  # periods: distance of the samples from breakpoints, several rounding errors
+_FINE = 1e-9  # of a bracket: the value at a stationary point is exact to the square of its error
+_MOST_SAMPLES = 5_000_000
+_GAUSS = np.polynomial.legendre.leggauss(8)  # exact to degree 15
+
+
+class PeriodicFunction(ABC):
+    """Function f with f(x + period) = f(x), smooth between its breakpoints.
+
+    Attributes
+    ----------
+    period : float
+        Period, above 0.
+    breakpoints : ndarray
+        Ascending positions in [0, period) at which the function or one of its derivatives is discontinuous.
+    resolution : float
+        Maximum distance of samples that follow the function between breakpoints.
+    """
+
+    period: float
+    breakpoints: Floats
+    resolution: float = inf
+
+    @property
+    def waves(self) -> float:
+        """Number of the shortest waves in a period; 0 if only the breakpoints limit the sampling."""
+        return self.period / self.resolution / _PER_WAVE
+
+    @abstractmethod
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+
+    def __call__(self, x: ArrayLike) -> Floats:
+        """Return the values of the function at any positions."""
+        return self.derivative(x, 0)
+
+    @cached_property
+    def _samples(self) -> Floats:
+        """Ascending positions over one period, beside every breakpoint and between, at most `resolution` apart."""
+        starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
+        widths = np.diff(starts, append=starts[0] + self.period)
+        counts = _PER_INTERVAL + np.ceil(widths / self.resolution).astype(np.int64)
+        if counts.sum() > _MOST_SAMPLES:
+            what = f"a periodic function with {len(starts)} breakpoints in one period is too long"
+            why = f"its extremes need {counts.sum()} samples, and at most {_MOST_SAMPLES} are computed"
+            raise RangeError(Problem(what, why, "give fewer points, or parts with a shorter common period"))
+        at = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        inset = _INSET * self.period
+        found: Floats = np.repeat(starts + inset, counts) + np.repeat((widths - 2 * inset) / (counts - 1), counts) * at
+        return found
+
+    def extremes(self, order: int = 0) -> tuple[float, float]:
+        """Return the minimum and the maximum of the derivative of an order from 0 (the function) to 2 over a period."""
+        x = self._samples
+        slopes = self.derivative(x, order + 1)
+        turns = np.flatnonzero(slopes[:-1] * slopes[1:] < 0)
+        low, high = x[turns], x[turns + 1]
+        at = roots_by_false_position(
+            lambda x, _: self.derivative(x, order + 1),
+            low,
+            high,
+            slopes[turns],
+            slopes[turns + 1],
+            _FINE * float((high - low).min(initial=inf)),
+        )
+        values = self.derivative(np.append(x, at), order)
+        return float(values.min()), float(values.max())
+
+    def moments(self) -> tuple[float, float]:
+        """Return the mean and the rms deviation from the mean over a period, by Gauss-Legendre quadrature."""
+        x, (nodes, weights) = self._samples, _GAUSS
+        half = np.diff(x) / 2
+        values = self(x[:-1, None] + half[:, None] * (1 + nodes))
+        mean = float(half @ values @ weights) / self.period
+        # two passes: the mean of squares minus the square of the mean would cancel
+        return mean, sqrt(float(half @ (values - mean) ** 2 @ weights) / self.period)
+
+    def sides(self, order: int) -> tuple[Floats, Floats]:
+        """Return the derivative of an order from 0 to 3 just before and just after each breakpoint."""
+        inset = _INSET * self.period
+        return self.derivative(self.breakpoints - inset, order), self.derivative(self.breakpoints + inset, order)
+
+
+class PeriodicPieces(PeriodicFunction):
+    """Periodic function with a cubic polynomial on each piece.
+
+    Parameters
+    ----------
+    breakpoints : ndarray, (pieces,)
+        Ascending positions at which the pieces begin.
+    coefficients : ndarray, (4, pieces)
+        Coefficients of the powers of the distance from the start of the piece, from the highest power.
+    period : float
+        Period, at least the difference of the last and the first breakpoint.
+    """
+
+    def __init__(self, breakpoints: Floats, coefficients: Floats, period: float) -> None:
+        self.breakpoints, self._coefficients, self.period = breakpoints, coefficients, period
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        first = self.breakpoints[0]
+        u = np.mod(np.asarray(x, dtype=float) - first, self.period)
+        # the comparison is with the differences, so that each point is in the piece that it begins
+        starts = self.breakpoints - first
+        piece = np.searchsorted(starts, u, side="right") - 1
+        u = u - starts[piece]
+        found = np.zeros(u.shape)
+        for power in range(3, order - 1, -1):
+            factor = [1, power, power * (power - 1), power * (power - 1) * (power - 2)][order]
+            found = found * u + factor * self._coefficients[3 - power][piece]
+        return found
+
+
+class PeriodicTable(PeriodicPieces):
+    """Periodic function through points.
+
+    Parameters
+    ----------
+    positions : sequence of float
+        Ascending positions in [0, period).
+    values : sequence of float
+        Values at these positions.
+    period : float
+        Period.
+    interpolation : {"pchip", "cubic", "linear", "steps"}
+        "pchip" never exceeds the values of neighbouring points; "cubic" is twice differentiable; "steps" keeps each
+        value up to the next point.
+
+    Raises
+    ------
+    RangeError
+        If the positions are not ascending, outside the period, or too few, or if a number is not finite.
+    """
+
+    def __init__(
+        self,
+        positions: Sequence[float],
+        values: Sequence[float],
+        period: float,
+        interpolation: Interpolation = "pchip",
+    ) -> None:
+        _check_points(positions, values, period, interpolation)
+        starts, closed = np.array(positions, dtype=float), np.append(np.array(values, dtype=float), values[0])
+        super().__init__(starts, _cubics(np.append(starts, positions[0] + period), closed, interpolation), period)
+
+
+def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
+    """Return the coefficients of the cubics between points, shape (4, pieces), from the highest power; the last point
+    is the first one, a period later.
+    """
+    if interpolation == "steps":
+        return np.vstack([np.zeros((3, len(x) - 1)), y[:-1]])
+    if interpolation == "linear":
+        return np.vstack([np.zeros((2, len(x) - 1)), np.diff(y) / np.diff(x), y[:-1]])
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
+    if interpolation == "cubic":
+        return np.asarray(CubicSpline(x, y, bc_type="periodic").c)
+    # a slope depends on the two neighbouring intervals, so that one more point at each end makes the curve periodic
+    period = x[-1] - x[0]
+    around = np.concatenate(([x[-2] - period], x, [x[1] + period]))
+    return np.asarray(PchipInterpolator(around, np.concatenate(([y[-2]], y, [y[1]]))).c[:, 1:-1])
+
+
+def _check_points(
+    positions: Sequence[float], values: Sequence[float], period: float, interpolation: Interpolation
+) -> None:
+    """Raise `RangeError` unless the points define a periodic function."""
+    if interpolation not in get_args(Interpolation):
+        what, why = f"'{interpolation}' is not an interpolation", f"known are {', '.join(get_args(Interpolation))}"
+        raise RangeError(Problem(what, why, "give `interpolation: pchip`"))
+    fewest = _FEWEST_POINTS[interpolation]
+    if len(positions) < fewest or len(positions) != len(values):
+        what = f"{len(positions)} positions and {len(values)} values are not enough points"
+        why = f"interpolation by {interpolation} needs at least {fewest} points, each with a value"
+        raise RangeError(Problem(what, why, "give more points over the period"))
+    if not all(map(isfinite, (*positions, *values, period))) or period <= 0:
+        why = "positions, values and period must be finite, and the period above 0"
+        raise RangeError(Problem("a periodic table contains a number that is not finite", why, "replace this number"))
+    for at, x in enumerate(positions):
+        if not 0 <= x < period:
+            what = f"the position of point {at + 1}, {x:.10g}, is outside the period from 0 to {period:.10g}"
+            why = "the points repeat after the period, and the end of the period is its start"
+            raise RangeError(Problem(what, why, "give each position once, from 0 up to the period, without its end"))
+        if at and x <= positions[at - 1]:
+            what = f"the position of point {at + 1}, {x:.10g}, is not above that of the point before it"
+            raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
+
+
+class HarmonicSeries(PeriodicFunction):
+    """Sum of a constant and of the harmonics amplitude sin(2 pi n x / period + phase).
+
+    Parameters
+    ----------
+    terms : sequence of (int, float, float)
+        Order n, 1 or more, amplitude, and phase [rad] of each harmonic.
+    period : float
+        Period of the first harmonic.
+    constant : float
+        Mean of the function.
+
+    Raises
+    ------
+    RangeError
+        If an order is not a whole number above 0, or if a number is not finite.
+    """
+
+    def __init__(self, terms: Sequence[tuple[int, float, float]], period: float, constant: float = 0.0) -> None:
+        for n, amplitude, phase in terms:
+            if n < 1 or n != int(n) or not (isfinite(amplitude) and isfinite(phase)):
+                what = f"the harmonic of order {n:g}, amplitude {amplitude:g} and phase {phase:g} is out of range"
+                why = "orders are whole numbers from 1, since the series repeats after one period; values are finite"
+                raise RangeError(Problem(what, why, "give orders 1, 2, 3, ... of the period"))
+        self.terms, self.period, self.constant = tuple(terms), period, constant
+        self.breakpoints = np.zeros(0)
+        self.resolution = period / max((n for n, _, _ in terms), default=1) / _PER_WAVE
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        angle = np.mod(np.asarray(x, dtype=float), self.period) * (2 * pi / self.period)
+        found = np.full(angle.shape, 0.0 if order else self.constant)
+        for n, amplitude, phase in self.terms:
+            # each derivative advances the phase by a quarter of a wave
+            wave = np.cos if order % 2 else np.sin
+            sign = -1 if order in (2, 3) else 1
+            found += sign * amplitude * (2 * pi * n / self.period) ** order * wave(n * angle + phase)
+        return found
+
+
+class PeriodicSum(PeriodicFunction):
+    """Sum of periodic functions with a common period.
+
+    Parameters
+    ----------
+    parts : sequence of PeriodicFunction
+        Functions that are added.
+    period : float
+        Period of the sum, a multiple of the period of each part.
+    """
+
+    def __init__(self, parts: Sequence[PeriodicFunction], period: float) -> None:
+        self.parts, self.period = tuple(parts), period
+        self.resolution = min((part.resolution for part in parts), default=inf)
+
+    @cached_property
+    def breakpoints(self) -> Floats:  # type: ignore[override]
+        """Ascending positions in [0, period) of the breakpoints of all parts."""
+        cuts = [
+            (np.arange(round(self.period / part.period))[:, None] * part.period + part.breakpoints).ravel()
+            for part in self.parts
+        ]
+        found = np.unique(np.concatenate([np.zeros(0), *cuts]))
+        # breakpoints of two parts that differ by rounding are one
+        return found[np.diff(found, prepend=-self.period) > 4 * _INSET * self.period]
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        x = np.asarray(x, dtype=float)
+        found = np.zeros(x.shape)
+        for part in self.parts:
+            found += part.derivative(x, order)
+        return found

@@ -1,0 +1,108 @@
+"""Sections on the couplings of a train other than pins: sizes as declared, belt lengths, what is not modelled, and
+transmission functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import degrees
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.results import Result
+from geartrain.report.document import Section, Table, cut, filled_table
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+
+
+def coupling_sections(train: GearTrain) -> Iterator[Section]:
+    """Yield a section on the sizes of the couplings of a train and on what is not modelled; nothing for kinds without
+    remarks."""
+    declared = train.declaration
+    shown = [each for each in declared.couplings if each.about or each.UNKNOWN]
+    if not shown:
+        return
+    lengths = dict(_belt_lengths(train)) if any(each.kind == "belt" for each in shown) else {}
+    rows = [(each.name, each.kind, each.about, lengths.get(each.name, ""), each.UNKNOWN) for each in shown]
+    table = filled_table(("coupling", "kind", "sizes", "length", "not modelled"), rows, 3)
+    yield Section("Couplings", (), (replace(table, rows=cut(table.rows)),))
+
+
+def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
+    """Yield the lengths of the belts around two pulleys whose diameters and axis positions are declared."""
+    from geartrain.kinematics.buildability.belt_drives import pulley_pairs
+
+    for pair in pulley_pairs(train.declaration, train.kinematics.tree, train.circuits):
+        if pair.length is not None:
+            yield pair.belt.name, f"{pair.length:.9g} mm{', crossed' if pair.belt.reversed else ''}"
+
+
+@dataclass(frozen=True)
+class VaryingCoupling(Result):
+    """Coupling with a variable ratio other than a pin in a slot, and its transmission function."""
+
+    KEYS = ("coupling", "kind", "driver", "driven", "ratio", "swing", "speed_ratio", "at_once", "formula")
+
+    coupling: str
+    """Name of the coupling."""
+    kind: str
+    """Kind of the coupling."""
+    driver: str
+    """Driving link; `driven` is the driven link."""
+    driven: str
+    ratio: Fraction
+    """Exact mean speed of the driven link divided by the speed of the driver, relative to the carrier."""
+    swing: float
+    """Maximum minus minimum deviation of the driven link from uniform motion [rad]."""
+    speed_ratio: tuple[float, float]
+    """Minimum and maximum speed ratio, with the sign of the mean ratio taken as positive."""
+    at_once: bool
+    """True if the driven link jumps; its speed ratio is then the ratio between jumps."""
+    formula: str
+    """Driven angle q as a function of the driver's angle S; empty if there is no closed form."""
+
+
+def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:
+    """Return a section on the transmission functions of couplings."""
+    rows = []
+    for each in couplings:
+        low, high = each.speed_ratio
+        speeds = f"{low:.6f}..{high:.6f}" + (", jumps" if each.at_once else "")
+        ends = f"{each.driver} -> {each.driven}"
+        rows.append((each.coupling, each.kind, ends, str(each.ratio), f"{degrees(each.swing):.5f}", speeds))
+    header = ("coupling", "kind", "driver -> driven", "mean ratio", "swing (deg)", "speed ratio")
+    text = (
+        "Angles of the driven link relative to the carrier, for a driver that turns uniformly. The swing is the range "
+        "of the deviation from uniform motion."
+    )
+    formulas = [f"{each.coupling}: {each.formula}." for each in couplings if each.formula]
+    where = ["q is the angle of the driven link, S that of the driver with its phase."] if formulas else []
+    return Section("Couplings with variable ratio", (text, *formulas, *where), (Table(header, rows),))
+
+
+def varying_couplings(train: GearTrain) -> tuple[VaryingCoupling, ...]:
+    """Return the couplings of a train with a variable ratio, without pins in slots."""
+    found = []
+    pins = {pin.coupling.name for pin in train.mechanics.pins}
+    for joint in train.mechanics.couplings:
+        coupling, transmission = joint.coupling, joint.transmission
+        if coupling.name not in pins:
+            driver, driven = coupling.links(train.declaration.wheels)
+            low, high = transmission.error_range()
+            speeds, formula = transmission.speed_range(), coupling.formula
+            found.append(
+                VaryingCoupling(
+                    coupling.name,
+                    coupling.kind,
+                    driver,
+                    driven,
+                    coupling.mean,
+                    high - low,
+                    speeds,
+                    transmission.at_once,
+                    formula,
+                )
+            )
+    return tuple(found)

@@ -1,0 +1,354 @@
+"""Universal joints, non-circular wheels, and couplings by a table or harmonics: variable ratios with an exact mean.
+
+The driven angle q depends on the angle S of the driver relative to the carrier, in the reference direction of their
+axes. `phase` is added to S. Losses are those of a declared `efficiency`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import degrees, pi, sqrt, tan
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+
+from pydantic import BeforeValidator, ConfigDict, Field, field_validator, model_validator
+
+from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.quantity import (
+    Angle,
+    Figure,
+    Length,
+    Quantity,
+    above_zero,
+    bad,
+    below_right_angle,
+    not_below_zero,
+)
+from geartrain.teeth.coupling import Coupling
+
+if TYPE_CHECKING:
+    from geartrain.numerics.periodic_function import Interpolation, PeriodicFunction
+    from geartrain.teeth.couplings.series_transmission import SeriesTransmission
+    from geartrain.teeth.couplings.table_transmission import TableTransmission
+
+_INTERPOLATIONS: Mapping[str, Interpolation] = {"smooth": "cubic", "straight": "linear", "steps": "steps"}
+_FEWEST, _MOST = 4, 10_000  # points of a smooth table
+_MOST_LOBES = _MOST_ORDER = 100
+
+
+Lobes = Annotated[int, Field(ge=1, le=_MOST_LOBES)]
+
+
+class _VaryingPair(Coupling):
+    """Coupling of two links with a variable ratio."""
+
+    pair: tuple[str, str] = Field(description="Driving link and driven link")
+    phase: Angle | None = Field(None, description="Angle of the driver at the start; default 0")
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """Driving link and driven link."""
+        return self.pair
+
+    @property
+    def start(self) -> float:
+        """Angle of the driver at the start [rad]."""
+        return 0.0 if self.phase is None else self.phase.si
+
+    @property
+    def remark(self) -> str:
+        """Range of the deviation from uniform motion, in words."""
+        if self.transmission is None:
+            return "has an unknown angle"
+        low, high = self.transmission.error_range()
+        return f"swings by {degrees(high - low):.3g} deg"
+
+
+class UniversalJoint(_VaryingPair):
+    """Universal joint (Cardan's or Hooke's): tan q = tan S / cos(beta), with the angle beta between the shafts.
+
+    S is the angle of the driver's fork from the plane of both shafts. The mean ratio is 1.
+    """
+
+    OBLIQUE = HOLDS = True
+    UNKNOWN = "backlash"
+    NEGLECTED = "side loads of joints", "forces and bending moments on the shafts of a joint are not computed"
+
+    kind: Literal["universal_joint"] = Field(description="Universal joint: mean ratio 1, periods of half a turn")
+    angle: (
+        Annotated[
+            Angle,
+            not_below_zero("give an angle from 0 to below 90 deg"),
+            below_right_angle("give an angle below 90 deg: a joint at 90 deg does not turn"),
+        ]
+        | None
+    ) = Field(None, description="Angle between the shafts; default from `axes`")
+    phase: Angle | None = Field(
+        None, description="Angle of the driver's fork from the plane of both shafts at the start; default 0"
+    )
+
+    def on_axes(self, angle: float) -> Self:
+        """Return the joint with the angle between its axes [rad], unless its angle is declared."""
+        if self.angle is not None:
+            return self
+        return self.model_copy(update={"angle": Quantity.parse(f"{degrees(angle)!r} deg", "angle", plain=False)})
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Number of periods in one revolution of the driver, 2."""
+        return Fraction(2)
+
+    @property
+    def transmission(self) -> SeriesTransmission | None:
+        """Transmission function; None if the angle of the joint is not known."""
+        if self.angle is None:
+            return None
+        from geartrain.teeth.couplings.series_transmission import SeriesTransmission
+
+        rho = tan(self.angle.si / 2) ** 2
+        return SeriesTransmission(Fraction(1), 1.0, 2, rho, phase=self.start)
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q in closed form."""
+        return f"tan q = tan S / cos({self.angle.text if self.angle else 'beta'})"
+
+
+class EllipticalPair(_VaryingPair):
+    """Two elliptical or lobed wheels in external mesh about their foci.
+
+    The driver has the pitch curve r = p / (1 + e cos(n1 theta)), with eccentricity e, n1 lobes and theta from a short
+    radius; its mate, with n2 lobes, is conjugate to it. With equal numbers of lobes the wheels are equal. S is 0 with
+    a long radius of the driver on the line of centres.
+    """
+
+    UNKNOWN = "teeth, friction and backlash"
+
+    kind: Literal["elliptical"] = Field(
+        description="Elliptical or lobed wheels about their foci: mean ratio minus the ratio of their lobes"
+    )
+    eccentricity: Figure = Field(description="Eccentricity e of the driver's pitch curve, 0 to below 1")
+    lobes: tuple[Lobes, Lobes] = Field((1, 1), description="Numbers of lobes of the driver and of the driven wheel")
+    centre_distance: Annotated[Length, above_zero("give a length such as 60 mm")] | None = Field(
+        None, description="Distance between the axes, which gives the size of the wheels"
+    )
+    phase: Angle | None = Field(
+        None,
+        description="Angle of the driver at the start, from the position with a long radius on the line of centres; "
+        "default 0",
+    )
+
+    @field_validator("eccentricity")
+    @classmethod
+    def _closes(cls, eccentricity: Figure) -> Figure:
+        if not 0 <= eccentricity.value < 1:
+            what = f"with an eccentricity of {eccentricity.text} the pitch curve does not close"
+            raise bad("law", what, "give 0 (a circle) to below 1")
+        return eccentricity
+
+    @property
+    def mean(self) -> Fraction:
+        """Mean ratio: minus the lobes of the driver divided by the lobes of the driven wheel."""
+        return -Fraction(*self.lobes)
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Number of periods in one revolution of the driver: its lobes."""
+        return Fraction(self.lobes[0])
+
+    @property
+    def _root(self) -> float:
+        """The square root in `distance`."""
+        e, m = float(self.eccentricity.value), self.lobes[0] / self.lobes[1]
+        return sqrt(1 - (1 - e**2) * (1 - 1 / m**2))
+
+    @property
+    def distance(self) -> float:
+        """Distance between the axes divided by the semi-latus rectum p of the driver's pitch curve."""
+        return (1 + self._root) / (1 - float(self.eccentricity.value) ** 2)
+
+    @property
+    def transmission(self) -> SeriesTransmission:
+        """Transmission function, with rho = e (m + 1)/(m s + 1): mean ratio m without sign, and s the root of C."""
+        from geartrain.teeth.couplings.series_transmission import SeriesTransmission
+
+        m = self.lobes[0] / self.lobes[1]
+        rho = float(self.eccentricity.value) * (m + 1) / (m * self._root + 1)
+        return SeriesTransmission(-self.mean, 2 / self.lobes[1], self.lobes[0], rho, phase=self.start)
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q in closed form."""
+        (first, second), rho = self.lobes, self.transmission.rho
+        q, S = ("q" if second == 1 else f"{second} q"), ("S" if first == 1 else f"{first} S")
+        return f"tan({q} / 2) = {(1 + rho) / (1 - rho):.6g} tan({S} / 2)"
+
+
+class PitchCurvePair(_VaryingPair):
+    """Two non-circular wheels in external mesh: the driver has a given pitch curve, and its mate is conjugate to it.
+
+    The radii at equal angles over one lobe of the driver, starting at S = 0, are joined by a periodic cubic spline.
+    The centre distance C follows from the condition that the mate closes: the mean of r/(C - r) is the mean ratio.
+    """
+
+    UNKNOWN = "teeth, friction and backlash"
+
+    kind: Literal["pitch_curve"] = Field(
+        description="Non-circular wheels by the radii of the driver: mean ratio minus the ratio of their lobes"
+    )
+    radii: tuple[Length, ...] = Field(
+        description="Radii of the driver's pitch curve at equal angles over one lobe, 4 or more; the first is not "
+        "repeated at the end"
+    )
+    lobes: tuple[Lobes, Lobes] = Field((1, 1), description="Numbers of lobes of the driver and of the driven wheel")
+    phase: Angle | None = Field(
+        None,
+        description="Angle of the driver at the start, from the position with the first radius on the line of centres; "
+        "default 0",
+    )
+
+    @model_validator(mode="after")
+    def _has_a_mate(self) -> PitchCurvePair:
+        _check_points(self.radii, "radii", _FEWEST)
+        if len({radius.unit is None for radius in self.radii}) > 1:
+            raise bad("law", "some radii have a unit and others do not", "give all with a unit, or all without")
+        if min(radius.base for radius in self.radii) <= 0:
+            raise bad("law", "a radius of the pitch curve is not above 0", "give radii above 0")
+        return self
+
+    @property
+    def mean(self) -> Fraction:
+        """Mean ratio: minus the lobes of the driver divided by the lobes of the driven wheel."""
+        return -Fraction(*self.lobes)
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Number of periods in one revolution of the driver: its lobes."""
+        return Fraction(self.lobes[0])
+
+    @property
+    def distance(self) -> float:
+        """Distance between the axes [m, or in the unit of plain radii]."""
+        from geartrain.teeth.couplings.pitch_curves import mate_distance
+
+        return mate_distance(self._values, float(-self.mean))
+
+    @property
+    def _values(self) -> tuple[float, ...]:
+        return tuple(radius.si for radius in self.radii)
+
+    @property
+    def transmission(self) -> TableTransmission:
+        """Transmission function by quadrature of the ratio r/(C - r)."""
+        from geartrain.teeth.couplings.pitch_curves import PitchCurveDeviation
+        from geartrain.teeth.couplings.table_transmission import TableTransmission
+
+        deviation = PitchCurveDeviation(self._values, self.distance, 2 * pi / self.lobes[0])
+        return TableTransmission(-self.mean, deviation, self.start)
+
+    @property
+    def formula(self) -> str:
+        """Speed ratio dq/dS in closed form."""
+        return f"dq/dS = r / (C - r), C = {self.distance:.6g}{'' if self.radii[0].unit is None else ' m'}"
+
+
+def _amplitude(raw: Any) -> Any:
+    return raw if isinstance(raw, Sequence) and not isinstance(raw, str) else (raw, "0 deg")
+
+
+Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
+
+
+class TabledLaw(_VaryingPair):
+    """Coupling with the driven angle q = mean S + unit d(S), d by harmonics or by a table.
+
+    A mean of 0 is a cam with an oscillating arm.
+    """
+
+    NEEDS_DISTANCE = False
+    UNKNOWN = "profile and backlash"
+    NEGLECTED = "friction of followers", "the profiles of a cam and its follower are not known"
+
+    model_config = ConfigDict(populate_by_name=True)
+
+    kind: Literal["law"] = Field(description="Driven angle by a mean ratio and a periodic deviation from it")
+    mean_ratio: Figure = Field(alias="mean", description="Exact mean speed of the driven link over that of the driver")
+    unit: Angle = Field(description="Angle of the driven link for a deviation of 1")
+    harmonics: dict[int, Harmonic] | None = Field(
+        None,
+        description="Deviation by harmonics: order k in `per` turns -> amplitude A, or [A, angle], for a term "
+        "A sin(k S + angle)",
+    )
+    table: tuple[Figure, ...] | None = Field(
+        None, description="Deviation at equal angles of the driver over `per` turns; the first is not repeated"
+    )
+    per: Annotated[Figure, above_zero("give the turns of the driver in one period, such as 1")] = Field(
+        Figure.parse(1), description="Turns of the driver in one period of the deviation"
+    )
+    between: Literal["smooth", "straight", "steps"] = Field(
+        "smooth", description="Between the points of a table: cubic spline, straight lines, or constant values"
+    )
+    phase: Angle | None = Field(None, description="Angle of the driver at the start in the deviation; default 0")
+
+    @model_validator(mode="after")
+    def _has_one_form(self) -> TabledLaw:
+        if (self.harmonics is None) == (self.table is None):
+            found = "both" if self.table is not None else "neither"
+            raise bad("law", f"a law needs `harmonics` or `table`; found: {found}", "give one of them")
+        if self.table is not None:
+            _check_points(self.table, "table", _FEWEST if self.between == "smooth" else 2)
+        elif not self.harmonics or min(self.harmonics) < 1 or max(self.harmonics) > _MOST_ORDER:
+            what = "the orders of harmonics are not all from 1 to 100"
+            raise bad("law", what, "give orders of 1 or more; a constant is `phase`, or the `angle` of the link")
+        return self
+
+    @property
+    def mean(self) -> Fraction:
+        """Exact mean ratio."""
+        return self.mean_ratio.value
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Number of periods in one revolution of the driver."""
+        return 1 / self.per.value
+
+    @property
+    def transmission(self) -> TableTransmission:
+        """Transmission function; with a negative mean, angles of the driven side are forward angles."""
+        from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicTable
+        from geartrain.teeth.couplings.table_transmission import TableTransmission
+
+        scale = self.unit.si * (-1 if self.mean < 0 else 1)
+        period = 2 * pi * float(self.per.value)
+        deviation: PeriodicFunction
+        if self.table is not None:
+            values = [scale * float(each.value) for each in self.table]
+            steps = [at * period / len(values) for at in range(len(values))]
+            deviation = PeriodicTable(steps, values, period, _INTERPOLATIONS[self.between])
+        else:
+            terms = [(k, scale * float(size.value), angle.si) for k, (size, angle) in (self.harmonics or {}).items()]
+            deviation = HarmonicSeries(terms, period)
+        return TableTransmission(abs(self.mean), deviation, self.start)
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q in closed form."""
+        mean = f"{fraction_text(self.mean)} S + " if self.mean else ""
+        turn = "S" if self.per.value == 1 else f"S/{self.per.text}"
+        if self.harmonics is None:
+            return f"q = {mean}{self.unit.text} x table of {len(self.table or ())} points, {self.between}"
+        terms = [
+            f"{size.text} sin({'' if k == 1 else f'{k} '}{turn}{f' + {angle.text}' if angle.value else ''})"
+            for k, (size, angle) in self.harmonics.items()
+        ]
+        return f"q = {mean}{self.unit.text} x ({' + '.join(terms)})".replace("+ -", "- ")
+
+
+def _check_points(points: Sequence[Any], name: str, fewest: int) -> None:
+    if not fewest <= len(points) <= _MOST:
+        what = f"`{name}` has {len(points)} values"
+        raise bad("law", what, f"give {fewest} to {_MOST} values at equal angles")
+    bases = [point.value if isinstance(point, Figure) else point.base for point in points]
+    if len(points) > fewest and bases[0] == bases[-1] and len(set(bases)) > 1:
+        what = f"the first value of `{name}` is repeated at the end"
+        raise bad("law", what, "omit the last value: the values are periodic")

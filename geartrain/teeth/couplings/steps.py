@@ -1,0 +1,220 @@
+"""Couplings that move the driven link by steps, with rests between them: Geneva drives, fingers and stars, ratchets,
+and mutilated wheels.
+
+A Geneva drive (Maltese cross) has pins at the radius r on its driver and n radial slots on its driven link; the axes
+are at the distance C with r/C = sin(pi/n), so that a pin enters and leaves a slot without a jump of the speed. The
+driven link moves by 1/n turn while the pin is in the slot, which is the fraction 1/2 - 1/n of the driver's turn
+(external) or 1/2 + 1/n (internal); see Bickford, Mechanisms for Intermittent Motion (1972).
+
+All other kinds move the driven link by whole teeth, at once or evenly over an angle of the driver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import pi
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
+
+from geartrain.numerics.exact import plural
+from geartrain.numerics.quantity import Angle, Energy, bad, not_below_zero
+from geartrain.teeth.coupling import Coupling
+
+if TYPE_CHECKING:
+    from geartrain.teeth.couplings.step_transmission import GenevaTransmission, StepTransmission
+
+
+_MOST_MOVES = 10_000  # entries of a list of moves: a calendar of four years has 1461
+
+
+def _moves(raw: object) -> object:
+    """Return a list of moves; a single number is a list with one entry."""
+    return raw if isinstance(raw, list | tuple) else (raw,)
+
+
+def _at_least_0(moves: Sequence[int]) -> Sequence[int]:
+    if not any(moves) or min(moves) < 0:
+        raise bad("step", "the driven link never moves", "give `moves` of 0 or more, and at least one above 0")
+    return moves
+
+
+_Moves = Annotated[
+    tuple[Annotated[int, Field(ge=0)], ...],
+    BeforeValidator(_moves),
+    AfterValidator(_at_least_0),
+    WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "array", "items": {"type": "integer"}}]}),
+]
+
+
+class SteppingCoupling(Coupling):
+    """Coupling that moves its driven link by steps, base class of all kinds."""
+
+    # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
+    LOCKS_BACK = HOLDS = True
+    UNKNOWN = "friction of pin, finger and lock; impacts where the lock stops the driven link"
+
+    pair: tuple[str, str] = Field(description="Driving link, and the link that moves by steps")
+    internal: bool = Field(
+        False, description="True if both links turn in the same sense; by default they turn in opposite senses"
+    )
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """Driving link and driven link."""
+        return self.pair
+
+    @property
+    def mean(self) -> Fraction:
+        """Exact mean speed of the driven link divided by the speed of the driver, negative unless internal."""
+        return self.turns if self.internal else -self.turns
+
+    @property
+    def turns(self) -> Fraction:
+        """Revolutions of the driven link in one revolution of the driver, without sign."""
+        raise NotImplementedError
+
+    @property
+    def moving(self) -> Fraction:
+        """Fraction of the driver's revolution during which the driven link moves; 0 for steps at once."""
+        raise NotImplementedError
+
+    @property
+    def remark(self) -> str:
+        """Fraction of the time during which the driven link moves, in words."""
+        return f"moves {self.moving} of the time" if self.moving < 1 else ""
+
+
+class Geneva(SteppingCoupling):
+    """Geneva drive, or Maltese cross: a pin enters a radial slot, turns the driven link by one slot and leaves it."""
+
+    kind: Literal["geneva"] = Field(description="Geneva drive: 1/n turn for every pin that passes, then rest")
+    slots: int = Field(ge=3, le=1000, description="Number of slots n of the driven link, 3 or more")
+    pins: int = Field(1, ge=1, le=1000, description="Number of pins of the driver, evenly spaced")
+
+    @model_validator(mode="after")
+    def _check_pins(self) -> Geneva:
+        if self.moving > 1:
+            most = int(1 / self._share)
+            what = f"{self.pins} pins would meet {self.slots} slots at once: at most {most}"
+            raise bad("geneva", what, f"give `pins: {most}` or fewer, or another number of slots")
+        return self
+
+    @property
+    def turns(self) -> Fraction:
+        """Number of pins divided by the number of slots."""
+        return Fraction(self.pins, self.slots)
+
+    @property
+    def _share(self) -> Fraction:
+        """Fraction of the driver's revolution during which one pin is in a slot."""
+        return Fraction(1, 2) + Fraction(1 if self.internal else -1, self.slots)
+
+    @property
+    def moving(self) -> Fraction:
+        """Fraction of the driver's revolution during which a pin is in a slot."""
+        return self.pins * self._share
+
+    @property
+    def about(self) -> str:
+        """Numbers of slots and pins, as text."""
+        return f"{self.slots} slots, {plural(self.pins, 'pin')}{', internal' if self.internal else ''}"
+
+    @property
+    def formula(self) -> str:
+        """Driven angle q in closed form while a pin is in its slot."""
+        sign = "+" if self.internal else "-"
+        return f"q = atan2(rho sin S, 1 {sign} rho cos S) while moving, rho = sin(pi/{self.slots})"
+
+    @property
+    def transmission(self) -> GenevaTransmission:
+        """Transmission function from the middle of a step, where a pin is on the line of centres."""
+        from geartrain.teeth.couplings.step_transmission import GenevaTransmission
+
+        return GenevaTransmission(self.slots, self.pins, self.internal)
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Number of pins."""
+        return Fraction(self.pins)
+
+
+class Step(SteppingCoupling):
+    """Finger and star, ratchet or mutilated wheel: every engagement moves the driven link by whole teeth."""
+
+    kind: Literal["step"] = Field(description="Finger and star, ratchet or mutilated wheel: whole teeth, then rest")
+    teeth: int = Field(ge=1, le=10**12, description="Number of teeth of the driven link")
+    moves: _Moves = Field(
+        (1,),
+        max_length=_MOST_MOVES,
+        description="Teeth moved by each engagement, or a list for successive engagements; default 1",
+    )
+    times: int = Field(
+        1, ge=1, le=10_000, description="Number of engagements in one revolution of the driver, evenly spaced"
+    )
+    over: Annotated[Angle, not_below_zero("give an angle of 0 or more")] | None = Field(
+        None, description="Angle of the driver during which an engagement moves the teeth evenly; default 0, at once"
+    )
+    loss: Annotated[Energy, not_below_zero("give an energy of 0 or more")] | None = Field(
+        None, description="Energy lost for every tooth that passes the jumper or click spring; default 0"
+    )
+
+    @model_validator(mode="after")
+    def _check_moves(self) -> Step:
+        if max(self.moves) > self.teeth:
+            what = f"{max(self.moves)} teeth in one engagement are more than the {self.teeth} teeth of the wheel"
+            raise bad("step", what, f"give `moves` of at most {self.teeth}")
+        if self.moving_angle * self.times > 1:
+            most = 360 / self.times
+            what = f"over {self.over} it would still be moving when the next engagement begins"
+            raise bad("step", what, f"give `over` of at most {most:g} deg for `times: {self.times}`")
+        return self
+
+    @property
+    def moving_angle(self) -> Fraction:
+        """Angle of the driver during which an engagement moves the teeth [turn]; 0 for steps at once."""
+        return Fraction(0) if self.over is None else self.over.base
+
+    @property
+    def turns(self) -> Fraction:
+        """Teeth moved in one revolution of the driver, divided by the number of teeth."""
+        return Fraction(self.times * sum(self.moves), len(self.moves) * self.teeth)
+
+    @property
+    def moving(self) -> Fraction:
+        """Fraction of the driver's revolution during which the teeth move; 0 for steps at once."""
+        moved = sum(1 for each in self.moves if each)
+        return self.moving_angle * self.times * Fraction(moved, len(self.moves))
+
+    @property
+    def remark(self) -> str:
+        """Number of steps at once, or the fraction of the time during which the driven link moves, in words."""
+        steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))
+        return super().remark if self.moving else f"moves at once, {steps} times a turn of the driver"
+
+    @property
+    def about(self) -> str:
+        """Number of teeth and engagements, as text."""
+        low, high = min(self.moves), max(self.moves)
+        moved = f"{low}" if low == high else f"{low} to {high}"
+        over = f" over {self.over}" if self.over else ""
+        return f"{self.teeth} teeth, {self.times} a turn move {moved}{over}"
+
+    @property
+    def friction_torque(self) -> Fraction:
+        """Mean torque [N m] on the driven link against its motion, by which the jumper's energy is lost."""
+        # a wheel of z teeth loses z times the energy of one tooth in a revolution
+        return Fraction(0) if self.loss is None else self.teeth * self.loss.base / (2 * Fraction(pi))
+
+    @property
+    def transmission(self) -> StepTransmission:
+        """Transmission function from the beginning of the first engagement."""
+        from geartrain.teeth.couplings.step_transmission import StepTransmission
+
+        return StepTransmission(self.teeth, self.moves, self.times, self.moving_angle)
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Engagements in one revolution divided by the length of the list of moves."""
+        return Fraction(self.times, len(self.moves))

@@ -1,0 +1,180 @@
+"""Fusees: conical pulleys that even out the torque of a mainspring, and the torque over their run.
+
+A chain runs from the fusee onto the barrel, of radius R. The radius r of the fusee depends on the angle phi by which it
+has turned. The spring unwinds by dw = -(r/R) dphi, and the torque at the fusee is T = k w r/R, with the stiffness k and
+the wound angle w of the spring. A constant torque T needs the radius r = T R/(k sqrt(w0^2 - 2 T phi/k)).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import inf, sqrt, tau
+from typing import Annotated, NamedTuple
+
+from pydantic import Field, model_validator
+
+from geartrain.numerics.quantity import Figure, MeasuredLength, Torque, above_zero, bad
+from geartrain.train.fields import Declared, exactly_one
+
+
+class Fusee(Declared):
+    """Fusee on the driving link, by its constant torque or by its radii.
+
+    See Also
+    --------
+    SpringDrive : its field `fusee`
+    """
+
+    turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
+        description="Turns of the fusee from fully wound to run down"
+    )
+    torque: Annotated[Torque, above_zero("give a torque such as 0.27 N m")] | None = Field(
+        None, description="Constant torque of a fusee whose radii equalise the spring"
+    )
+    radii: tuple[Annotated[MeasuredLength, above_zero("give a length such as 6 mm")], ...] | None = Field(
+        None,
+        description="Radii of the chain's middle line at equal angles over the run, fully wound first, 2 or more; "
+        "straight lines in between",
+    )
+
+    @model_validator(mode="after")
+    def _has_one_form(self) -> Fusee:
+        exactly_one(self, "a fusee", ("torque", "radii"))
+        if self.radii is not None and len(self.radii) < 2:
+            raise bad("fusee", "a fusee with one radius is a drum", "give 2 radii or more, such as [6 mm, 14 mm]")
+        if self.torque is not None and self.torque.unit is None:
+            raise bad("fusee", "the torque of a fusee has no unit", f"write {self.torque.text} N m")
+        return self
+
+
+class FuseeRun(NamedTuple):
+    """Torque of a spring at its fusee over the whole run, in SI units."""
+
+    first: float
+    """Torque with the spring fully wound [N m]; `last` at the end of the run."""
+    last: float
+    maximum: float
+    """Maximum torque [N m], after `maximum_at` turns of the fusee."""
+    maximum_at: float
+    minimum: float
+    """Minimum torque [N m], after `minimum_at` turns of the fusee."""
+    minimum_at: float
+    mean: float
+    """Mean torque over the angle of the fusee [N m]."""
+    radii: tuple[float, float]
+    """Radius of the fusee at the beginning and at the end of the run [m]."""
+    chain: float
+    """Length of the chain that passes from the fusee to the barrel [m]."""
+    left: float
+    """Turns of winding left on the spring at the end."""
+    energy: float
+    """Energy that the spring gives [J]."""
+
+
+class ConicalSection(NamedTuple):
+    """Section of a fusee whose radius varies evenly with its angle."""
+
+    start: float
+    """Angle of the fusee at the beginning of the section [rad]; `width` is the angle of the section [rad]."""
+    width: float
+    radius: float
+    """Radius at the beginning [m]; `slope` is its change per angle [m/rad]."""
+    slope: float
+    wound: float
+    """Wound angle of the spring at the beginning [rad]."""
+    barrel: float
+    """Radius of the barrel [m]."""
+
+    def state(self, phi: float) -> tuple[float, float]:
+        """Return the wound angle of the spring [rad] and the radius [m] at an angle of the fusee [rad]."""
+        x = phi - self.start
+        return self.wound - (self.radius + self.slope * x / 2) * x / self.barrel, self.radius + self.slope * x
+
+    def extremes(self) -> Iterator[float]:
+        """Yield the angles at which the torque may be extreme [rad]: both ends, and roots of r' w = r^2/R."""
+        yield from (self.start, self.start + self.width)
+        # with r = radius + r' x this is a quadratic in x
+        a, b = 1.5 * self.slope**2, 3 * self.radius * self.slope
+        c = self.radius**2 - self.slope * self.wound * self.barrel
+        if a and (inside := b**2 - 4 * a * c) >= 0:
+            roots = ((-b + sign * sqrt(inside)) / (2 * a) for sign in (1, -1))
+            yield from (self.start + x for x in roots if 0 < x < self.width)
+
+    @property
+    def end(self) -> float:
+        """Angle at which the spring has run down [rad], if that is within the section; otherwise infinite."""
+        # smaller root of slope x^2/2 + radius x = barrel wound
+        inside = self.radius**2 + 2 * self.slope * self.barrel * self.wound
+        x = 2 * self.barrel * self.wound / (self.radius + sqrt(inside)) if inside >= 0 else inf
+        return self.start + x if x <= self.width else inf
+
+
+class FuseeSpring(NamedTuple):
+    """Spring in a barrel with a fusee: stiffness k [N m/rad], wound angle w0 [rad], and radius R of the barrel [m]."""
+
+    stiffness: float
+    wound: float
+    barrel: float
+    fusee: Fusee
+
+    @property
+    def angle(self) -> float:
+        """Angle of the fusee over the run [rad]."""
+        return tau * float(self.fusee.turns.value)
+
+    def _sections(self) -> list[ConicalSection]:
+        """Return the sections between declared radii."""
+        radii = [radius.si for radius in self.fusee.radii or ()]
+        width, wound, found = self.angle / (len(radii) - 1), self.wound, []
+        for at, (first, last) in enumerate(pairwise(radii)):
+            found.append(ConicalSection(at * width, width, first, (last - first) / width, wound, self.barrel))
+            wound -= (first + last) / 2 * width / self.barrel
+        return found
+
+    def state(self, phi: float) -> tuple[float, float]:
+        """Return the wound angle of the spring [rad] and the radius of the fusee [m] after the fusee has turned by phi
+        [rad].
+        """
+        if self.fusee.torque is None:
+            sections = self._sections()
+            return next((each for each in sections if phi <= each.start + each.width), sections[-1]).state(phi)
+        wound = sqrt(max(self.wound**2 - 2 * self.fusee.torque.si * phi / self.stiffness, 0.0))
+        return wound, self.fusee.torque.si * self.barrel / (self.stiffness * wound) if wound else inf
+
+    def torque(self, phi: float) -> float:
+        """Return the torque at the fusee after it has turned by phi [rad] in its run [N m]."""
+        if self.fusee.torque is not None:
+            return self.fusee.torque.si
+        wound, radius = self.state(phi)
+        return self.stiffness * wound * radius / self.barrel
+
+    def run(self) -> FuseeRun:
+        """Return the torque over the whole run, and the chain and winding that it needs."""
+        left, last = self.state(self.angle)
+        energy = self.stiffness * (self.wound - left) * (self.wound + left) / 2
+        places = [0.0, self.angle]
+        if self.fusee.torque is None:
+            places = [place for section in self._sections() for place in section.extremes()]
+        maximum, minimum = (pick(places, key=self.torque) for pick in (max, min))
+        return FuseeRun(
+            self.torque(0.0),
+            self.torque(self.angle),
+            self.torque(maximum),
+            maximum / tau,
+            self.torque(minimum),
+            minimum / tau,
+            energy / self.angle,
+            (self.state(0.0)[1], last),
+            self.barrel * (self.wound - left),
+            left / tau,
+            energy,
+        )
+
+    @property
+    def end(self) -> float:
+        """Turns of the fusee after which the spring has run down; infinite if it outlasts the run."""
+        if self.fusee.torque is None:
+            return min((section.end for section in self._sections()), default=inf) / tau
+        end = self.stiffness * self.wound**2 / (2 * self.fusee.torque.si)
+        return end / tau if end < self.angle else inf

@@ -1,0 +1,156 @@
+"""Train as a tree of coupled joints for robot and multibody simulators: URDF with mimic joints, and MJCF (MuJoCo).
+
+Every link turns on the link that carries its axis, so the rate of a joint is the difference of their speeds. In URDF
+each joint follows the joint of the input by its exact ratio. In MJCF every gear pair, coupling, brake and lock is an
+equality constraint: of two joints, or of more joints on a fixed tendon. Masses are nominal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.vectors import Vector, minus
+
+if TYPE_CHECKING:
+    from geartrain.scene.elements import SceneBody
+    from geartrain.scene.solids.solid_assembly import SolidModel
+
+_MASS = "0.1"  # kg
+_INERTIA = "1e-4"  # kg m^2
+
+
+def to_urdf(work: SolidModel) -> str:
+    """Return the train in one state as URDF, in which every joint mimics the joint of the input.
+
+    Raises `GearTrainError` if the speeds are not determined, or do not follow from one input.
+    """
+    case, bodies = work.train.declaration.case(work.scene.state), work.scene.bodies
+    moving = [link for link, speed in case.inputs.items() if speed]
+    rates = _rates(work)
+    if len(moving) != 1 or not rates.get(moving[0]):
+        what = (
+            f"URDF needs one input that turns and determined speeds, and '{work.train.name}' has {len(moving)} inputs"
+        )
+        why, fix = "a mimic joint follows one other joint", "write MJCF (-o FILE.xml), or choose another --state"
+        raise GearTrainError(Problem(what, why, fix, "-o"))
+    root = Element("robot", name=work.train.name)
+    for body in bodies:
+        link = SubElement(root, "link", name=body.id)
+        inertial = SubElement(link, "inertial")
+        SubElement(inertial, "mass", value=_MASS)
+        moments = {"ixx": _INERTIA, "iyy": _INERTIA, "izz": _INERTIA, "ixy": "0", "ixz": "0", "iyz": "0"}
+        SubElement(inertial, "inertia", moments)
+    for body in bodies:
+        if body.parent is None:
+            continue
+        rate = rates[body.id]
+        joint = SubElement(root, "joint", name=body.id, type="continuous" if rate else "fixed")
+        SubElement(joint, "parent", link=bodies[body.parent].id)
+        SubElement(joint, "child", link=body.id)
+        SubElement(joint, "origin", xyz=_metres(body, bodies[body.parent]), rpy="0 0 0")
+        SubElement(joint, "axis", xyz=_numbers(body.direction))
+        if rate and body.id != moving[0]:
+            SubElement(joint, "mimic", joint=moving[0], multiplier=_number(rate / rates[moving[0]]), offset="0")
+    return _text(root)
+
+
+def to_mjcf(work: SolidModel) -> str:
+    """Return the train in one state as MJCF, in which every row of its Willis system is an equality constraint."""
+    bodies = work.scene.bodies
+    root = Element("mujoco", model=work.train.name)
+    SubElement(root, "compiler", angle="radian")
+    SubElement(root, "option", gravity="0 0 0", integrator="implicitfast")  # stable with stiff drives
+    world = SubElement(root, "worldbody")
+    nodes = {body.id: world for body in bodies if body.parent is None}
+    waiting = [body for body in bodies if body.parent is not None]
+    while waiting:
+        body = next(each for each in waiting if bodies[each.parent or 0].id in nodes)
+        waiting.remove(body)
+        parent = bodies[body.parent or 0]
+        node = nodes[body.id] = SubElement(nodes[parent.id], "body", name=body.id, pos=_metres(body, parent))
+        SubElement(node, "inertial", pos="0 0 0", mass=_MASS, diaginertia=" ".join([_INERTIA] * 3))
+        SubElement(node, "joint", name=body.id, type="hinge", axis=_numbers(body.direction))
+    tendons, equality = Element("tendon"), Element("equality")
+    for label, terms in _constraints(work):
+        (first, a), *others = terms.items()
+        if not others:
+            SubElement(equality, "joint", name=label, joint1=first, polycoef="0 0 0 0 0")
+        elif len(others) == 1:
+            ((second, b),) = others
+            SubElement(
+                equality, "joint", name=label, joint1=first, joint2=second, polycoef=f"0 {_number(-b / a)} 0 0 0"
+            )
+        else:
+            tendon = SubElement(tendons, "fixed", name=label)
+            for joint, each in terms.items():
+                SubElement(tendon, "joint", joint=joint, coef=_number(each / a))
+            SubElement(equality, "tendon", name=label, tendon1=label, polycoef="0 0 0 0 0")
+    root.extend(each for each in (tendons, equality) if len(each))
+    actuators = SubElement(root, "actuator")
+    for link in work.train.declaration.case(work.scene.state).inputs:
+        SubElement(actuators, "velocity", name=f"drive {link}", joint=link, kv="1")
+    return _text(root)
+
+
+def mean_ratios(work: SolidModel) -> Iterator[Problem]:
+    """Yield a problem for each coupling whose ratio varies about the mean that a file of joints contains."""
+    for circuit in work.train.circuits:
+        if circuit.swings:
+            why = "the ratio of two coupled joints is a constant"
+            yield Problem(
+                f"coupling '{circuit.id}' is written with its mean ratio", why, "use .glb or .fmu for its motion"
+            )
+
+
+def _rates(work: SolidModel) -> dict[str, Fraction]:
+    """Return the rate of the joint of each link at the declared inputs; empty if speeds are not determined."""
+    answer, bodies = work.train.solve(work.scene.state, method="exact"), work.scene.bodies
+    if not answer.verdict:
+        return {}
+    speeds = [body.sense * Fraction(answer.speeds[body.id]) for body in bodies]
+    return {
+        body.id: speed - speeds[body.parent]
+        for body, speed in zip(bodies, speeds, strict=True)
+        if body.parent is not None
+    }
+
+
+def _constraints(work: SolidModel) -> Iterator[tuple[str, Mapping[str, Fraction]]]:
+    """Yield the rows of the Willis system, without frame and inputs, as sums of joint rates with their coefficients."""
+    bodies = {body.id: body for body in work.scene.bodies}
+    for equation in work.train.equations(work.scene.state).equations:
+        if equation.kind in ("frame", "input"):
+            continue
+        terms: dict[str, Fraction] = {}
+        for link, coefficient in equation.terms:
+            # the speed of a link is the sum of the joint rates on its path to the frame
+            body, sense = bodies[link], bodies[link].sense
+            while body.parent is not None:
+                terms[body.id] = terms.get(body.id, Fraction(0)) + sense * coefficient
+                body = work.scene.bodies[body.parent]
+        if terms := {link: each for link, each in terms.items() if each}:
+            yield equation.label, terms
+
+
+def _metres(body: SceneBody, parent: SceneBody) -> str:
+    """Return the position of the joint of a body [m], relative to the joint of its parent."""
+    origin = (0.0, 0.0, 0.0) if parent.parent is None else parent.point
+    return _numbers(tuple(each / 1000 for each in minus(body.point, origin)))
+
+
+def _numbers(values: Vector | tuple[float, ...]) -> str:
+    return " ".join(f"{each + 0.0:.12g}" for each in values)
+
+
+def _number(value: Fraction) -> str:
+    return repr(as_float(value))
+
+
+def _text(root: Element) -> str:
+    indent(root)
+    return f'<?xml version="1.0"?>\n{tostring(root, encoding="unicode")}\n'

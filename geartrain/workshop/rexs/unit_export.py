@@ -1,0 +1,393 @@
+"""Gear unit as a REXS model (FVA's Reusable Engineering Exchange Standard, version 1.4).
+
+Component types, attributes, units and relations are those of the REXS 1.4 database; see www.rexs.info. A carrier with
+spur wheels on its axes is a planetary stage. A state of the train is a gear of the unit and a load case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from functools import cached_property
+from math import degrees
+from typing import TYPE_CHECKING, Any
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.exact import as_float
+from geartrain.scene.solids.bearing_plates import basis
+from geartrain.teeth import Involute
+from geartrain.workshop.rexs.rexs_document import Model, to_json, to_xml
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.torque_results import Torques
+    from geartrain.kinematics.answer import Answer
+    from geartrain.scene.layout import WheelPlace
+    from geartrain.scene.solids.solid_assembly import SolidModel
+    from geartrain.train import GearPair, StateCase, Wheel
+
+VERSION = "1.4"
+_ANGLE = 20.0  # deg, if no tooth form is declared
+_DATE = "2000-01-01T00:00:00+00:00"  # fixed, so that the same train gives the same file
+_STAGES = {
+    ("cylindrical_gear", "cylindrical_gear"): "cylindrical_stage",
+    ("cylindrical_gear", "ring_gear"): "cylindrical_stage",
+    ("bevel_gear", "bevel_gear"): "bevel_stage",
+    ("worm_gear", "worm_wheel"): "worm_stage",
+}
+"""Type of the stage of two gears, as REXS allows."""
+_FLANKS = {"bevel_gear": "bevel_gear_flank", "worm_gear": "worm_gear_flank", "worm_wheel": "worm_gear_flank"}
+Attributes = list[dict[str, Any]]
+
+
+def to_rexs(work: SolidModel, xml: bool = False) -> str:
+    """Return the gear unit of a train as a REXS file in JSON, or in XML."""
+    model = _Unit(work).model()
+    return to_xml(model) if xml else to_json(model)
+
+
+def omitted_parts(work: SolidModel) -> Iterator[Problem]:
+    """Yield the parts of a train that REXS cannot represent."""
+    unit = _Unit(work)
+    declared = unit.declared
+    pairs = [gear.name for gear in declared.gears if unit.stage_of(gear) is None]
+    forms = {form.form for gear in declared.gears if (form := declared.form_of(gear)) and form.form != "involute"}
+    loads = [link for case in unit.cases for link, load in case.loads.items() if load.unit is None and load.value]
+    shifted = [wheel for wheel in declared.wheels if declared.wheels[wheel][1].internal and unit.teeth(wheel)[1]]
+    for names, what, why in (
+        ([each.name for each in declared.couplings], "coupling", "REXS has only stages of two gears"),
+        (pairs, "gear pair", "REXS has stages of spur wheels on parallel axes, of bevels, and of a worm and its wheel"),
+        (sorted(forms), "tooth form", "REXS has flanks of involute gears only"),
+        (loads, "load without a unit on link", "a torque in REXS is in N m"),
+        (shifted, "profile shift of ring", "the sign of the shift of internal gears differs between programs"),
+    ):
+        if names:
+            text = ", ".join(f"'{name}'" for name in dict.fromkeys(names))
+            yield Problem(f"REXS: {what} {text} is omitted", why, "add it in the program that reads the file")
+
+
+class _Unit:
+    """Components, relations and load cases of one train."""
+
+    def __init__(self, work: SolidModel) -> None:
+        self.work, self.declared = work, work.train.declaration
+        self.tree, self.circuits = work.train.kinematics.tree, {each.id: each for each in work.train.circuits}
+        self.components: list[Model] = []
+        self.relations: list[Model] = []
+        self.numbers: dict[tuple[str, str], int] = {}
+        states = work.train.states or (work.scene.state,)
+        self.cases = [self.declared.case(state) for state in states]
+
+    def model(self) -> Model:
+        from importlib.metadata import version
+
+        gears = [_integer("number_of_gears", len(self.cases)), _integer("gear_shift_index", 1 + self.first)]
+        pose = _pose((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        self.unit = self.add("gear_unit", self.declared.name, [*(gears if self.work.train.states else ()), *pose])
+        self.numbers["unit", ""] = self.unit
+        self.casing = self.add("gear_casing", self.declared.frame)
+        self.relate("assembly", assembly=self.unit, part=self.casing)
+        for link in self.declared.links:
+            self.shaft(link)
+        for carrier in dict.fromkeys(self.tree.top.values()):
+            self.carrier(carrier)
+        for gear in self.declared.gears:
+            self.stage(gear)
+        for links, engaged in self.engagement.items():
+            self.clutch(links, engaged)
+        cases = [{"id": 1 + at, "components": self.running(at)} for at in range(len(self.cases))]
+        return {
+            "version": VERSION,
+            "applicationId": "geartrain",
+            "applicationVersion": version("geartrain"),
+            "date": _DATE,
+            "applicationLanguage": "en",
+            "relations": self.relations,
+            "components": self.components,
+            **({"load_spectrum": {"id": 1, "load_cases": cases}} if any(case["components"] for case in cases) else {}),
+        }
+
+    def add(self, kind: str, name: str = "", attributes: Attributes | None = None) -> int:
+        number = len(self.components) + 1
+        named = {"name": name} if name else {}
+        self.components.append({"id": number, "type": kind, **named, "attributes": attributes or []})
+        return number
+
+    def relate(self, kind: str, **roles: int) -> None:
+        """Add a relation; each member has its role, and its component type as a hint."""
+        refs = [
+            {"id": number, "role": role, "hint": self.components[number - 1]["type"]} for role, number in roles.items()
+        ]
+        self.relations.append({"id": len(self.relations) + 1, "type": kind, "refs": refs})
+
+    def join(self, kind: str, name: str, inner: int, outer: int, attributes: Attributes | None = None) -> int:
+        """Add a bearing or coupling between two components."""
+        number = self.add(kind, name, attributes)
+        self.relate("side", assembly=number, inner_part=inner, outer_part=outer)
+        return number
+
+    # ------------------------------------------------------------------------------------------------ shafts and gears
+
+    def shaft(self, link: str) -> None:
+        """Add a shaft for a link that turns or has wheels; u is the coordinate along its axis."""
+        wheels = self.declared.links[link].wheels
+        if link == self.declared.frame and not wheels:
+            return
+        axis = self.work.layout.axes.get(self.tree.axis(link) or "")
+        point, along = (axis.point, axis.direction) if axis else ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        drives = any(link in case.inputs for case in self.cases)
+        number = self.add("shaft", link, [{"id": "defines_speed", "boolean": drives}, *_pose(point, along)])
+        self.numbers["link", link] = number
+        self.relate("assembly", assembly=self.unit, part=number)
+        if link == self.declared.frame:
+            self.join("coupling", f"{link} in casing", number, self.casing)
+        elif self.tree.top[link] == self.declared.frame:
+            self.join("concept_bearing", f"bearing of {link}", number, self.casing)
+        for name, wheel in wheels.items():
+            self.gear(name, wheel, number)
+        if any(link in self.loads(at) for at in range(len(self.cases))):
+            known = any(link in case.loads for case in self.cases)
+            load = [{"id": "defines_torque", "boolean": known}, {"id": "transmits_torque", "boolean": True}]
+            self.numbers["load", link] = self.add("external_load", f"load on {link}", load)
+            self.relate("assembly", assembly=number, part=self.numbers["load", link])
+
+    def gear(self, name: str, wheel: Wheel, shaft: int) -> None:
+        place = self.work.layout.wheels[name]
+        axis = self.work.layout.axes.get(place.axis)
+        along = axis.direction if axis else (0.0, 0.0, 1.0)
+        kind = self.kind(name)
+        counted = [_integer("number_of_teeth", wheel.count)] if wheel.count else []
+        attributes = [*counted, *_sizes(kind, place, wheel), *_pose(place.centre, along)]
+        if axis is not None:
+            above = sum((a - b) * c for a, b, c in zip(place.centre, axis.point, along, strict=True))
+            attributes.append(_number("u_coordinate_on_shaft", "mm", above))
+        number = self.numbers["wheel", name] = self.add(kind, name, attributes)
+        self.relate("assembly", assembly=shaft, part=number)
+        angle, shift = self.teeth(name)
+        data: Attributes = []
+        if kind in ("cylindrical_gear", "ring_gear") and angle is not None:
+            data.append(_number("normal_pressure_angle", "deg", angle))
+            # the sign of the shift of a ring differs between programs
+            if shift is not None and not (shift and wheel.internal):
+                data.append(_number("addendum_modification_coefficient", "", shift))
+        flanks = {side: self.add(_FLANKS.get(kind, "cylindrical_gear_flank"), "", data) for side in ("left", "right")}
+        self.relate("flank", gear=number, **flanks)
+
+    def kind(self, name: str) -> str:
+        """Return the type of a gear; a wheel in mesh with a worm is a worm wheel."""
+        wheel, place = self.declared.wheels[name][1], self.work.layout.wheels[name]
+        if wheel.kind == "worm":
+            return "worm_gear"
+        if wheel.kind in ("bevel", "contrate") or place.cone:
+            return "bevel_gear"
+        mates = (
+            self.declared.wheels[mate][1] for gear in self.declared.gears if name in gear.pair for mate in gear.pair
+        )
+        worm = any(mate.kind == "worm" for mate in mates)
+        return "ring_gear" if wheel.internal else "worm_wheel" if worm else "cylindrical_gear"
+
+    def teeth(self, name: str) -> tuple[float | None, float | None]:
+        """Return pressure angle [deg] and profile shift of a wheel from its first pair with involute teeth.
+
+        Without a declared form, the angle is 20 deg and the shift None; both are None if all forms are of other kinds.
+        """
+        pairs = [gear for gear in self.declared.gears if name in gear.pair]
+        forms = [(gear.pair.index(name), self.declared.form_of(gear)) for gear in pairs]
+        for side, form in forms:
+            if isinstance(form, Involute):
+                return degrees(form.rack_angle), float(form.shift[side].value)
+        return (_ANGLE if any(form is None for _, form in forms) or not forms else None), None
+
+    # ------------------------------------------------------------------------------------------------ stages, carriers
+
+    def stage_of(self, gear: GearPair) -> tuple[str, str, str] | None:
+        """Return the type of the stage of a pair with its first and second gear; None if REXS has no such stage."""
+        first, second = gear.pair
+        for pair in ((first, second), (second, first)):
+            kind = _STAGES.get((self.kind(pair[0]), self.kind(pair[1])))
+            if kind == "cylindrical_stage" and self.work.layout.axis_distance(first, second) is None:
+                return None
+            if kind is not None:
+                return kind, *pair
+        return None
+
+    def stage(self, gear: GearPair) -> None:
+        """Add a gear pair as a stage; an internal wheel is its second gear."""
+        found = self.stage_of(gear)
+        if found is None:
+            return
+        kind, first, second = found
+        distance = self.work.layout.axis_distance(first, second)
+        sizes = [] if distance is None else [_number("center_distance", "mm", distance)]
+        number = self.add(kind, gear.name, sizes)
+        carrier = self.numbers.get(("stage", self.circuits[gear.name].carrier))
+        own = carrier is not None and kind == "cylindrical_stage"
+        self.relate("assembly", assembly=carrier if own and carrier else self.unit, part=number)
+        gears = [self.numbers["wheel", wheel] for wheel in (first, second)]
+        self.relate("stage", stage=number, gear_1=gears[0], gear_2=gears[1])
+        driver = self.work.train.mechanics.drivers(self.cases[self.first].state)[gear.name]
+        for wheel, each in zip((first, second), gears, strict=True):
+            known = [{"id": "is_driving_gear", "boolean": driver.wheel == wheel}] if driver.known else []
+            data = self.add(f"{kind}_gear_data", "", known)
+            self.relate("stage_gear_data", stage=number, gear=each, stage_gear_data=data)
+
+    def carrier(self, carrier: str) -> None:
+        """Add the planetary stage of a carrier with its planets, pins, side plate and central shafts."""
+        planets = [link for link, top in self.tree.top.items() if top == carrier]
+        if carrier == self.declared.frame:
+            return
+        meshes = [gear for gear in self.declared.gears if self.circuits[gear.name].carrier == carrier]
+        shaft = self.numbers["link", carrier]
+        if not any((self.stage_of(gear) or [""])[0] == "cylindrical_stage" for gear in meshes):
+            for link in planets:
+                self.join("concept_bearing", f"bearing of {link}", self.numbers["link", link], shaft)
+            return
+        stage = self.numbers["stage", carrier] = self.add("planetary_stage", f"planetary stage of {carrier}")
+        body = self.add("planet_carrier", carrier)
+        self.relate("assembly", assembly=self.unit, part=stage)
+        self.relate("assembly", assembly=stage, part=body)
+        plate = self.add("side_plate", f"side plate of {carrier}")
+        self.relate("assembly", assembly=body, part=plate)
+        self.relate("assembly", assembly=body, part=shaft)
+        self.relate("planet_carrier_shaft", planetary_stage=stage, shaft=shaft)
+        self.join("coupling", f"{carrier} in side plate", shaft, plate)
+        wheels = self.declared.wheels
+        for link in dict.fromkeys(wheels[wheel][0] for gear in meshes for wheel in gear.pair):
+            if link not in planets:
+                self.relate("central_shaft", planetary_stage=stage, shaft=self.numbers["link", link])
+        for label in dict.fromkeys(self.tree.axis(link) for link in planets):
+            self.pin(label or "", stage, body, plate, [link for link in planets if self.tree.axis(link) == label])
+
+    def pin(self, label: str, stage: int, body: int, plate: int, planets: Sequence[str]) -> None:
+        """Add the pin of one axis on a carrier, with the planets that turn on it."""
+        axis = self.work.layout.axes[label]
+        pin = self.add("shaft", f"pin {label}", [*_pose(axis.point, axis.direction)])
+        self.relate("assembly", assembly=self.unit, part=pin)
+        self.relate("assembly", assembly=body, part=pin)
+        self.relate("planet_pin", planetary_stage=stage, shaft=pin)
+        self.join("coupling", f"pin {label} in side plate", pin, plate)
+        for link in planets:
+            self.relate("planet_shaft", planetary_stage=stage, shaft=self.numbers["link", link])
+            self.join("concept_bearing", f"bearing of {link}", pin, self.numbers["link", link])
+
+    # ----------------------------------------------------------------------------------------------- clutches, running
+
+    @cached_property
+    def first(self) -> int:
+        """Index of the state in which the unit is written."""
+        return [case.state for case in self.cases].index(self.work.scene.state) if self.work.train.states else 0
+
+    @cached_property
+    def engagement(self) -> Mapping[tuple[str, ...], list[bool]]:
+        """Whether each brake (one link) and lock (two links) is engaged, in each state."""
+        found: dict[tuple[str, ...], list[bool]] = {}
+        for at, case in enumerate(self.cases):
+            for links in (*((link,) for link in case.fixed), *case.locks):
+                if case.causes.get(links, links) == links:
+                    found.setdefault(links, [False] * len(self.cases))[at] = True
+        return found
+
+    @cached_property
+    def clutches(self) -> Mapping[tuple[str, ...], str]:
+        """Names of the declared brakes and clutches by their links."""
+        return {links: name for case in self.cases for links, name in case.clutches.items()}
+
+    def clutch_name(self, links: tuple[str, ...]) -> str:
+        """Return the declared name of a brake or clutch, or a name made of the links that it holds."""
+        return self.clutches.get(links, f"{' - '.join(links)} held")
+
+    def clutch(self, links: tuple[str, ...], engaged: list[bool]) -> None:
+        """Add a brake on one link or a lock of two links; it is switchable unless it is always engaged."""
+        ends = [self.numbers["link", link] for link in links if ("link", link) in self.numbers]
+        name = self.clutch_name(links)
+        fixed = all(engaged) and links not in self.clutches
+        states = [] if fixed else [{"id": "is_engaged", "boolean_array": engaged}]
+        kind = "coupling" if fixed else "switchable_coupling"
+        if ends:
+            self.numbers["clutch", name] = self.join(kind, name, ends[0], ends[1] if ends[1:] else self.casing, states)
+
+    @cached_property
+    def torques(self) -> list[Torques | None]:
+        """Torques in each state; None without loads in N m, or if the torques are not determined."""
+        return [self._torques(case) for case in self.cases]
+
+    def _torques(self, case: StateCase) -> Torques | None:
+        if not case.loads or any(load.unit is None and load.value for load in case.loads.values()):
+            return None
+        try:
+            found = self.work.train.torques(case.state)
+        except GearTrainError:
+            return None
+        return found if found.verdict else None
+
+    def loads(self, at: int) -> Mapping[str, float]:
+        """Return the external torques of a state [N m] by link, without the torques of brakes."""
+        found = self.torques[at]
+        held = {link for links in self.engagement for link in links}
+        computed = {} if found is None else found.external
+        declared = {link: load.si for link, load in self.cases[at].loads.items() if load.unit or not load.value}
+        return {link: float(torque) for link, torque in computed.items() if link not in held} | declared
+
+    def running(self, at: int) -> list[Model]:
+        """Return the data of one load case: the gear in force, speeds [1/min], and torques [N m]."""
+        case, found = self.cases[at], []
+        answer = self.work.train.solve(case.state, method="exact")
+        changing = {
+            link for each in self.cases for link in each.inputs if any(link not in one.inputs for one in self.cases)
+        }
+        for link, speed in self.per_minute(case, answer).items():
+            if ("link", link) in self.numbers and (rpm := as_float(speed)) is not None:
+                drives = [{"id": "defines_speed", "boolean": link in case.inputs}] if link in changing else []
+                found.append(self.data("link", link, [_number("rotational_speed", "1 / min", rpm), *drives]))
+        for link, torque in self.loads(at).items():
+            found.append(self.data("load", link, [_number("torque_around_u_axis", "N m", torque)]))
+        for held in () if (torques := self.torques[at]) is None else torques.held:
+            if ("clutch", name := self.clutch_name(held.links)) in self.numbers and held.torques is not None:
+                values = dict(zip(("inner", "outer"), map(float, held.torques), strict=False))
+                sides = [
+                    _number(f"torque_acting_on_{side}_component_u", "N m", value) for side, value in values.items()
+                ]
+                found.append(self.data("clutch", name, sides))
+        gear = [self.data("unit", "", [_integer("gear_shift_index", 1 + at)])] if len(self.cases) > 1 else []
+        return [*gear, *found] if found else []
+
+    def data(self, kind: str, name: str, attributes: Attributes) -> Model:
+        """Return the data of a component in a load case."""
+        part = self.components[self.numbers[kind, name] - 1]
+        return {"id": part["id"], "type": part["type"], "name": part["name"], "attributes": attributes}
+
+    def per_minute(self, case: StateCase, answer: Answer) -> Mapping[str, Fraction]:
+        """Return the speeds of links in turns per minute; those of the inputs if the train is not solved.
+
+        Speeds that are not per time are taken as turns per minute.
+        """
+        factor = Fraction(1) if self.declared.unit_speed is None else 60 * self.declared.unit_speed
+        speeds = answer.speeds if answer.verdict else case.inputs
+        return {link: Fraction(speed) * factor for link, speed in speeds.items()}
+
+
+def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Iterator[dict[str, Any]]:
+    if kind == "bevel_gear":
+        yield _number("face_width", "mm", place.thickness)
+        yield _number("pitch_angle", "deg", degrees(place.cone))
+    elif kind == "worm_gear" or kind == "worm_wheel":
+        yield _number("axial_module", "mm", place.module)
+    else:
+        yield _number("normal_module", "mm", place.module / wheel.slant)
+        yield _number("helix_angle_reference_diameter", "deg", degrees(wheel.helix))
+        yield _number("face_width", "mm", place.thickness)
+
+
+def _number(name: str, unit: str, value: float) -> dict[str, Any]:
+    return {"id": name, **({"unit": unit} if unit else {}), "floating_point": value}
+
+
+def _integer(name: str, value: int) -> dict[str, Any]:
+    return {"id": name, "integer": value}
+
+
+def _pose(point: tuple[float, float, float], along: tuple[float, float, float]) -> Iterator[dict[str, Any]]:
+    """Yield the attributes of the position of a component in the gear unit: u along its axis, w perpendicular to it."""
+    right, _ = basis(along)
+    for name, vector in (("u_axis_vector", along), ("support_vector", point), ("w_axis_vector", right)):
+        yield {"id": name, "unit": "mm", "floating_point_array": [float(each) for each in vector]}
+    yield {"id": "reference_component_for_position", "reference_component": 1}

@@ -309,7 +309,8 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
     for pair in found.pairs.values():
         yield (
             PowerNode("pair", pair.id),
-            [(link, -torque * speed[link]) for link, torque in zip(pair.links, pair.torques, strict=True)],
+            # a link of undetermined speed has no torque
+            [(link, -torque * speed[link]) for link, torque in zip(pair.links, pair.torques, strict=True) if torque],
         )
     for bearing in found.bearings:
         ends = ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction))

@@ -207,11 +207,11 @@ def test_an_exact_hand_is_never_a_day_off(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("hand", "target", "heads"),
     [
-        ("needle", "29.530588853 d", {"a day off in"}),
+        ("needle", "29.530588853 d", {"days to a day off"}),
         ("needle", "29.5 h", set()),
         ("hour", "29.5 h", {"s a day", "s a year"}),
         ("needle", "24.84 h", {"s a day", "s a year"}),
-        ("seconds", "29.530588853 d", {"s a day", "s a year", "a day off in"}),
+        ("seconds", "29.530588853 d", {"s a day", "s a year", "days to a day off"}),
     ],
 )
 def test_rates_are_printed_for_hands_of_clocks_and_days(
@@ -221,7 +221,7 @@ def test_rates_are_printed_for_hands_of_clocks_and_days(
     path.write_text(pair("1 d", 2, 59, f"{{hand: {hand}, targets: [{{period: {target}}}]}}"))
     call("report", path, "--section", "Against the targets", "-o", tmp_path / "rates.md")
     lines = (tmp_path / "rates.md").read_text()
-    assert {head for head in ("s a day", "s a year", "a day off in") if f"| {head} " in lines} == heads
+    assert {head for head in ("s a day", "s a year", "days to a day off") if f"| {head} " in lines} == heads
 
 
 @pytest.mark.parametrize(

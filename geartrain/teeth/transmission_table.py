@@ -158,8 +158,8 @@ class TabulatedTransmission(DerivedTransmission):
     """Transmission function evaluated from tables, each made on first use.
 
     Results over a whole period, such as the mean efficiency, are those of the underlying function. `tolerance` is the
-    maximum error of the transmission error in driven pitches (or periods), of the speed ratio relative to its mean, and
-    of the efficiency; `degree` is the degree of the polynomials.
+    maximum error of the transmission error in driven pitches (or periods of a coupling), of the speed ratio relative to
+    its mean, and of the efficiency; `degree` is the degree of the polynomials.
     """
 
     def __init__(self, transmission: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
@@ -173,7 +173,7 @@ class TabulatedTransmission(DerivedTransmission):
     @cached_property
     def error_table(self) -> CellTable:
         """Table of the transmission error [rad of the driven side]."""
-        return self._fit(self.transmission.error, (float(self.ratio) or 1.0) * self.period)
+        return self._fit(self.transmission.error, (float(self.ratio) or 1.0) * self.pitch)
 
     @cached_property
     def speed_table(self) -> CellTable:

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 from geartrain.train.declaration import Epoch, FrictionInForce, Train
 from geartrain.train.manufacturing import ArborSizes, Material, PairMounting, WheelManufacture, material_table
-from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Source, Teeth, Wheel
+from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Slide, Source, Teeth, Wheel
 from geartrain.train.outputs import (
     Dial,
     DialName,
@@ -67,6 +67,7 @@ __all__ = [
     "Period",
     "Published",
     "Revolute",
+    "Slide",
     "Source",
     "SpeedUnit",
     "SpringDrive",

@@ -230,7 +230,7 @@ class _Decision:
             others = [each for each in self._moving if self._fits(each, load, -1)]
             taking = [name for each in others[:1] for name in each.holding if name not in pattern.holding]
             then = f"{_joined(taking)} holds" if taking else "no engine braking"
-            yield f"driven from {load} {_joined(released)} lets go: {then}"
+            yield f"driven from {load}, {_joined(released)} lets go: {then}"
 
     # ---------------------------------------------------------------------------------------------------------- answer
 

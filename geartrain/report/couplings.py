@@ -50,8 +50,9 @@ class VaryingCoupling(Result):
     kind: str
     """Kind of the coupling."""
     driver: str
-    """Driving link; `driven` is the driven link."""
+    """Driving link."""
     driven: str
+    """Driven link."""
     ratio: Fraction
     """Exact mean speed of the driven link divided by the speed of the driver, relative to the carrier."""
     swing: float

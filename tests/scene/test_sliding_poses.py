@@ -30,7 +30,7 @@ def test_a_carriage_takes_its_pinion_along_which_turns_by_the_rack() -> None:
     assert pose.moved[carriage] == pytest.approx([0, 0, -60])
     assert pose.turned[carriage] == pytest.approx(np.eye(3))
     axis = np.array(scene.bodies[pinion].point)
-    assert pose.point(pinion, axis) == pytest.approx(axis + [0, 0, -60])
+    assert pose.point(pinion, axis) == pytest.approx(axis - np.array([0.0, 0.0, 60.0]))
     turn = 2 * pi * 60 / (24 * pi)
     assert pose.way(pinion, [1, 0, 0]) == pytest.approx([cos(turn), sin(turn), 0], abs=1e-9)
     assert scene.bodies[carriage].shown == "-5/4 mm"

@@ -124,7 +124,7 @@ class _Toothing:
         except GearTrainError as error:
             # other wheels are still cut; these problems are reported for the wheels concerned
             meshes, self.unbuilt = (), error.problems
-        self.meshes = {mesh.name: mesh for mesh in meshes}
+        self.meshes = {mesh.name: mesh for mesh in meshes if mesh.has_shape}
         self.sizes = find_sizes(meshes)
         self.pairs: dict[str, list[GearPair]] = {name: [] for name in self.declared.wheels}
         for gear in self.declared.gears:

@@ -19,7 +19,16 @@ from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
 from geartrain.errors import DeclarationError, Loc, Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
-from geartrain.kinematics.circuits import Axes, Circuit, Tree, check_pallets, close_joints, find_circuits, find_tree
+from geartrain.kinematics.circuits import (
+    Axes,
+    Circuit,
+    Tree,
+    check_pallets,
+    close_joints,
+    couplings_on_axes,
+    find_circuits,
+    find_tree,
+)
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import (
     OutputResult,
@@ -56,7 +65,7 @@ if TYPE_CHECKING:
 _CONTINUOUS = 20  # teeth of a mate with which a wheel of two teeth may still drive continuously
 
 
-def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
+def lint_train(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[Problem]:
     """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
     and for each coupling that does not move uniformly.
     """
@@ -72,7 +81,7 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
                 teeth = "one tooth" if train.wheels[name][1].count == 1 else "two teeth"
                 what = f"wheel '{name}' has {teeth}, which cannot drive continuously"
                 yield Problem(what, why, "", train.place("gears", position))
-    for position, coupling in enumerate(train.couplings):
+    for position, coupling in enumerate(couplings_on_axes(train, tree)):
         if coupling.remark:
             yield Problem(f"'{coupling.name}' {coupling.remark}", "", "", train.place("couplings", position))
 
@@ -239,7 +248,7 @@ class TrainKinematics(Shown):
     def remarks(self) -> tuple[Problem, ...]:
         """Notes on conventions and mean values used in the results of a valid declaration; they are not errors."""
 
-        return tuple(lint_train(self.declaration, self.circuits))
+        return tuple(lint_train(self.declaration, self.tree, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
         """Return exact speeds and the verdict of one state, without a limit on the computing time.

@@ -253,6 +253,7 @@ def ripples(train: GearTrain) -> bool:
 
 
 _ABREAST = 8  # outputs in one table
+_ROUNDING = 1e-13  # rad: smaller deviations are rounding errors
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
@@ -492,6 +493,8 @@ def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
 
 def _amount(slides: bool, value: float, digits: int = 6) -> str:
     """Return an angle in degrees as a string, or the travel of a link that slides with its unit."""
+    # joints that cancel leave rounding errors
+    value = value if abs(value) > _ROUNDING else 0.0
     return f"{value / tau:.{digits}g} mm" if slides else f"{degrees(value):.{digits}g}"
 
 

@@ -28,7 +28,7 @@ from geartrain.errors import (
     suggest,
 )
 from geartrain.numerics.containers import collector_paused
-from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_forms
+from geartrain.teeth.any_tooth_form import form_names, tooth_forms
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.teeth.coupling import COUPLINGS, coupling_model
 from geartrain.train.declaration import Train
@@ -220,7 +220,7 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """Return `loc` without the tags that pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", *COUPLINGS, *TOOTH_FORMS, *_laws()}
+    tags = {"count", "doubt", *COUPLINGS, *form_names(), *_laws()}
     return tuple(
         step
         for at, step in enumerate(loc)

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import pi
+from math import isfinite, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 _FASTEST = 2**90  # periods per turn: the product of a position and the ratio has a precision of 106 bits
-_HALVINGS = 54  # bisections of four pitches, to rounding
+_HALVINGS = 54  # bisections of four periods, to rounding
 
 
 @dataclass(frozen=True)
@@ -145,15 +145,15 @@ class PairErrors:
         if not circuit.b:
             sense = forward
         # a wheel's coefficient in the Willis equation is its tooth count
-        teeth = Fraction(abs((circuit.b, circuit.a)[driven]))
+        periods = Fraction(abs((circuit.b, circuit.a)[driven]), transmission.pitch_count)
         if circuit.kind != "gear":
-            teeth = self.train.periods[circuit.id]
+            periods = self.train.periods[circuit.id]
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
         # phases count in the forward sense, angles about declared axes
         turned = self.train.way * forward * (senses[0] * angles[0] - senses[1] * angles[1])
         phase = self._phase(circuit, ahead, driven) + turned
-        cycles = abs(driver) * teeth
+        cycles = abs(driver) * periods
         if cycles > _FASTEST:
             raise GearTrainError(
                 Problem(
@@ -179,21 +179,25 @@ class PairErrors:
             if (mesh := self.train.meshes.get(before)) is not None:
                 first = self._circuits[before]
                 start = self._phase(first, mesh.transmission, self.driven_side(first))
-                teeth = round(2 * pi / transmission.period)
+                teeth = round(2 * pi / transmission.pitch)
                 pitches = (
-                    float(mesh.transmission.angle(start)) / transmission.period
+                    float(mesh.transmission.angle(start)) / transmission.pitch
                     + mesh.tooth_phase
                     - (teeth / 2 if opposite else 0)
                 )
-                return (pitches % 1) * transmission.period
+                return (pitches % transmission.pitch_count) * transmission.pitch
         phase = self.train.phases.get(circuit.id, 0.0)
         if circuit.kind != "gear":
             return 0.0
         if driven == 1:
-            return phase * transmission.period
+            return phase * transmission.pitch
         phase -= self.train.meshes[circuit.id].tooth_phase
-        wanted = phase * float(transmission.ratio) * transmission.period
-        low, high = (phase - 2) * transmission.period, (phase + 2) * transmission.period
+        ratio, near = float(transmission.ratio), phase * transmission.pitch
+        wanted = phase * ratio * transmission.pitch
+        # the error changes by less than a driven period, because the driven side never turns back
+        error = float(transmission.error(near))
+        near -= error / ratio if isfinite(error) else 0.0
+        low, high = near - 2 * transmission.period, near + 2 * transmission.period
         # bisection: the driven angle increases with the driver's, and kinks would disturb faster methods
         for _ in range(_HALVINGS):
             middle = (low + high) / 2

@@ -209,7 +209,12 @@ class LoadCase:
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
     def has_friction(self, part: GearPair | Coupling) -> bool:
-        """Return True if the declared friction of a pair or coupling is above 0 or depends on speed."""
+        """Return True if the declared friction of a pair or coupling is above 0 or depends on speed, or if its tooth
+        form declares the losses.
+        """
+        mesh = self.meshes.get(part.name)
+        if mesh is not None and not mesh.has_shape:
+            return mesh.computes_losses
         friction = self.train.friction_of(part)
         return friction is not None and friction.has_friction
 

@@ -32,6 +32,7 @@ _SLACK = 1e-12  # of a speed: smaller reversals are rounding
 _NO_FORM = (
     "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
 )
+_NO_SLIDING = "a given transmission error has no sliding speed: give the `efficiency` of the tooth form or of the pair"
 _NO_HELIX = (
     "these teeth slide along their length, and their helix angles or their friction are not known: declare the "
     "`helix_angle` of the worm, or of both wheels on crossed axes, and a constant `friction`; or an `efficiency`"
@@ -242,9 +243,13 @@ def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
     """Yield the friction declared for teeth without a tooth form, and for worms with unknown helix angle."""
-    bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: []}
+    bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: [], _NO_SLIDING: []}
     for circuit in busy:
-        gear = setting.gears.get(circuit.id)
+        gear, mesh = setting.gears.get(circuit.id), setting.meshes.get(circuit.id)
+        if gear is not None and gear.efficiency is None and mesh is not None and not mesh.has_shape:
+            friction = setting.train.friction_of(gear)
+            if friction is not None and friction.has_friction and not mesh.computes_losses:
+                bare[_NO_SLIDING].append(circuit.id)
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
         has_friction = setting.has_friction(gear) and means[circuit.id] == MeanEfficiencies()

@@ -344,7 +344,7 @@ def _constant_efficiency(setting: LoadCase, circuit: Circuit, first: bool) -> Co
 
 def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:
     transmission, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
-    declared = setting.train.friction_of(setting.gears[circuit.id])
+    declared = setting.train.friction_of(setting.gears[circuit.id]) if mesh.has_shape else None
     static = coefficient if declared is None else declared.static
     if transmission is None:
         return ToothFriction(coefficient, static)

@@ -315,8 +315,9 @@ def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | 
 
 def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
     """Return the couplings of a train, with the angle between their axes filled in where it follows from `axes`."""
-    axes = Axes(train, tree)
-    found = []
+    if not any(coupling.OBLIQUE for coupling in train.couplings):
+        return tuple(train.couplings)
+    axes, found = Axes(train, tree), []
     for coupling in train.couplings:
         if coupling.OBLIQUE:
             driver, driven = coupling.links(train.wheels)

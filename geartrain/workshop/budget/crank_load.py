@@ -57,7 +57,7 @@ def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: st
     if period is None:
         return float(once)
     used = train.motion(state, tuple(train.declaration.links))._forward.used
-    passages = len(used) * float(sum(each.cycles for each in used))
+    passages = len(used) * sum(each.pace for each in used)
     whole = min(period, once if unit is None else once * YEAR / unit)
     return float(whole) if passages * whole <= MOST_PASSAGES else MOST_PASSAGES / passages
 

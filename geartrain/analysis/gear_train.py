@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.train_kinematics import Method
     from geartrain.kinematics.willis_system import WillisSystem
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.given_transmission import TransmissionProtocol
 
 
 @final
@@ -699,14 +700,18 @@ class GearTrain:
 
         return GearTrain(change_declaration(self.declaration, {**(changes or {}), **more}))
 
-    def with_tooth_form(self, form: str, pairs: Sequence[str] = (), **parameters: Any) -> GearTrain:
-        """Return a copy of the train with teeth of another form.
+    def with_tooth_form(
+        self, form: str | TransmissionProtocol, pairs: Sequence[str] = (), **parameters: Any
+    ) -> GearTrain:
+        """Return a copy of the train with teeth of another form, or with a given transmission function.
 
         Parameters
         ----------
-        form : str
+        form : str or TransmissionProtocol
             Name of the form: "involute", "cycloidal", "triangular" or another one listed by `geartrain mesh -h`;
-            "ideal" for teeth without errors and losses.
+            "ideal" for teeth without errors and losses. Or an object with `ratio`, `period`, `error` and `speed`, a
+            transmission function that replaces the teeth (docs/library.md); the parameters are then those of the form
+            "table".
         pairs : sequence of str
             Names of gear pairs; by default all pairs of the train, including those that declare a form.
         **parameters : object
@@ -739,6 +744,8 @@ class GearTrain:
         """
         from geartrain.teeth.any_tooth_form import tooth_forms
 
+        if not isinstance(form, str):
+            return self.with_tooth_form("table", pairs, function=form, **parameters)
         known = tooth_forms()
         check_choice("tooth form", form, known)
         declared = {gear.name: gear for gear in self.declaration.gears}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property, partial
+from math import pi
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import networkx as nx
@@ -22,8 +23,9 @@ if TYPE_CHECKING:
     from geartrain.kinematics.graph import Graph
     from geartrain.kinematics.judged_outputs import SpeedValue
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.transmission import TransmissionFunction
 
-_OF_PAIRS = ("circuit", "carrier", "ratio", "form", "mesh", "efficiency")
+_OF_PAIRS = ("circuit", "carrier", "ratio", "form", "transmission", "mesh", "efficiency")
 _GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind", "label", "axis", *_OF_PAIRS))
 
 
@@ -69,8 +71,8 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
     Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that
     carries its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`,
-    `carrier`, `ratio`, `form`, `mesh` and `efficiency` (docs/library.md, 2). Attributes that are not declared are
-    computed when they are read, so that a train without a solution also has a graph.
+    `carrier`, `ratio`, `form`, `transmission`, `mesh` and `efficiency` (docs/library.md, 2). Attributes that are not
+    declared are computed when they are read, so that a train without a solution also has a graph.
 
     Parameters
     ----------
@@ -99,13 +101,13 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
         data["reference"] = Lazy(partial(found.reference, link))
         data["speed"] = Lazy(partial(found.speed, link))
     for _, _, data in graph.edges(data=True):
-        if data["kind"] == "revolute":
+        if data["kind"] in ("revolute", "prismatic"):
             # edges have the same keys, None for turning pairs
             data.update(dict.fromkeys(_OF_PAIRS), axis=data["label"])
             continue
         name = data["label"]
         data["form"] = train.declaration.form_of(data["declared"]) if data["kind"] == "gear" else None
-        for key in ("axis", "circuit", "carrier", "ratio", "mesh", "efficiency"):
+        for key in ("axis", "circuit", "carrier", "ratio", "transmission", "mesh", "efficiency"):
             data[key] = Lazy(partial(getattr(found, key), name))
     return _frozen(graph)
 
@@ -156,6 +158,19 @@ class _GraphFacts:
         None for a pair or coupling without teeth or dimensions.
         """
         return self._meshes.get(name)
+
+    def transmission(self, name: str) -> TransmissionFunction:
+        """Return the transmission function in this state: that of the mesh with its driving wheel, or of a coupling
+        with its first link driving; otherwise the exact ratio, with the first wheel or link driving.
+        """
+        from geartrain.teeth.transmission import ExactRatio
+
+        if (mesh := self.mesh(name)) is not None:
+            return mesh.transmission
+        circuit = self._circuits[name]
+        # a coupling lists its driven link first
+        driver, driven = (circuit.a, circuit.b) if circuit.kind == "gear" else (circuit.b, circuit.a)
+        return ExactRatio(abs(Fraction(driver, driven)), 2 * pi / (abs(driver) if circuit.kind == "gear" else 1))
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
         """Return the basic efficiencies of a pair: with the first link of its circuit driving, and with the second."""

@@ -45,7 +45,7 @@ from geartrain.cli.pair_options import (
 from geartrain.cli.triangular_pair import read_operation, sweep
 from geartrain.errors import GearTrainError, check_choice
 from geartrain.report.pair_page import collect_pair, describe_pair
-from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS, form_names, tooth_form
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 from geartrain.wings import wing
 
@@ -212,7 +212,7 @@ def run(
         _refuse(context, {*_COMPARED}, "a comparison")
         _compare(_counts(z1, z2), form, parameter or (), (internal, shaft_angle), (to, plot, theme, force), json)
     name, *others = form or [DEFAULT]
-    check_choice("tooth form", name, FORMS)
+    check_choice("tooth form", name, FORMS if name in FORMS else [each for each in form_names() if each != "ideal"])
     model = tooth_form(name)
     if keys:
         show([describe_parameters(name, model)], to)

@@ -43,10 +43,10 @@ def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
     """Return the parameters of a form that describe one pair, by name.
 
     Forms whose teeth run only at the design centre distance have no parameter `centre_distance`. Parameters for the
-    time domain are omitted.
+    time domain, and values that only Python can give (fields without `repr`), are omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
-    return {name: field for name, field in model.model_fields.items() if name not in hidden}
+    return {name: field for name, field in model.model_fields.items() if name not in hidden and field.repr}
 
 
 def describe_parameters(form: str, model: type[ToothForm]) -> Document:
@@ -118,9 +118,13 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert a value as in a declaration: to a list if it contains a comma, to an integer if the field allows this
-    integer.
+    """Convert a value as in a declaration: in brackets or braces as YAML, to a list if it contains a comma, to an
+    integer if the field allows this integer.
     """
+    if given[:1] in ("[", "{"):
+        from geartrain.train.yaml_nodes import parse_yaml
+
+        return parse_yaml(f"value: {given}", "-p").plain()["value"]
     if given.isdigit() and int(given) in get_args(field.annotation):
         return int(given)
     return [part.strip() for part in given.split(",")] if "," in given else given

@@ -83,8 +83,9 @@ class Verbs(Mapping[str, Command]):
             return {}
         from importlib.metadata import entry_points
 
-        # other distributions can add commands, but not replace those of this group
-        return {each.name: each for each in entry_points(group=self._group) if each.name not in self._modules}
+        # other distributions can add commands, but not replace those of this group; other kinds have a prefix
+        found = (each for each in entry_points(group=self._group) if "." not in each.name)
+        return {each.name: each for each in found if each.name not in self._modules}
 
     def _command(self, name: str) -> Command:
         found = self._load(name)

@@ -124,7 +124,7 @@ class _Toothing:
         except GearTrainError as error:
             # other wheels are still cut; these problems are reported for the wheels concerned
             meshes, self.unbuilt = (), error.problems
-        self.meshes = {mesh.name: mesh for mesh in meshes}
+        self.meshes = {mesh.name: mesh for mesh in meshes if mesh.has_shape}
         self.sizes = find_sizes(meshes)
         self.pairs: dict[str, list[GearPair]] = {name: [] for name in self.declared.wheels}
         for gear in self.declared.gears:
@@ -255,7 +255,9 @@ class _Toothing:
             return 0
         try:
             speeds = self.train.kinematics.solve(self.declared.state_or_first(None)).speeds
-            speed = relative_speed(link, self.train.tree.top[link], speeds.get, self.train.signs)
+            speed = relative_speed(
+                link, self.train.tree.reference(link, self.train.tree.top[link]), speeds.get, self.train.signs
+            )
         except GearTrainError:
             speed = None
         return -1 if speed is not None and speed < 0 else 1

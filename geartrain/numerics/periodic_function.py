@@ -1,4 +1,4 @@
-"""Periodic functions of one variable, given by points or by harmonics: values, derivatives, extremes and moments.
+"""Periodic functions of one variable, given by points, harmonics or functions: values, derivatives, extremes, moments.
 
 Points are interpolated by a periodic cubic spline, by the monotone cubics of Fritsch and Carlson (PCHIP), by straight
 lines, or by steps. Extremes are found between the points too: every smooth interval is sampled more finely than the
@@ -8,7 +8,7 @@ function varies, and each stationary point between two samples is a bracketed ro
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING, Literal, get_args
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.polynomial_pieces import fitted
 from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
@@ -97,6 +98,10 @@ class PeriodicFunction(ABC):
         values = self.derivative(np.append(x, at), order)
         return float(values.min()), float(values.max())
 
+    def minimum_at(self, order: int = 0) -> float:
+        """Return the approximate position in [0, period) of the minimum of the derivative of an order from 0 to 2."""
+        return float(self._samples[np.argmin(self.derivative(self._samples, order))] % self.period)
+
     def moments(self) -> tuple[float, float]:
         """Return the mean and the rms deviation from the mean over a period, by Gauss-Legendre quadrature."""
         x, (nodes, weights) = self._samples, _GAUSS
@@ -171,7 +176,7 @@ class PeriodicTable(PeriodicPieces):
         period: float,
         interpolation: Interpolation = "pchip",
     ) -> None:
-        _check_points(positions, values, period, interpolation)
+        check_points(positions, values, period, interpolation)
         starts, closed = np.array(positions, dtype=float), np.append(np.array(values, dtype=float), values[0])
         super().__init__(starts, _cubics(np.append(starts, positions[0] + period), closed, interpolation), period)
 
@@ -194,7 +199,7 @@ def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
     return np.asarray(PchipInterpolator(around, np.concatenate(([y[-2]], y, [y[1]]))).c[:, 1:-1])
 
 
-def _check_points(
+def check_points(
     positions: Sequence[float], values: Sequence[float], period: float, interpolation: Interpolation
 ) -> None:
     """Raise `RangeError` unless the points define a periodic function."""
@@ -219,13 +224,76 @@ def _check_points(
             raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
 
 
+class FittedFunction(PeriodicFunction):
+    """Periodic function given by its value and its slope; the higher derivatives are those of polynomials fitted to
+    the slope.
+
+    Parameters
+    ----------
+    value, slope : callable
+        Functions of positions of shape (n,), which return arrays of that shape.
+    period : float
+        Period.
+    breakpoints : sequence of float
+        Positions at which the slope or one of its derivatives is discontinuous.
+
+    Raises
+    ------
+    RangeError
+        If the slope is not smooth between the breakpoints.
+    """
+
+    def __init__(
+        self,
+        value: Callable[[Floats], Floats],
+        slope: Callable[[Floats], Floats],
+        period: float,
+        breakpoints: Sequence[float] = (),
+    ) -> None:
+        self._functions, self.period = (value, slope), period
+        self.breakpoints = np.unique(np.mod(np.array(breakpoints, dtype=float), period))
+        starts, inset = self.breakpoints if len(self.breakpoints) else np.zeros(1), _INSET * period
+        ends = np.append(starts[1:], starts[0] + period)
+        pieces = [
+            piece
+            for start, end in zip(starts, ends, strict=True)
+            for piece in fitted(lambda x: slope(x)[None], start + inset, end - inset)
+        ]
+        self._starts = np.array([piece.start for piece in pieces])
+        self._halves = np.array([(piece.end - piece.start) / 2 for piece in pieces])
+        self._coefficients = np.hstack([piece.coefficients for piece in pieces])
+        self.resolution = float(self._halves.min()) / _PER_INTERVAL
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        at = np.asarray(x, dtype=float)
+        if order < 2:
+            return np.asarray(self._functions[order](at.ravel()), dtype=float).reshape(at.shape)
+        at = np.mod(at - self._starts[0], self.period) + self._starts[0]
+        piece = np.clip(np.searchsorted(self._starts, at, side="right") - 1, 0, None)
+        half = self._halves[piece]
+        u, found = (at - self._starts[piece]) / half - 1, np.zeros(at.shape)
+        for row in np.polynomial.polynomial.polyder(self._coefficients, order - 1)[::-1]:
+            found = found * u + row[piece]
+        return np.asarray(found / half ** (order - 1))
+
+    def mismatch(self) -> float:
+        """Return the maximum difference between a change of the value and the integral of the slope, which is 0 up to
+        rounding if the functions agree.
+        """
+        x, (nodes, weights) = self._samples, _GAUSS
+        half = np.diff(x) / 2
+        rises = half * (self.derivative(x[:-1, None] + half[:, None] * (1 + nodes)) @ weights)
+        return float(np.abs(np.diff(self(x)) - rises).max())
+
+
 class HarmonicSeries(PeriodicFunction):
     """Sum of a constant and of the harmonics amplitude sin(2 pi n x / period + phase).
 
     Parameters
     ----------
-    terms : sequence of (int, float, float)
-        Order n, 1 or more, amplitude, and phase [rad] of each harmonic.
+    terms : sequence of (float, float, float)
+        Order n, a whole number of 1 or more, amplitude, and phase [rad] of each harmonic.
     period : float
         Period of the first harmonic.
     constant : float
@@ -237,7 +305,7 @@ class HarmonicSeries(PeriodicFunction):
         If an order is not a whole number above 0, or if a number is not finite.
     """
 
-    def __init__(self, terms: Sequence[tuple[int, float, float]], period: float, constant: float = 0.0) -> None:
+    def __init__(self, terms: Sequence[tuple[float, float, float]], period: float, constant: float = 0.0) -> None:
         for n, amplitude, phase in terms:
             if n < 1 or n != int(n) or not (isfinite(amplitude) and isfinite(phase)):
                 what = f"the harmonic of order {n:g}, amplitude {amplitude:g} and phase {phase:g} is out of range"

@@ -25,6 +25,11 @@ _MERGED = (
     "Wheel",
     "GearPair",
     "Revolute",
+    "Slide",
+    "Rack",
+    "Screw",
+    "Drum",
+    "CrankSlider",
     "PinAndSlot",
     "PinFollower",
     "PinsInHoles",
@@ -207,7 +212,9 @@ def _references(shape: Any) -> Iterator[str]:
 
 def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator[_Chapter]:
     """Yield the sections of all parts below a part; parts that a top-level key also has are listed under that key."""
-    found = {key: tuple(_references(shape)) for key, shape in _body(_part(models, name))["properties"].items()}
+    found = {
+        key: tuple(dict.fromkeys(_references(shape))) for key, shape in _body(_part(models, name))["properties"].items()
+    }
     if name == "Train":
         seen |= {part for parts in found.values() for part in parts}
     for key, parts in found.items():

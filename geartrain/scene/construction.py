@@ -168,8 +168,10 @@ class _Mounting:
         if mesh is None:
             return 0.5
         setting = self.moved.driving.get(circuit.id)
+        # standard teeth face spaces
+        phase = mesh.tooth_phase if mesh.has_shape else 0.5
         if setting is None:
-            return mesh.tooth_phase or 0.5
+            return phase or 0.5
         driver = self._driver(circuit)
         if any(self.stage.layout.wheels[wheel].cone for wheel in circuit.wheels):
             # approximate teeth of a crown have no transmission function: they are centred in spaces, on average
@@ -177,7 +179,7 @@ class _Mounting:
             return 0.5 + (setting.error - middle) / self._pitch(circuit.wheels[1 - driver])
         shift = 0.0 if position is None else self._shift(circuit, position)
         error = setting.error_past(shift * self._pitch(circuit.wheels[driver])) if shift else setting.error
-        return mesh.tooth_phase + error / self._pitch(circuit.wheels[1 - driver])
+        return phase + error / self._pitch(circuit.wheels[1 - driver])
 
     def _driver(self, circuit: Circuit) -> int:
         """Return the index of the driving wheel, 0 or 1."""

@@ -12,6 +12,8 @@ uniform_stress, uniform_temperature, least_friction
                               conjugate forms that are optimal (calculus of variations)
 circular_arc, pin_ring        clock teeth of BS 978; cycloidal reducers
 triangular                    triangular teeth of antiquity
+table, given_transmission     transmission errors given by a table, by runout, or by an object of Python
+eccentric_wheels              runout of involute wheels
 standard_teeth                involutes for pairs that declare no form
 
 meshing_wheels, gear_mesh     two wheels as declared; a pair of a train with its tooth geometry
@@ -56,6 +58,7 @@ if TYPE_CHECKING:
         TabulatedFriction,
     )
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.given_transmission import TransmissionProtocol
     from geartrain.teeth.ideal import Ideal
     from geartrain.teeth.involute import Involute
     from geartrain.teeth.lantern import Lantern
@@ -64,6 +67,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict, SlidingEfficiency, SpeedRatio, TransmissionError
     from geartrain.teeth.pin_ring import PinRing
     from geartrain.teeth.rubbed_transmission import RubbedTransmission
+    from geartrain.teeth.table import ErrorTable
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.teeth.triangular import Triangular
     from geartrain.teeth.uniform_stress import UniformStress
@@ -75,6 +79,7 @@ __all__ = [
     "CircularArc",
     "Cycloidal",
     "DokosFriction",
+    "ErrorTable",
     "FrictionLaw",
     "GearMesh",
     "Ideal",
@@ -93,6 +98,7 @@ __all__ = [
     "TabulatedFriction",
     "TransmissionError",
     "TransmissionFunction",
+    "TransmissionProtocol",
     "Triangular",
     "UniformStress",
     "UniformTemperature",
@@ -111,6 +117,7 @@ _PLACES = {
     **dict.fromkeys(("PinToSlotTransmission", "SlotToPinTransmission"), "couplings.pin_transmission"),
     "RubbedTransmission": "rubbed_transmission",
     "TransmissionFunction": "transmission",
+    "TransmissionProtocol": "given_transmission",
     "compare_forms": "form_comparison",
     **{kind: name for name, kind in TOOTH_FORMS.items()},
 }

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
     from geartrain.teeth.tooth_form import ToothForm
 
 TOOTH_FORMS = {
@@ -19,16 +23,42 @@ TOOTH_FORMS = {
     "triangular": "Triangular",
     "circular_arc": "CircularArc",
     "pin_ring": "PinRing",
+    "table": "ErrorTable",
 }
 """Class name of each tooth form by its name in declarations, which is also the name of its module."""
 
 
+_GROUP, _PREFIX = "geartrain.wings", "tooth_form."
+
+
+@cache
+def added_forms() -> Mapping[str, EntryPoint]:
+    """Return the tooth forms of other distributions by name: entry points `tooth_form.NAME` in `geartrain.wings`.
+
+    They are read only for names that are not in `TOOTH_FORMS`, and where all names are listed, because a scan of the
+    installed distributions takes longer than most commands.
+    """
+    from importlib.metadata import entry_points
+
+    found = (each for each in entry_points(group=_GROUP) if each.name.startswith(_PREFIX))
+    names = {each.name.removeprefix(_PREFIX): each for each in found}
+    return {name: each for name, each in names.items() if name not in TOOTH_FORMS}
+
+
+def form_names(name: object = None) -> tuple[str, ...]:
+    """Return the names of all tooth forms; without those of other distributions if `name` is in `TOOTH_FORMS`."""
+    return tuple(TOOTH_FORMS) if name in TOOTH_FORMS else (*TOOTH_FORMS, *added_forms())
+
+
 def tooth_form(name: str) -> type[ToothForm]:
-    """Import a tooth form by its name, a key of `TOOTH_FORMS`, and return its class."""
+    """Import a tooth form by its name, one of `form_names`, and return its class."""
+    if name not in TOOTH_FORMS:
+        found: type[ToothForm] = added_forms()[name].load()
+        return found
     form: type[ToothForm] = getattr(import_module(f"geartrain.teeth.{name}"), TOOTH_FORMS[name])
     return form
 
 
 def tooth_forms() -> dict[str, type[ToothForm]]:
     """Import all tooth forms and return their classes by name."""
-    return {name: tooth_form(name) for name in TOOTH_FORMS}
+    return {name: tooth_form(name) for name in form_names()}

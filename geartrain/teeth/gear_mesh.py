@@ -339,8 +339,13 @@ class GearMesh(Shown, ABC):
     @property
     def backlash(self) -> float:
         """Backlash of the teeth [pitch]."""
-        # the period times the ratio is the angular pitch of the driven wheel
-        return self.verdict.backlash / (self.transmission.period * float(self.transmission.ratio))
+        # the driver's pitch times the ratio is the angular pitch of the driven wheel
+        return self.verdict.backlash / (self.transmission.pitch * float(self.transmission.ratio))
+
+    @property
+    def has_shape(self) -> bool:
+        """True if the tooth form defines the shape of the teeth; otherwise standard teeth are cut and drawn."""
+        return self.tooth_form.has_shape
 
     @property
     def tooth_phase(self) -> float:

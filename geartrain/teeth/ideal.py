@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import pi
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field
 
@@ -30,6 +30,8 @@ class Ideal(ToothForm):
     >>> transmission.ratio, transmission.error_range(), transmission.efficiency_mean()
     (Fraction(1, 2), (0.0, 0.0), 1.0)
     """
+
+    has_shape: ClassVar[bool] = False
 
     form: Literal["ideal"] = Field(description="Name of the tooth form")
 

@@ -39,6 +39,10 @@ class NamedForm(Protocol):
         """Name of the form as it appears in sentences."""
 
     @property
+    def has_shape(self) -> bool:
+        """True if the form defines the shape of the teeth."""
+
+    @property
     def has_lengths(self) -> bool:
         """True if the form declares a length with a unit."""
 

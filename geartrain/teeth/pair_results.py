@@ -146,8 +146,10 @@ class SlidingEfficiency(Result):
     """Transmission function of the pair."""
 
     @property
-    def friction(self) -> float:
-        """Coefficient of friction. If the coefficient depends on speed, the value is its mean over the driver angle."""
+    def friction(self) -> float | None:
+        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, the value is
+        its mean over the driver angle.
+        """
         return self.transmission.friction
 
     @property

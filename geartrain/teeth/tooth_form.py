@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity, bad
+from geartrain.numerics.quantity import Angle, Figure, Length, PairDamping, PairStiffness, Quantity, bad
 from geartrain.numerics.results import summary_line, values_summary
 
 if TYPE_CHECKING:
@@ -44,6 +44,9 @@ TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(twice), _schema("n
 TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("length")]
 """Field type: one length for both wheels, or a list of two; numbers without a unit are modules."""
 
+TwoAngles = Annotated[tuple[Angle, Angle], BeforeValidator(twice), _schema("angle")]
+"""Field type: one angle for both wheels, or a list of two."""
+
 
 class ToothForm(BaseModel, ABC):
     """Tooth form of a gear pair as declared. Its method `mesh` returns the mesh of two wheels.
@@ -54,6 +57,9 @@ class ToothForm(BaseModel, ABC):
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    has_shape: ClassVar[bool] = True
+    """True if the form defines the shape of the teeth; otherwise standard teeth are cut and drawn."""
 
     any_distance: ClassVar[bool] = False
     """True for teeth that run at any centre distance, not only at the design distance."""

@@ -140,6 +140,8 @@ class TransmissionFunction(Shown, ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
+    pitch_count: int = 1
+    """Number of pitches of the driver in one period of the transmission function of a gear pair."""
     waves: int = 1
     """Number of periods of the fastest component of the transmission error between kinks, in one period."""
     slow: bool = False
@@ -148,6 +150,11 @@ class TransmissionFunction(Shown, ABC):
     """Fraction of the period during which the driven side is at rest; 1 for steps at once."""
     at_once: bool = False
     """True if the driven side moves at once, so that the transmission error is discontinuous."""
+
+    @property
+    def pitch(self) -> float:
+        """Angular pitch of the driver of a gear pair [rad]."""
+        return self.period / self.pitch_count
 
     def _summary(self) -> str:
         return f"ratio {self.ratio}, period {degrees(self.period):.6g} deg, friction {self.friction:g}"
@@ -508,7 +515,8 @@ class DerivedTransmission(TransmissionFunction):
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
-        self.waves, self.dwell, self.at_once = transmission.waves, transmission.dwell, transmission.at_once
+        self.pitch_count, self.waves = transmission.pitch_count, transmission.waves
+        self.dwell, self.at_once = transmission.dwell, transmission.at_once
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio of the underlying function."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeVar
@@ -24,7 +24,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.results import summary_line, values_summary
-from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
+from geartrain.teeth.any_tooth_form import form_names, tooth_form
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
 from geartrain.teeth.coupling import COUPLINGS, coupling_model
 
@@ -237,7 +237,8 @@ def _read_tooth_form(raw: Any) -> Any:
 
     An unknown name is validated against all forms, so that the error lists their names.
     """
-    return _read_model({"form": raw} if isinstance(raw, str) else raw, "form", TOOTH_FORMS)
+    keys = {"form": raw} if isinstance(raw, str) else raw
+    return _read_model(keys, "form", form_names(_tag(keys, "form")))
 
 
 def _read_coupling(raw: Any) -> Any:
@@ -249,8 +250,12 @@ def _read_coupling(raw: Any) -> Any:
     return _read_model(raw, "kind", COUPLINGS)
 
 
-def _read_model(keys: Any, key: str, known: Mapping[str, object]) -> Any:
-    name = keys.get(key) if isinstance(keys, dict) else getattr(keys, key, None)
+def _tag(keys: Any, key: str) -> Any:
+    return keys.get(key) if isinstance(keys, dict) else getattr(keys, key, None)
+
+
+def _read_model(keys: Any, key: str, known: Iterable[str]) -> Any:
+    name, known = _tag(keys, key), tuple(known)
     read = _union_reader(key, *([name] if isinstance(name, str) and name in known else known)).validate_python(keys)
     # pydantic builds only the validators of a union's members; writing a model needs its serializer
     type(read).model_rebuild()
@@ -293,7 +298,8 @@ else:
 
         @classmethod
         def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-            return {"anyOf": [{"enum": [*TOOTH_FORMS]}, handler(_union_reader("form", *TOOTH_FORMS).core_schema)]}
+            names = form_names()
+            return {"anyOf": [{"enum": [*names]}, handler(_union_reader("form", *names).core_schema)]}
 
     class DeclaredCoupling:
         """A coupling as an entry of a model. Its kind is imported when a declaration names it."""

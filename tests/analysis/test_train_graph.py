@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import pickle
 from fractions import Fraction
-from math import cos, radians
+from math import cos, pi, radians
 from typing import Any
 
 import networkx as nx
@@ -24,7 +24,7 @@ from geartrain.numerics.lazy_graph import Lazy, LazyDict
 OF_LINKS = {"declared", "frame", "wheels", "reference", "speed"}
 OF_EDGES = {
     *("kind", "label", "declared", "axis"),
-    *("circuit", "carrier", "ratio", "form", "mesh", "efficiency"),
+    *("circuit", "carrier", "ratio", "form", "transmission", "mesh", "efficiency"),
 }
 SLOW_LOSSES = {"longcase-clock-bs978"}  # whose efficiencies come from the contact of outlines: seconds
 
@@ -307,3 +307,25 @@ def test_a_lazy_dictionary_makes_each_value_once_however_it_is_read() -> None:
         assert requested == [1], way
     found, requested = data()
     assert (found["b"], found["b"], requested) == (7, 7, [1])
+
+
+def test_edges_have_the_transmission_function_in_force() -> None:
+    error = {"over": "driver_turn", "harmonics": [[1, "1 deg"]]}
+    train = GearTrain.declare(
+        {
+            "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"q": 30, "r": 12}}, "c": {}, "d": {}},
+            "revolutes": {axis: ["frame", axis] for axis in "abcd"},
+            "gears": [{"pair": ["p", "q"], "tooth_form": {"form": "table", "error": error}}],
+            "couplings": [
+                {"kind": "pin_and_slot", "pin": "b", "slot": "c", "pin_radius": "9 mm", "offset": "1 mm"},
+                {"kind": "parallel", "pin": "c", "slot": "d"},
+            ],
+            "inputs": {"b": 1},
+        }
+    )
+    law = train.graph.edges["a", "b", "p~q"]["transmission"]
+    assert (law.ratio, law.period) == (Fraction(3, 2), pytest.approx(2 * pi * 2 / 3))  # the second wheel drives
+    assert train.graph.edges["b", "c", "b~c"]["transmission"].ratio == 1
+    assert train.graph.edges["c", "d", "c~d"]["transmission"].error_range() == (0, 0)
+    ideal = train.with_tooth_form("ideal").graph.edges["a", "b", "p~q"]["transmission"]
+    assert (ideal.ratio, ideal.period) == (Fraction(2, 3), 2 * pi / 20)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -132,3 +133,75 @@ def test_another_distribution_adds_a_command(monkeypatch: pytest.MonkeyPatch) ->
     assert list(verbs) == ["report", "levels"]
     assert verbs["levels"].name == "levels"
     assert verbs.get("absent") is None
+
+
+FORM = '''
+from typing import Literal
+
+from pydantic import Field
+
+from geartrain.numerics.periodic_function import HarmonicSeries
+from geartrain.teeth.given_transmission import GivenTransmission, given_mesh
+from geartrain.teeth.tooth_form import ToothForm
+
+
+class Wavy(ToothForm):
+    """Teeth with a sinusoidal transmission error."""
+
+    has_shape = False
+
+    form: Literal["wavy"] = Field(description="Name of the tooth form")
+    size: float = Field(0.001, description="Amplitude of the error in rad")
+
+    def mesh(self, wheels, shaft_angle):
+        pitch = 6.283185307179586 / wheels.counts[0]
+        return given_mesh(wheels, self, GivenTransmission(HarmonicSeries([(1, self.size, 0)], pitch), wheels.counts))
+'''
+
+TRAIN = """
+name: wavy-pair
+links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: 60}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [{pair: [p, w], tooth_form: {form: FORM, size: 0.002}}]
+inputs: {a: 1}
+outputs: {b: {}}
+"""
+
+
+@pytest.fixture
+def with_form(tmp_path: Path) -> dict[str, str]:
+    """Environment in which another distribution with a tooth form is installed."""
+    (tmp_path / "wavy_teeth.py").write_text(FORM)
+    info = tmp_path / "wavy_teeth-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: wavy-teeth\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[geartrain.wings]\ntooth_form.wavy = wavy_teeth:Wavy\n")
+    (tmp_path / "wavy.yaml").write_text(TRAIN.replace("FORM", "wavy"))
+    (tmp_path / "typo.yaml").write_text(TRAIN.replace("FORM", "wavi"))
+    return {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+
+
+def test_another_distribution_adds_a_tooth_form(tmp_path: Path, with_form: dict[str, str]) -> None:
+    def call(*words: str) -> subprocess.CompletedProcess[str]:
+        return run_in(tmp_path, with_form, "-m", "geartrain", *words)
+
+    motion = call("motion", "wavy.yaml", "--json")
+    found = json.loads(motion.stdout)["outputs"]["b"]["transmission_error"]["peak_to_peak"]
+    assert found == pytest.approx(0.004, rel=1e-6)
+    pair = call("mesh", "20", "60", "--form", "wavy", "-p", "size=0.002", "--json", "-o", "-")
+    assert json.loads(pair.stdout)["transmission_error"]["peak_to_peak"] == pytest.approx(0.004, rel=1e-6)
+    schema = json.loads(call("inspect", "schema").stdout)
+    assert "Wavy" in schema["$defs"]
+    unknown = call("check", "typo.yaml")
+    assert unknown.returncode == 2
+    assert "did you mean 'wavy'?" in unknown.stderr
+    assert "wavy" not in call("--help").stdout
+
+
+def test_known_tooth_forms_are_read_without_a_scan_of_other_distributions() -> None:
+    code = (
+        "from geartrain import load; from geartrain.teeth.any_tooth_form import added_forms;"
+        "load('planetary-24-18-60-involute').meshes; print(added_forms.cache_info().currsize)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "0"

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import pi
+from math import isfinite, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 _FASTEST = 2**90  # periods per turn: the product of a position and the ratio has a precision of 106 bits
-_HALVINGS = 54  # bisections of four pitches, to rounding
+_HALVINGS = 54  # bisections of four periods, to rounding
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,9 @@ class PairErrors:
         """Propagation of the errors of pairs to the requested links."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
-        ends = {name: [self.index[link] for link in (each.i, each.j, each.carrier)] for name, each in circuits.items()}
+        ends = {
+            name: [self.index[link] for link in (each.i, each.j, *each.subtracted)] for name, each in circuits.items()
+        }
         wanted = [self.index[link] for link in self.links]
         found = find_error_propagation(self.train.system, ends, lambda name: self._joint(circuits[name]), wanted)
         if found is None:
@@ -72,9 +74,10 @@ class PairErrors:
 
     def _joint(self, circuit: Circuit) -> ErrorPath:
         driven = self.driven_side(circuit)
-        ends = (circuit.i, circuit.j)
-        driver, follower, carrier = (self.index[link] for link in (ends[1 - driven], ends[driven], circuit.carrier))
-        return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
+        ends = [self.index[link] for link in (circuit.i, circuit.j)]
+        bases = [self.index[link] for link in circuit.subtracted]
+        coefficient = (circuit.a, circuit.b)[driven]
+        return ErrorPath(ends[1 - driven], ends[driven], bases[1 - driven], coefficient, bases[driven])
 
     def driven_side(self, circuit: Circuit) -> int:
         """Return 0 if the circuit's first link is driven, 1 if its second link is driven.
@@ -132,7 +135,7 @@ class PairErrors:
         self, at: int, circuit: Circuit, ahead: TransmissionFunction, transmission: TransmissionFunction
     ) -> PairErrorSource:
         driven = self.driven_side(circuit)
-        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
+        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.subtracted[1 - driven]
         driver = self.train.relative(ends[1 - driven], carrier)
         forward = -1 if driver < 0 else 1
         sense = self.sense(circuit)
@@ -142,15 +145,15 @@ class PairErrors:
         if not circuit.b:
             sense = forward
         # a wheel's coefficient in the Willis equation is its tooth count
-        teeth = Fraction(abs((circuit.b, circuit.a)[driven]))
+        periods = Fraction(abs((circuit.b, circuit.a)[driven]), transmission.pitch_count)
         if circuit.kind != "gear":
-            teeth = self.train.periods[circuit.id]
+            periods = self.train.periods[circuit.id]
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
         # phases count in the forward sense, angles about declared axes
         turned = self.train.way * forward * (senses[0] * angles[0] - senses[1] * angles[1])
         phase = self._phase(circuit, ahead, driven) + turned
-        cycles = abs(driver) * teeth
+        cycles = abs(driver) * periods
         if cycles > _FASTEST:
             raise GearTrainError(
                 Problem(
@@ -176,21 +179,25 @@ class PairErrors:
             if (mesh := self.train.meshes.get(before)) is not None:
                 first = self._circuits[before]
                 start = self._phase(first, mesh.transmission, self.driven_side(first))
-                teeth = round(2 * pi / transmission.period)
+                teeth = round(2 * pi / transmission.pitch)
                 pitches = (
-                    float(mesh.transmission.angle(start)) / transmission.period
+                    float(mesh.transmission.angle(start)) / transmission.pitch
                     + mesh.tooth_phase
                     - (teeth / 2 if opposite else 0)
                 )
-                return (pitches % 1) * transmission.period
+                return (pitches % transmission.pitch_count) * transmission.pitch
         phase = self.train.phases.get(circuit.id, 0.0)
         if circuit.kind != "gear":
             return 0.0
         if driven == 1:
-            return phase * transmission.period
+            return phase * transmission.pitch
         phase -= self.train.meshes[circuit.id].tooth_phase
-        wanted = phase * float(transmission.ratio) * transmission.period
-        low, high = (phase - 2) * transmission.period, (phase + 2) * transmission.period
+        ratio, near = float(transmission.ratio), phase * transmission.pitch
+        wanted = phase * ratio * transmission.pitch
+        # the error changes by less than a driven period, because the driven side never turns back
+        error = float(transmission.error(near))
+        near -= error / ratio if isfinite(error) else 0.0
+        low, high = near - 2 * transmission.period, near + 2 * transmission.period
         # bisection: the driven angle increases with the driver's, and kinks would disturb faster methods
         for _ in range(_HALVINGS):
             middle = (low + high) / 2

@@ -106,7 +106,7 @@ class RunCells:
 def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunCells:
     """Return cells whose ends are equally spaced positions from 0 to `span` [revolutions] and the positions `breaks`.
 
-    narrowest   period of the fastest transmission function [revolutions of the input]
+    narrowest   shortest wave of all transmission functions [revolutions of the input]
     """
     aside = max(_ASIDE * narrowest, _LAST_PLACES * float(np.spacing(span)))
     inner = np.unique(breaks[(breaks > 2 * aside) & (breaks < span - 2 * aside)])

@@ -296,7 +296,7 @@ def pitch_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> tuple[
                 labels,
                 axes.are_parallel(labels),
                 0 if first.internal else 1 if second.internal else None,
-                None if form is None or form.form == "ideal" else form,
+                form if form is not None and form.has_shape else None,
             )
         )
     return tuple(found)

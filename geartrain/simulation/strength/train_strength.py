@@ -368,6 +368,8 @@ class StrengthQuestion:
         """Yield descriptions of the data that a pair lacks, and of features that are not supported."""
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
+        elif not mesh.has_shape:
+            yield "the shape of its teeth is not known: declare a tooth form with shapes"
         elif mesh.path is None and mesh.own_size is None:
             yield "its axes are not parallel, and it has no path of contact"
         elif any(wheel.is_helical for wheel in wheels.values()) and mesh.form != "involute":

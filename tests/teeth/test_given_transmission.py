@@ -16,14 +16,14 @@ from scipy.special import jv
 from geartrain import GearTrain, GearTrainError
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_run import find_spectrum
-from geartrain.teeth.table import ErrorTable
+from geartrain.teeth.table import GivenError
 from geartrain.teeth.transmission import TransmissionFunction
 
 EIGHT = [0, 0.03, 0.05, 0.04, 0.01, -0.03, -0.05, -0.04]
 
 
-def table(**keys: Any) -> ErrorTable:
-    return ErrorTable.declared(keys)
+def table(**keys: Any) -> GivenError:
+    return GivenError.declared(keys)
 
 
 def eight(interpolation: str) -> TransmissionFunction:

@@ -101,7 +101,7 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
         data["reference"] = Lazy(partial(found.reference, link))
         data["speed"] = Lazy(partial(found.speed, link))
     for _, _, data in graph.edges(data=True):
-        if data["kind"] == "revolute":
+        if data["kind"] in ("revolute", "prismatic"):
             # edges have the same keys, None for turning pairs
             data.update(dict.fromkeys(_OF_PAIRS), axis=data["label"])
             continue

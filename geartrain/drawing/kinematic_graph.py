@@ -54,10 +54,12 @@ _EDGE_MARGIN = 0.03  # inches between a label and other edges
 _SHARES = tuple(share / 100 for share in range(14, 87, 3))  # relative positions of a label along its edge
 _EDGE_STYLES: dict[str, tuple[float, Dash, str]] = {
     "revolute": (0.9, "-", GREY),
+    "prismatic": (0.9, (0, (1, 2)), GREY),
     "gear": (3.2, "-", BLUE),
     "coupling": (2.2, (0, (4, 2)), PURPLE),
 }
 """Width [pt], dashes and colour of an edge by its kind."""
+_JOINTS = ("revolute", "prismatic")
 _LABEL_OFFSETS = (
     (0.0, 0.12),
     (0.0, -0.12),
@@ -74,8 +76,8 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge between two links, of kind revolute, gear or coupling; `label` is the axis of a turning pair, or the pair's
-    name.
+    """Edge between two links, of kind revolute, prismatic, gear or coupling; `label` is the axis of a joint, or the
+    pair's name.
     """
 
     ends: tuple[str, str]
@@ -89,6 +91,7 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
+    found += [GraphEdge(slide.pair, "prismatic", slide.axis) for slide in declared.slides]
     for gear in declared.gears:
         ends = (wheels[gear.pair[0]][0], wheels[gear.pair[1]][0])
         found.append(GraphEdge(ends, "gear", gear.name, gear.name in broken))
@@ -223,7 +226,7 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
             linewidth=width,
             linestyle=style,
             capstyle="butt",
-            zorder=2 if edge.kind == "revolute" else 3,
+            zorder=2 if edge.kind in _JOINTS else 3,
             gid=f"{edge.kind} {edge.label}",
         )
     )
@@ -264,7 +267,7 @@ def _draw_labels(
         beside = [(x + dx, y + dy, wide, high) for dx, dy in _LABEL_OFFSETS for x, y, wide, high in boxes]
         x, y, _, _ = room.place([*boxes, *beside]) or boxes[0]
         color = RED if edge.broken else _EDGE_STYLES[edge.kind][2]
-        style = "italic" if edge.kind == "revolute" else "normal"
+        style = "italic" if edge.kind in _JOINTS else "normal"
         write(axes, x, y, edge.label, color, 6.0, fontsize=FINE, fontstyle=style, gid=f"label {edge.label}")
 
 
@@ -341,6 +344,7 @@ def _legend(edges: Sequence[GraphEdge]) -> Iterator[Line2D]:
     kinds = {edge.kind for edge in edges}
     for kind, words in (
         ("revolute", "turning pair, with its axis"),
+        ("prismatic", "sliding pair, with its axis"),
         ("gear", "gear pair"),
         ("coupling", "coupling"),
     ):

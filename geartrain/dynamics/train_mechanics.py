@@ -176,7 +176,7 @@ class TrainMechanics(Shown):
         if not self.declaration.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import find_couplings
-        from geartrain.kinematics.circuits.fundamental import couplings_on_axes
+        from geartrain.kinematics.circuits import couplings_on_axes
 
         return find_couplings(self.declaration, couplings_on_axes(self.declaration, self.tree))
 

@@ -255,7 +255,9 @@ class _Toothing:
             return 0
         try:
             speeds = self.train.kinematics.solve(self.declared.state_or_first(None)).speeds
-            speed = relative_speed(link, self.train.tree.top[link], speeds.get, self.train.signs)
+            speed = relative_speed(
+                link, self.train.tree.reference(link, self.train.tree.top[link]), speeds.get, self.train.signs
+            )
         except GearTrainError:
             speed = None
         return -1 if speed is not None and speed < 0 else 1

@@ -210,6 +210,12 @@ class Answer(FrozenFields, Tabular, TrainResult):
     """Relative residual |b - A w| / (|A| |w|) [1] of each row of `WillisSystem.matrix`, by row label. Computed at the
     first access; empty if the matrix was not used.
     """
+    sliding: frozenset[str] = frozenset()
+    """Links that slide; their speeds are travels [mm per unit of the train, or per turn]."""
+    contains_pi: Mapping[str, bool] = field(default_factory=dict)
+    """True for each link and output whose exact speed depends on pi; empty without racks, drums and the like. It is
+    found by a second solution with another rational number for pi, at the first access.
+    """
     tolerances: Mapping[str, Fraction] = field(default_factory=dict)
     """Tolerance [`unit`] of the speed of each link that depends on a coupling with an approximate `ratio`: the sum of
     the changes of its speed if one ratio after another changes by its tolerance. Computed at the first access.
@@ -295,7 +301,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     @property
     def speed_figures(self) -> Mapping[str, SpeedFigures]:
         """Speeds and their errors by link, in the form of the JSON output [`unit`]."""
-        found = {link: speed_figures(speed) for link, speed in self.speeds.items()}
+        found = {link: speed_figures(speed, link in self.sliding) for link, speed in self.speeds.items()}
         for link, accuracy in self.accuracy.items():
             found[link]["estimate"] = accuracy.estimate
             found[link]["true_error"] = accuracy.true_error

@@ -69,13 +69,18 @@ class Components:
 
     def group_of(self, circuit: Circuit) -> int:
         """Return the index of the component that contains a circuit."""
-        return self.node_group[self.node(self.index[circuit.i], self.index[circuit.carrier])]
+        return self.node_group[self.node(self.index[circuit.i], self.index[circuit.subtracted[0]])]
+
+    def ends(self, circuit: Circuit) -> tuple[int, int]:
+        """Return the nodes of links i and j of a circuit."""
+        pairs = zip((circuit.i, circuit.j), circuit.subtracted, strict=True)
+        first, second = (self.node(self.index[link], self.index[base]) for link, base in pairs)
+        return first, second
 
     def loop(self, circuit: int) -> Loop:
         """Return the loop that a `closing` or `breaking` circuit completes, in order, with its ratio product."""
         chord = self.circuits[circuit]
-        carrier = self.index[chord.carrier]
-        up, down = [self.node(self.index[link], carrier) for link in (chord.i, chord.j)]
+        up, down = self.ends(chord)
         left, right = ways_to_common_ancestor(up, down, self._predecessor)
         # closed walk: common ancestor -> ... -> i, over the chord to j, and back to the ancestor
         walk = left[::-1] + right[:-1]
@@ -95,8 +100,7 @@ class Components:
         It is the speed ratio of the circuit divided by the ratio along the search tree between the same two links.
         """
         chord = self.circuits[circuit]
-        carrier = self.index[chord.carrier]
-        first, second = (self.relative(self.node(self.index[link], carrier)) for link in (chord.i, chord.j))
+        first, second = map(self.relative, self.ends(chord))
         return chord.gain * first / second
 
     def _predecessor(self, node: int) -> int | None:
@@ -196,14 +200,14 @@ def _nodes(
             edges.append([])
         return found
 
-    for at, (_, _, i, j, k, a, b, *_) in enumerate(circuits):
-        carrier = index[k]
-        here = node(index[i], carrier)
+    for at, (_, _, i, j, k, a, b, _, _, _, bases) in enumerate(circuits):
+        first, second = bases or (k, k)
+        here = node(index[i], index[first])
         # a follower prescribes the slot's relative speed 0, and relates no two nodes
         if b == 0:
             holding.append(at)
             continue
-        there = node(index[j], carrier)
+        there = node(index[j], index[second])
         # a w_i + b w_j = 0 gives each relative speed from the other
         edges[here].append((at, there, -a, b))
         edges[there].append((at, here, -b, a))
@@ -264,7 +268,8 @@ class ReducedSystem:
 def reduce_components(parts: Components) -> ReducedSystem:
     """Reduce every component to one unknown speed, and return the system that couples them: docs/theory.md, 8."""
     groups = len(parts.group_carrier)
-    carriers = dict.fromkeys(carrier for carrier in parts.group_carrier if carrier != parts.frame)
+    # a component that contains a travel has several carriers
+    carriers = dict.fromkeys(each for each in (*parts.group_carrier, *parts.node_carrier) if each != parts.frame)
     idle = (link for link in range(len(parts.links)) if link not in parts.nodes_of and link != parts.frame)
     own = {link: groups + at for at, link in enumerate(dict.fromkeys([*carriers, *idle]))}
     shell = ReducedSystem(parts, groups + len(own), own, (), ())

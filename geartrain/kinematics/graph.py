@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 
 def build_graph(train: Train) -> Graph:
-    """Return a graph with links as vertices, and turning pairs, gear pairs and couplings as edges.
+    """Return a graph with links as vertices, and turning pairs, sliding pairs, gear pairs and couplings as edges.
 
-    Edges have the data `kind` (revolute, gear, or the kind of a coupling), `label` (axis, or
+    Edges have the data `kind` (revolute, prismatic, gear, or the kind of a coupling), `label` (axis, or
     name of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or
-    coupling; turning pairs have the keys `revolute 0`, `revolute 1` etc. in the order of the declaration.
+    coupling; joints have the keys `revolute 0`, `revolute 1`, `prismatic 0` etc. in the order of the declaration.
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
@@ -44,6 +44,9 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
         first, second = joint.pair
         yield (first, second), f"revolute {at}", "revolute", joint.axis, joint
     wheels = train.wheels
+    for at, slide in enumerate(train.slides):
+        first, second = slide.pair
+        yield (first, second), f"prismatic {at}", "prismatic", slide.axis, slide
     for gear in train.gears:
         first, second = (wheels[wheel][0] for wheel in gear.pair)
         yield (first, second), gear.name, "gear", gear.name, gear
@@ -52,6 +55,8 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
             yield (row.driver, row.driven), row.id, coupling.kind, row.id, coupling
 
 
+_JOINTS = {"revolute": "R", "prismatic": "P"}
+_DOT_STYLES = {"revolute": "penwidth=1", "prismatic": "style=dotted, penwidth=1", "gear": "penwidth=3"}
 MOST_SQUARE = 48
 """Maximum number of links for which the adjacency matrix is shown by default; its size grows with their square."""
 
@@ -62,7 +67,8 @@ def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
 
 
 def adjacency_labels(train: Train) -> list[list[str]]:
-    """Return the adjacency matrix as text: `R(axis)` for a turning pair, the name of a gear pair or coupling, or "".
+    """Return the adjacency matrix as text: `R(axis)` for a turning pair, `P(axis)` for a sliding pair, the name of a
+    gear pair or coupling, or "".
 
     Parameters
     ----------
@@ -83,15 +89,15 @@ def adjacency_labels(train: Train) -> list[list[str]]:
     at = {link: position for position, link in enumerate(train.links)}
     cells: list[list[list[str]]] = [[[] for _ in at] for _ in at]
     for (first, second), _, kind, label, _ in _edges(train):
-        text = f"R({label})" if kind == "revolute" else label
+        text = f"{_JOINTS[kind]}({label})" if kind in _JOINTS else label
         cells[at[first]][at[second]].append(text)
         cells[at[second]][at[first]].append(text)
     return [[" ".join(cell) for cell in row] for row in cells]
 
 
 def adjacency_kinds(train: Train) -> list[list[str]]:
-    """Return the kind of the edge between any two links: revolute, gear or the kind of the coupling, "several", or
-    "".
+    """Return the kind of the edge between any two links: revolute, prismatic, gear or the kind of the coupling,
+    "several", or "".
     """
     at = {link: position for position, link in enumerate(train.links)}
     cells = [["" for _ in at] for _ in at]
@@ -109,7 +115,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
     graph : networkx.MultiGraph
         `GearTrain.graph`.
     kinds : iterable of str
-        Kinds of edges to count: revolute, gear, or kinds of couplings; by default all.
+        Kinds of edges to count: revolute, prismatic, gear, or kinds of couplings; by default all.
 
     Returns
     -------
@@ -160,7 +166,9 @@ def to_dot(graph: Graph) -> str:
     for link, data in graph.nodes(data=True):
         lines.append(f"  {_quoted(link)}{' [shape=box]' if data['frame'] else ''};")
     for first, second, data in graph.edges(data=True):
-        style = {"revolute": "penwidth=1", "gear": "penwidth=3"}.get(data["kind"], "style=dashed, penwidth=2")
+        style = {"revolute": "penwidth=1", "prismatic": "penwidth=1, style=dotted", "gear": "penwidth=3"}.get(
+            data["kind"], "style=dashed, penwidth=2"
+        )
         lines.append(f"  {_quoted(first)} -- {_quoted(second)} [label={_quoted(data['label'])}, {style}];")
     return printable("\n".join([*lines, "}"]))
 
@@ -237,7 +245,7 @@ def _edge_text(data: dict[str, Any]) -> dict[str, str]:
     declared = data["declared"]
     if data["kind"] == "gear":
         text |= {"first_wheel": declared.pair[0], "second_wheel": declared.pair[1]}
-    elif data["kind"] != "revolute":
+    elif data["kind"] not in _JOINTS:
         text |= dict(zip(declared.ENDS, declared.ends, strict=True)) if len(declared.ENDS) == 2 else {}
     return text
 

@@ -9,6 +9,7 @@ from typing import Literal, NamedTuple, Required, TypedDict
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
@@ -140,9 +141,13 @@ class SpeedFigures(TypedDict, total=False):
     """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
 
     exact: Required[str | None]
-    """Exact speed as a string such as "2/7"; None if it was solved in floats, or is not determined."""
+    """Exact speed as a string such as "2/7" or "36 π"; None if it was solved in floats, contains π in another way, or
+    is not determined.
+    """
     value: Required[float | None]
     """Nearest float64; None beyond its range, or if the speed is not determined."""
+    unit: str
+    """Unit `mm` of the travel of a link that slides, per unit of the train or per turn; omitted for links that turn."""
     decimal: str
     """Decimal number with twelve digits, only for a speed beyond the range of float64."""
     estimate: float | None
@@ -236,10 +241,15 @@ class OutputResult(Result):
     tolerance: Fraction = Fraction(0)
     """Tolerance of the speed due to couplings with an approximate `ratio` [unit of the train]; 0 if it is exact."""
 
+    slides: bool = False
+    """True if the link slides and `speed` is its travel [mm per unit of the train, or per turn]."""
+
     @property
     def period(self) -> SpeedValue | None:
-        """Time of one turn [s]; None for a link at rest, an undetermined speed or a train without a unit of time."""
-        return self.unit_seconds / magnitude(self.speed) if self.unit_seconds and self.speed else None
+        """Time of one turn [s]; None for a link that rests or slides, an undetermined speed or no unit of time."""
+        if self.slides or not self.unit_seconds or not self.speed:
+            return None
+        return self.unit_seconds / magnitude(self.speed)
 
     @property
     def found(self) -> SpeedValue | None:
@@ -269,7 +279,7 @@ class OutputResult(Result):
     @property
     def figures(self) -> SpeedFigures:
         """Speed of the output in the form of the JSON output."""
-        plain = speed_figures(self.speed)
+        plain = speed_figures(self.speed, self.slides)
         return plain | {"tolerance": float(self.tolerance)} if self.tolerance else plain
 
     @property
@@ -328,14 +338,20 @@ def magnitude(value: SpeedValue) -> SpeedValue:
     return value if value >= 0 else -value
 
 
-def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
+def speed_figures(speed: SpeedValue | None, slides: bool = False) -> SpeedFigures:
     """Return a speed in the form of the JSON output; beyond the range of float64, `value` is None and `decimal` is
-    given.
+    given. `slides` is True for a travel in mm.
     """
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
     value = as_float(speed)
-    plain: SpeedFigures = {"exact": fraction_text(speed), "value": value}
+    text: str | None = fraction_text(speed)
+    if touches_pi(speed):
+        text = pi_text(speed)
+        text = None if text.startswith("≈") else text
+    plain: SpeedFigures = {"exact": text, "value": value}
+    if slides:
+        plain["unit"] = "mm"
     if value is None:
         plain["decimal"] = decimal(speed)
     return plain
@@ -367,6 +383,7 @@ def judge_outputs(
             tuple(_compare_with_target(train, target, speed) for target in output.targets if speed is not None),
             not is_rotation(of, base),
             unit_seconds(train),
+            slides=of in train.sliding,
         )
 
 

@@ -78,6 +78,8 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
         nodes = [node for node, own in enumerate(parts.node_group) if own == group]
         if len(nodes) < 2:  # slot of a follower
             continue
+        if any(parts.node_carrier[node] != carrier for node in nodes):  # a travel is not a speed about the axis
+            continue
         relative = {parts.links[parts.node_link[node]]: parts.relative(node) for node in nodes}
         name = parts.links[carrier]
         axis = tree.axis(name)

@@ -362,5 +362,6 @@ def _with_divided_share(gear: GearPair, number: int) -> GearPair:
 
 
 def _decimal(part: float) -> str:
-    """Return a number as text with at most 15 digits; rounding errors of right angles become 0."""
-    return f"{round(part, 13):.15g}"
+    """Return a number as text with at most 15 digits; rounding errors of angles and declared numbers become 0."""
+    # lengths below 1e-9 mm are out of range
+    return f"{round(part, 13):.15g}" if abs(part) >= 1e-9 else "0"

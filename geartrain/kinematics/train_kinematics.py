@@ -19,7 +19,16 @@ from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
 from geartrain.errors import DeclarationError, Loc, Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
-from geartrain.kinematics.circuits import Axes, Circuit, Tree, check_pallets, close_joints, find_circuits, find_tree
+from geartrain.kinematics.circuits import (
+    Axes,
+    Circuit,
+    Tree,
+    check_pallets,
+    close_joints,
+    couplings_on_axes,
+    find_circuits,
+    find_tree,
+)
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import (
     OutputResult,
@@ -40,6 +49,7 @@ from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_sys
 from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.multiples_of_pi import touches_pi, with_other_pi
 from geartrain.numerics.results import Shown
 from geartrain.train import GearPair, StateCase, Train
 
@@ -55,7 +65,7 @@ if TYPE_CHECKING:
 _CONTINUOUS = 20  # teeth of a mate with which a wheel of two teeth may still drive continuously
 
 
-def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
+def lint_train(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[Problem]:
     """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
     and for each coupling that does not move uniformly.
     """
@@ -71,7 +81,7 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
                 teeth = "one tooth" if train.wheels[name][1].count == 1 else "two teeth"
                 what = f"wheel '{name}' has {teeth}, which cannot drive continuously"
                 yield Problem(what, why, "", train.place("gears", position))
-    for position, coupling in enumerate(train.couplings):
+    for position, coupling in enumerate(couplings_on_axes(train, tree)):
         if coupling.remark:
             yield Problem(f"'{coupling.name}' {coupling.remark}", "", "", train.place("couplings", position))
 
@@ -217,7 +227,8 @@ class TrainKinematics(Shown):
         """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         from geartrain.kinematics.speeds import find_mobility
 
-        return find_mobility(self.whole.reduced, len(self.declaration.revolutes))
+        declared = self.declaration
+        return find_mobility(self.whole.reduced, len(declared.revolutes), sliding_pairs=len(declared.slides))
 
     @cached_property
     def is_placed(self) -> bool:
@@ -237,7 +248,7 @@ class TrainKinematics(Shown):
     def remarks(self) -> tuple[Problem, ...]:
         """Notes on conventions and mean values used in the results of a valid declaration; they are not errors."""
 
-        return tuple(lint_train(self.declaration, self.circuits))
+        return tuple(lint_train(self.declaration, self.tree, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
         """Return exact speeds and the verdict of one state, without a limit on the computing time.
@@ -316,7 +327,7 @@ class TrainKinematics(Shown):
         case = self.case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+            return self._solved_with(circuits, case)
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
@@ -374,8 +385,8 @@ class TrainKinematics(Shown):
                 )
             )
         outputs = {output: declared} if declared else {}
-        links = declared.links(output, train.frame) if declared else (output, train.frame)
-        return replace(case, outputs=outputs), links
+        of, base = declared.links(output, train.frame) if declared else (output, train.frame)
+        return replace(case, outputs=outputs), (of, self.tree.reference(of, base))
 
     def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
         """Return for each output the link whose speed the output reports, and the link relative to which this speed is
@@ -404,7 +415,7 @@ class TrainKinematics(Shown):
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = relevant_circuits(self.circuits, kept)
-        kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
+        kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier, *circuit.bases))
         return self._solved_part(circuits, tuple(link for link in self.declaration.links if link in kept))
 
     def _system(self, part: SolvedPart, case: StateCase) -> WillisSystem:
@@ -495,10 +506,11 @@ class TrainKinematics(Shown):
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
 
-        deviation = self._ratio_tolerance(case, relative)
+        seen = self._seen(relative)
+        deviation = self._ratio_tolerance(case, seen)
 
         def outputs() -> dict[str, OutputResult]:
-            found = judge_outputs(declared, case, relative, self.is_rotation)
+            found = judge_outputs(declared, case, seen, self.is_rotation)
             if deviation is not None:
                 found = (replace(each, tolerance=deviation(each.of, each.relative_to)) for each in found)
             return {each.name: each for each in found}
@@ -508,6 +520,7 @@ class TrainKinematics(Shown):
             found = {link: deviation(link, declared.frame) for link in speeds}
             return {link: tolerance for link, tolerance in found.items() if tolerance}
 
+        circles = ratios is not None and any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits)
         return Answer(
             declared.name,
             case.state,
@@ -522,9 +535,31 @@ class TrainKinematics(Shown):
             work,
             tolerances={} if deviation is None else LazyMapping(tolerances),
             expected=case.expect,
+            sliding=declared.sliding,
+            contains_pi=LazyMapping(lambda: self._with_pi(case, speeds, seen)) if circles else {},
             one_way=case.one_way,
             notes=case.notes,
         )
+
+    def _seen(self, relative: Relative) -> Relative:
+        """Return the function for relative speeds with the comparable motion of the second link: a turning link turns
+        relative to a sliding one as it does relative to what carries that.
+        """
+        return lambda of, base: relative(of, self.tree.reference(of, base))
+
+    def _solved_with(self, circuits: Sequence[Circuit], case: StateCase) -> Relative:
+        """Return the function for relative speeds if `circuits` replace the circuits of the train."""
+        return self._seen(solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative)
+
+    def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:
+        """Return whether the speed of each link and output changes if another rational number replaces pi."""
+        other = [_with_other_pi(circuit) if circuit.travels else circuit for circuit in self.circuits]
+        found, frame = self._solved_with(other, case), self.declaration.frame
+        changes = {link: found(link, frame) != speed for link, speed in speeds.items()}
+        for name, output in case.outputs.items():
+            of, base = output.links(name, frame)
+            changes[name] = found(of, base) != seen(of, base)
+        return changes
 
     def _ratio_tolerance(self, case: StateCase, relative: Relative) -> Callable[[str, str], Fraction] | None:
         """Return a function that sums the changes of a relative speed as each approximate ratio changes by its
@@ -539,7 +574,7 @@ class TrainKinematics(Shown):
             at = next(at for at, each in enumerate(circuits) if each.id == coupling.name)
             ratio = circuits[at].ratio * mean / coupling.mean
             circuits[at] = circuits[at]._replace(a=ratio.denominator, b=-ratio.numerator)
-            return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+            return self._solved_with(circuits, case)
 
         @cache
         def moved() -> list[list[Relative]]:
@@ -580,6 +615,11 @@ class TrainKinematics(Shown):
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
+
+
+def _with_other_pi(circuit: Circuit) -> Circuit:
+    ratio = with_other_pi(circuit.ratio)
+    return circuit._replace(a=ratio.denominator, b=-ratio.numerator)
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:

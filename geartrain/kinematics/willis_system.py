@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, overload
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.multiples_of_pi import integer_factors
 from geartrain.numerics.results import Shown
 from geartrain.train import StateCase
 
@@ -84,6 +85,8 @@ class WillisSystem(Shown):
     """False if radians were converted to turns or turns to radians; numbers are then shown as decimals."""
     redundant: tuple[str, ...] = ()
     """Names of redundant pairs, which close loops with ratio product 1; empty if not determined."""
+    sliding: frozenset[str] = frozenset()
+    """Links of couplings that slide; their speeds x are travels in mm."""
 
     def __str__(self) -> str:
         """Return the equations as printed by `geartrain inspect equations`."""
@@ -114,16 +117,20 @@ class WillisSystem(Shown):
         """Return the equations as text, one per line."""
         right = fraction_text if self.exact else decimal
         width = max((len(equation.label) for equation in self.equations), default=0)
-        return "\n".join(f"{e.label:<{width}}  {_sum(e.terms, 'w[{}]')} = {right(e.right)}" for e in self.equations)
+        return "\n".join(f"{e.label:<{width}}  {self._sum(e.terms)} = {right(e.right)}" for e in self.equations)
+
+    def _sum(self, terms: Sequence[tuple[str, int]]) -> str:
+        return _sum([(f"{'x' if link in self.sliding else 'w'}[{link}]", factor) for link, factor in terms], "π")
 
     def latex(self) -> str:
         """Return the system as a LaTeX `align` environment."""
-        symbol = r"\omega_{{\text{{{}}}}}"
         right = _fraction if self.exact else decimal
-        lines = [
-            f"  {_sum(e.terms, symbol, escape=True)} &= {right(e.right)} && \\text{{{_escape(e.label)}}}"
-            for e in self.equations
-        ]
+
+        def left(terms: Sequence[tuple[str, int]]) -> str:
+            letters = (("x" if link in self.sliding else r"\omega", _escape(link), factor) for link, factor in terms)
+            return _sum([(rf"{letter}_{{\text{{{name}}}}}", factor) for letter, name, factor in letters], r"\pi")
+
+        lines = [f"  {left(e.terms)} &= {right(e.right)} && \\text{{{_escape(e.label)}}}" for e in self.equations]
         return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
 
 
@@ -143,9 +150,15 @@ def assemble_willis_system(
     """
     rows = [WillisEquation("frame", "frame", ((frame, 1),))]
     rows += [
-        WillisEquation(c.id, c.kind, tuple((link, factor * signs.get(link, 1)) for link, factor in c.terms))
+        # the frame neither turns nor slides: its two coefficients in a travel have different units
+        WillisEquation(
+            c.id,
+            c.kind,
+            tuple((link, each * signs.get(link, 1)) for link, each in c.terms if not c.travels or link != frame),
+        )
         for c in circuits
     ]
+    sliding = frozenset(link for c in circuits if c.travels for link in (c.i, c.bases[0])) - {frame}
     if case is not None:
         # a brake on the frame would repeat the row of the frame
         rows += [WillisEquation(f"fixed {link}", "fixed", ((link, 1),)) for link in case.fixed if link != frame]
@@ -155,16 +168,15 @@ def assemble_willis_system(
             if a != b
         ]
         rows += [WillisEquation(f"input {link}", "input", ((link, 1),), speed) for link, speed in case.inputs.items()]
-    return WillisSystem(tuple(links), tuple(rows), case is None or case.exact, tuple(redundant))
+    return WillisSystem(tuple(links), tuple(rows), case is None or case.exact, tuple(redundant), sliding)
 
 
-def _sum(terms: Sequence[tuple[str, int]], symbol: str, escape: bool = False) -> str:
+def _sum(terms: Sequence[tuple[str, int]], pi: str) -> str:
     parts: list[str] = []
-    for link, coefficient in terms:
-        size = "" if abs(coefficient) == 1 else f"{abs(coefficient)} "
+    for symbol, coefficient in terms:
         sign = "-" if coefficient < 0 else "+" if parts else ""
         space = " " if parts else ""
-        parts.append(f"{sign}{space}{size}{symbol.format(_escape(link) if escape else link)}")
+        parts.append(f"{sign}{space}{' '.join([*integer_factors(abs(coefficient), pi), symbol])}")
     return " ".join(parts)
 
 

@@ -13,6 +13,7 @@ from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from geartrain.errors import nearest_names
+from geartrain.numerics.multiples_of_pi import PI
 
 TURN = "turn"
 RADIANS_PER_TURN = 6.283185307179586
@@ -43,8 +44,11 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "deg/s": ("speed", Fraction(1, 360)),
     "m/s": ("velocity", Fraction(1)),
     "mm/s": ("velocity", Fraction(1, 1000)),
+    "mm/min": ("velocity", Fraction(1, 60000)),
     "ft/min": ("velocity", Fraction(3048, 10**4) / 60),
     "in/s": ("velocity", Fraction(254, 10**4)),
+    "N": ("force", Fraction(1)),
+    "kN": ("force", Fraction(1000)),
     "N m": ("torque", Fraction(1)),
     "N mm": ("torque", Fraction(1, 1000)),
     "kN m": ("torque", Fraction(1000)),
@@ -269,6 +273,50 @@ class Figure:
         return {"type": ["number", "string"], "examples": ["254/19", "1:30", 13.3684]}
 
 
+@dataclass(frozen=True, slots=True)
+class Amount(Figure):
+    """Number with its digits as written, or a travel with a unit of length; `value` and `half` are then in mm.
+
+    Examples
+    --------
+    >>> travel = Amount.parse("0.125 cm")
+    >>> travel.value, travel.half, travel.unit
+    (Fraction(5, 4), Fraction(1, 200), 'cm')
+    """
+
+    unit: str | None = None
+    """Unit of length as written; None for a plain number."""
+
+    @classmethod
+    def parse(cls, raw: object) -> Amount:
+        """Parse a number, or a length such as "1.25 mm", from text or a Python number.
+
+        Parameters
+        ----------
+        raw : str, int, float, Fraction or Figure
+            Number or length.
+
+        Raises
+        ------
+        ValueError
+            If `raw` is neither a number nor a length.
+        """
+        if isinstance(raw, Figure) and type(raw) is not Figure:
+            return cast(Amount, raw)  # also a printed period
+        match = _QUANTITY.match(raw) if isinstance(raw, str) and len(raw) <= _MOST_DIGITS else None
+        unit = None if match is None or match[2] is None else SPELT.get(match[2], match[2])
+        if unit is None or UNITS.get(unit, ("",))[0] != "length":
+            plain = Figure.parse(raw)
+            return cls(plain.value, plain.half, plain.text)
+        assert match is not None
+        plain, size = Figure.parse(match[1]), 1000 * scale(unit)[1]
+        return cls(plain.value * size, None if plain.half is None else plain.half * size, str(raw), unit)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"type": ["number", "string"], "examples": ["254/19", "1:30", 13.3684, "1.25 mm"]}
+
+
 def _not_a_number(raw: object) -> PydanticCustomError:
     shown = repr(raw) if len(repr(raw)) <= 40 else repr(raw)[:37] + "..."
     return bad("number", f"{shown} is not a number", "write an integer, a fraction 254/19 or 1:30, or a decimal")
@@ -438,6 +486,30 @@ def millimetres(length: Quantity) -> Fraction:
     return length.value if length.unit is None else length.base * 1000
 
 
+TRAVEL_ARM = 1 / (2000 * PI)
+"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is calculated as a link that turns once for each
+millimetre of its travel, with its forces at this arm."""
+
+
+def as_rotation(speed: Quantity) -> Quantity:
+    """Return the travel of a sliding link as a speed of rotation, with one turn for 1 mm; other speeds are unchanged.
+
+    >>> as_rotation(Quantity.parse("5 mm/min", "velocity", plain=False)).unit
+    'turn/min'
+    """
+    if speed.dimension == "length":
+        return Quantity(millimetres(speed), None, speed.text)
+    if speed.dimension != "velocity":
+        return speed
+    unit = f"{TURN}/{(speed.unit or '').partition('/')[2]}"
+    return Quantity(speed.base * 1000 / scale(unit)[1], unit, speed.text)
+
+
+def as_torque(load: Quantity) -> Quantity:
+    """Return a force on a sliding link as the torque [N m] that has the same power; torques are unchanged."""
+    return Quantity(load.base * TRAVEL_ARM, "N m", load.text) if load.dimension == "force" else load
+
+
 def _no_unit(text: str, dimension: str) -> PydanticCustomError:
     first = "mm" if dimension.startswith("length") else units_of(dimension).split(", ")[0]
     fix = f"for example, write '{text} {first}'; units: {units_of(dimension)}"
@@ -475,8 +547,12 @@ Angle = Annotated[Quantity, Dimension("angle")]
 Time = Annotated[Quantity, Dimension("time")]
 Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
+InputSpeed = Annotated[Quantity, Dimension("speed or length or velocity", plain=True)]
+"""Prescribed speed of a link: of rotation, or a travel per unit of the train or per time."""
+Rate = Annotated[Quantity, Dimension("speed or velocity", plain=True)]
 Velocity = Annotated[Quantity, Dimension("velocity")]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]
+Load = Annotated[Quantity, Dimension("torque or force", plain=True)]
 Energy = Annotated[Quantity, Dimension("energy")]
 Inertia = Annotated[Quantity, Dimension("inertia")]
 Mass = Annotated[Quantity, Dimension("mass")]

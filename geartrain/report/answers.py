@@ -13,7 +13,7 @@ from math import isfinite
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.circuits.fundamental import couplings_on_axes
+from geartrain.kinematics.circuits import couplings_on_axes
 from geartrain.kinematics.judged_outputs import (
     SECONDS_PER_DAY,
     OutputResult,
@@ -81,7 +81,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
     if result is None or result.speed is None:
         return "-"
     inverse = f" (in/out {figure(1 / result.ratio, 6)})" if result.ratio else ""
-    return f"{_speed(result.speed, result.tolerance)}{inverse}"
+    return f"{_speed(result.speed, result.tolerance, result.slides)}{inverse}"
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
@@ -128,7 +128,8 @@ def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
         else _period(declared, speed)
     )
     target = result.targets[0] if result.targets else None
-    return (result.name, _speed(speed, result.tolerance), second, *_target_cells(declared, target), _fault(result))
+    exact_speed = _speed(speed, result.tolerance, result.slides)
+    return (result.name, exact_speed, "" if result.slides else second, *_target_cells(declared, target), _fault(result))
 
 
 def _is_clock(declared: Train) -> bool:
@@ -178,7 +179,7 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 
 
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
-    """Return the error of an output in seconds a day and seconds a year, and the time after which it is a day off.
+    """Return the error of an output in seconds a day and seconds a year, and the days after which it is a day off.
 
     The first two are "" unless the output has a hand of a clock or a target of about a day, the third is "" for shorter
     targets.
@@ -188,7 +189,7 @@ def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) ->
     days = declared.unit_days / abs(target.speed)
     is_clock = result.output.hand != "needle" or _ABOUT_A_DAY[0] <= days <= _ABOUT_A_DAY[1]
     rates = (_signed(target.seconds_per_day), _signed(target.seconds_per_year)) if is_clock else ("", "")
-    late = "never" if target.days_to_one_day is None else f"{figure(target.days_to_one_day, 6)} d"
+    late = "never" if target.days_to_one_day is None else figure(target.days_to_one_day, 6)
     return *rates, late if days > _LONGER else ""
 
 
@@ -212,7 +213,7 @@ def _targets(declared: Train, answer: Answer) -> Iterator[Section]:
     if not targets:
         return
     each = answer.unit.removeprefix("turns per ") if answer.unit.startswith("turns per ") else "unit"
-    rates = ("s a day", "s a year", "a day off in")
+    rates = ("s a day", "s a year", "days to a day off")
     errors = ("error ppm", *rates, "days a century", f"degrees per {each}")
     header = ("output", "target", *errors, "target speed", "compared", "within")
     table = filled_table(header, targets, 3)
@@ -248,7 +249,10 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
         mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
         # a ratio needs exactly one turning input
         ratio = speed / moving[0] if len(moving) == 1 else None
-        rows.append((link + mark, _speed(speed, answer.tolerances.get(link)), figure(speed), one_to(ratio)))
+        slides = link in answer.sliding
+        exact_speed = _speed(speed, answer.tolerances.get(link), slides)
+        decimal = figure(speed) + (" mm" if slides else "")
+        rows.append((link + mark + _pi(answer, link), exact_speed, decimal, one_to(ratio)))
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
 
 
@@ -268,11 +272,12 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
     of = result.of if result.relative_to == declared.frame else f"{result.of} seen from {result.relative_to}"
     expect, published = result.output.expect, result.output.published
     sign = only_sign(result)
+    unit = " mm" if result.slides and result.speed is not None else ""
     return (
         result.name,
         of + (" (sum of joint speeds)" if result.bookkeeping else ""),
-        _speed(result.speed, result.tolerance),
-        figure(result.speed),
+        _speed(result.speed, result.tolerance, result.slides),
+        figure(result.speed) + unit,
         _speed(result.ratio, result.tolerance) if result.ratio is not None and result.ratio != result.speed else "",
         _period(declared, result.speed),
         "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected{sign}",
@@ -404,10 +409,18 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
     """
     state = f" state {answer.state}" if answer.state is not None else ""
     place = "" if answer.verdict else f" ({answer.place})"
-    unit = f" ({answer.unit})" if answer.unit and answer.verdict else ""
+    units, declared = [answer.unit] if answer.unit else [], answer._declaration
+    if answer.sliding and declared is not None:
+        units.append(f"slides in {declared.travel_unit}{'' if answer.unit else ' per turn'}")
+    unit = f" ({', '.join(units)})" if units and answer.verdict else ""
     lines = [f"{answer.train}{state}: {answer.verdict}{place}{unit}"]
     rows: list[tuple[str, SpeedValue | None, Fraction | None, str]] = [
-        (name, result.speed, result.tolerance, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
+        (
+            name,
+            result.speed,
+            result.tolerance,
+            _errors(answer, result.of) + _pi(answer, name) + ("" if result.holds else "  FAILS"),
+        )
         for name, result in answer.outputs.items()
     ]
     if output is None:
@@ -421,10 +434,14 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
         rows = [(output, answer.speeds.get(output), tolerance, _marks(answer, output, oblique))]
     width = max((len(name) for name, *_ in rows), default=0)
     for name, speed, tolerance, mark in rows:
-        period = "" if answer._declaration is None else _period(answer._declaration, speed)
-        turn = f"  a turn in {period}" if period and name in answer.outputs else ""
+        result = answer.outputs.get(name)
+        slides = name in answer.sliding if result is None else result.slides
+        unit = " mm" if slides else ""
+        period = "" if answer._declaration is None or slides else _period(answer._declaration, speed)
+        turn = f"  a turn in {period}" if period and result is not None else ""
         within = f" ± {figure(tolerance, 3)}" if tolerance else ""
-        lines.append(f"  {name:<{width}}  {_speed(speed, tolerance):>20}  {figure(speed, 12)}{within}{turn}{mark}")
+        decimal = figure(speed, 12) + unit
+        lines.append(f"  {name:<{width}}  {_speed(speed, tolerance, slides):>20}  {decimal}{within}{turn}{mark}")
     lines += [f"  {each}" for each in clutch_lines(answer)]
     if answer.residual:
         row, most = max(answer.residual.items(), key=lambda each: each[1])
@@ -471,13 +488,22 @@ def why_floats(answer: Answer) -> str:
     )
 
 
-def _speed(speed: SpeedValue | None, tolerance: Fraction | None) -> str:
-    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio."""
-    return f"≈ {exact(speed)}" if tolerance else exact(speed)
+def _speed(speed: SpeedValue | None, tolerance: Fraction | None, slides: bool = False) -> str:
+    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio; a travel has its unit."""
+    text = exact(speed) + " mm" if slides and speed is not None else exact(speed)
+    return f"≈ {text.removeprefix('≈ ')}" if tolerance else text
 
 
 def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
-    return _errors(answer, link) + ("  (sum of joint speeds)" if link in oblique else "")
+    return _errors(answer, link) + _pi(answer, link) + ("  (sum of joint speeds)" if link in oblique else "")
+
+
+def _pi(answer: Answer, name: str) -> str:
+    """Return a mark for the speed of a link or output that contains pi and is not written as a multiple of it."""
+    speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
+    if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):
+        return ""
+    return "  (not exact: contains π)"
 
 
 def _errors(answer: Answer, link: str) -> str:

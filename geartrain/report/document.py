@@ -14,6 +14,7 @@ from typing import Any
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
+from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
 from geartrain.numerics.results import Shown, field_docs, imported_function, summary_line
 
 MOST_ROWS = 120
@@ -304,7 +305,7 @@ def exact(value: Fraction | float | None) -> str:
         return "undetermined"
     if not isinstance(value, Fraction):
         return f"~{value:.12g}"
-    return ExactText(abridged_text(value), value)
+    return pi_text(value) if touches_pi(value) else ExactText(abridged_text(value), value)
 
 
 def one_to(ratio: Fraction | float | None) -> str:

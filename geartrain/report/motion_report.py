@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import degrees
+from math import degrees, tau
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.errors import GearTrainError
@@ -253,6 +253,7 @@ def ripples(train: GearTrain) -> bool:
 
 
 _ABREAST = 8  # outputs in one table
+_ROUNDING = 1e-13  # rad: smaller deviations are rounding errors
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
@@ -335,7 +336,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
         yield _estimates(run.estimates, run.motion._problem.deviation)
     for name, lines in run.spectra.items():
         if lines:
-            yield _spectrum(name, lines)
+            yield _spectrum(name, lines, name in run.motion._sliding)
 
 
 def moving_sections(
@@ -381,7 +382,8 @@ def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
         speeds = "..".join(f"{round(each, 5) + 0.0:.5f}" for each in tally.speeds) + (
             "" if tally.ratio else " (divided by the input's)"
         )
-        rows.append((tally.name, figure(tally.ratio, 9), *_degrees(tally.peak_to_peak, tally.rms), speeds))
+        mean = figure(tally.ratio, 9) + (" mm" if tally.slides else "")
+        rows.append((tally.name, mean, *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
 
 
@@ -431,7 +433,8 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]
         low, high = source.transmission.error_range()
-        given = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
+        reaches = {name: abs(motion.sensitivity[name][source.id]) * (high - low) for name in outputs}
+        given = [_amount(name in motion._sliding, reach, 4) for name, reach in reaches.items()]
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
     header = ("pair", "driving wheel", "basis", "periods a turn", *(f"{name} (deg)" for name in outputs))
     return Table(header, rows, wide=True)
@@ -468,13 +471,13 @@ def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
     for name, each in found.items():
         true = each.true
         rows += [
-            (name, "composed", *_degrees(true.peak_to_peak, true.rms), "0", "0"),
-            ("", "bound by the sum", *_degrees(each.bound), "-", "-", "-"),
-            ("", "independent phases", "-", *_degrees(each.independent), "-", "-"),
+            (name, "composed", *_amounts(true.slides, true.peak_to_peak, true.rms), "0", "0"),
+            ("", "bound by the sum", *_amounts(true.slides, each.bound), "-", "-", "-"),
+            ("", "independent phases", "-", *_amounts(true.slides, each.independent), "-", "-"),
         ]
         for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
             own, off = superposed.own, superposed.off
-            rows.append(("", how, *_degrees(own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
+            rows.append(("", how, *_amounts(true.slides, own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
     differences = ("maximum difference (deg)", "rms difference (deg)")
     header = ("output", "method", f"{deviation} p-p (deg)", "rms (deg)", *differences)
     text = (
@@ -484,15 +487,22 @@ def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
     return Section("Estimates", (text,), (Table(header, rows),))
 
 
-def _degrees(*values: float) -> tuple[str, ...]:
-    return tuple(f"{degrees(value):.6g}" for value in values)
+def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
+    return tuple(_amount(slides, value) for value in values)
 
 
-def _spectrum(name: str, lines: list[SpectrumLine]) -> Section:
+def _amount(slides: bool, value: float, digits: int = 6) -> str:
+    """Return an angle in degrees as a string, or the travel of a link that slides with its unit."""
+    # joints that cancel leave rounding errors
+    value = value if abs(value) > _ROUNDING else 0.0
+    return f"{value / tau:.{digits}g} mm" if slides else f"{degrees(value):.{digits}g}"
+
+
+def _spectrum(name: str, lines: list[SpectrumLine], slides: bool) -> Section:
     rows = []
     for line in lines:
         sources = ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares)
-        amplitudes = _degrees(line.expected, line.measured)
+        amplitudes = _amounts(slides, line.expected, line.measured)
         rows.append((str(line.order), figure(float(line.order), 8), sources, *amplitudes))
     header = ("order", "per turn of the input", "pair and harmonic", "expected (deg)", "measured (deg)")
     text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."

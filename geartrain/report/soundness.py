@@ -151,7 +151,8 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     escapement = declared.escapement
     if escapement is None:
         return
-    bearer = pallet_link(escapement, train.kinematics.tree)
+    tree = train.kinematics.tree
+    bearer = tree.reference(escapement.link, pallet_link(escapement, tree))
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
         # beats are in seconds, so speeds need a unit of time

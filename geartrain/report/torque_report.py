@@ -287,7 +287,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
             f"the maximum power through a pair is {figure(circulating, 5)} times the power in."
         )
     if found.bearing_loss:
-        needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.requested)
+        needed = ", ".join(f"at '{link}' {amounts.torque(link, found.external[link])}" for link in found.requested)
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
     lines += [
         f"The reaction to the torque on '{link}' acts on '{base}'." for link, (base, _) in found.reactions.items()
@@ -295,7 +295,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     if found.overrunning:
         slips = ", ".join(f"{name} at {figure(slip, 6)}" for name, slip in found.overrunning.items())
         lines.append(f"One-way clutches that overrun, without torque and loss: {slips}.")
-    tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
+    tables = [_links(found, amounts), *_held(found, amounts), _pairs(found, amounts)]
     if figures.belt_pulls:
         rows = [(name, f"{pull:.6g}") for name, pull in figures.belt_pulls.items()]
         tables.append(Table(("belt", "pull, tight side minus slack side (N)"), rows))
@@ -310,13 +310,18 @@ class _Amounts:
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit
-        self.unit = " N m" if found.in_newton_metres else ""
+        self.unit, self.force = (" N m", " N") if found.in_newton_metres else ("", "")
+        self.sliding = found.torques.arms
 
     def text(self, power: Fraction, digits: int = 6) -> str:
         return figure(power, digits) if self.watts is None else watts_text(float(power) * self.watts)
 
-    def torque(self, torque: Fraction) -> str:
-        return f"{figure(torque, 6)}{self.unit}"
+    def torque(self, link: str, torque: Fraction) -> str:
+        return self.plain(torque, True) if link in self.sliding else f"{figure(torque, 6)}{self.unit}"
+
+    def plain(self, torque: Fraction, force: bool) -> str:
+        """Return a torque as a string without its unit, or a force with its unit."""
+        return f"{figure(torque, 6)}{self.force if force else ''}"
 
 
 def _units(found: Sequence[TorqueFigures]) -> str:
@@ -329,7 +334,7 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
             link + (" (solved for)" if link in found.requested else ""),
-            figure(torque, 6),
+            amounts.plain(torque, link in amounts.sliding),
             figure(found.speeds[link], 6) if link in found.speeds else "free",
             amounts.text(found.powers[link], 6) if link in found.speeds else "open",
         )
@@ -338,11 +343,13 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
     return Table(("link", "torque", "speed", "power"), rows)
 
 
-def _held(found: Torques) -> Iterator[Table]:
+def _held(found: Torques, amounts: _Amounts) -> Iterator[Table]:
     """Yield a table of brakes and locks with the torques that they exert on the links they hold."""
     rows = []
     for held in found.held:
-        torques = ["open"] * len(held.links) if held.torques is None else [figure(each, 6) for each in held.torques]
+        by_link = dict.fromkeys(held.links, "open")
+        by_link |= {link: amounts.plain(each, link in amounts.sliding) for link, each in (held.by_link or {}).items()}
+        torques = list(by_link.values())
         kind = "brake" if len(held.links) == 1 else "lock"
         name = f"{kind} {held.clutch}" if held.clutch else kind
         name += f" (for {' and '.join(held.cause)})" if held.cause else ""
@@ -362,7 +369,7 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
         (
             pair.id + (" (shared)" if pair.loose else ""),
             pair.driver or ("open" if pair.power is None else "idle"),
-            *(figure(torque, 6) for torque in pair.torques),
+            *(amounts.plain(pair.torques[at], pair.forces[at]) for at in (0, 1, -1)),
             "open" if pair.power is None else amounts.text(pair.power),
             "open" if pair.power is None else amounts.text(pair.loss),
         )

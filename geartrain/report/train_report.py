@@ -24,13 +24,13 @@ from geartrain.report.document import (
     MOST_ROWS,
     CitedText,
     Document,
-    ExactText,
     PageExtras,
     Picture,
     Section,
     SourceReference,
     Table,
     cut,
+    exact,
     filled_table,
     titled,
     without_details,
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 _CIRCUITS_ABREAST = 6  # columns of circuits that fit into one table
 _MOST_SPACED, _MOST_LETTERS = 32, 72  # maximum links of a matrix with blanks between columns, and of any matrix
 _MOST_CARRIERS = 4  # maximum number of carriers named in a summary
-_LETTERS = {"": ".", "revolute": "R", "gear": "G", "several": "+"}
+_LETTERS = {"": ".", "revolute": "R", "prismatic": "P", "gear": "G", "several": "+"}
 SOURCES = "Sources"
 """Title of the section of references; an HTML page has a list of links instead."""
 
@@ -114,7 +114,8 @@ def _details(found: TrainReport) -> Iterator[Section]:
     yield from _phasing(found.closure)
     if len(declared.links) <= MOST_SQUARE:
         others = "gear pairs and couplings" if declared.couplings else "gear pairs"
-        text = f"R(axis) is a turning pair; the other entries are {others} by name."
+        slides = ", P(axis) a sliding pair" if declared.slides else ""
+        text = f"R(axis) is a turning pair{slides}; the other entries are {others} by name."
         yield Section("Adjacency matrix by names", (text,), (adjacency_table(train),))
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
@@ -221,9 +222,10 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     side = declared.view.from_ or ""
     seen = side if side in _SIDES else f"the {side}"
     clock = f"; positive is {declared.view.positive} seen from {seen}" if side else ""
+    slides = f"; slides in {declared.travel_unit}{'' if unit else ' per turn'}" if declared.sliding else ""
     yield (
         f"Speeds are in {unit}" if unit else "Speeds are numbers without a unit"
-    ) + f", absolute, about each link's own axis{clock}."
+    ) + f"{slides}, absolute, about each link's own axis{clock}."
     yield f"Train '{declared.name}'" + (f", an extension of '{declared.extends}'." if declared.extends else ".")
     if declared.note:
         yield declared.note
@@ -241,12 +243,14 @@ def source_line(key: str, source: Source) -> str:
 
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
-    counts = tuple(map(len, (declared.revolutes, declared.gears, declared.couplings, declared.wheels)))
-    nouns = ("turning pair", "gear pair", "coupling", "wheel")
+    parts = (declared.revolutes, declared.slides, declared.gears, declared.couplings, declared.wheels)
+    counts = tuple(map(len, parts))
+    nouns = ("turning pair", "sliding pair", "gear pair", "coupling", "wheel")
     counted = ", ".join(plural(count, noun) for count, noun in zip(counts, nouns, strict=True) if count)
     text = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
     rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
-    table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
+    moves = "turns or slides in (axis)" if declared.sliding else "turns in (axis)"
+    table = filled_table(("link", "wheels and teeth", moves, "note"), rows, 3)
     yield Section("Structure", (text,), (replace(table, rows=cut(table.rows)),))
 
 
@@ -261,7 +265,8 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
     head = gap.join(str(at % 10) for at in range(1, len(links) + 1))
     rows = [(f"{at} {link}", gap.join(row)) for at, (link, row) in enumerate(zip(links, cells, strict=True), 1)]
     couplings = ", C coupling" if train.declaration.couplings else ""
-    text = f"R turning pair, G gear pair{couplings}, + several; columns by last digit."
+    slides = ", P sliding pair" if train.declaration.slides else ""
+    text = f"R turning pair{slides}, G gear pair{couplings}, + several; columns by last digit."
     yield Section("Adjacency matrix", (text,), (Table(("link", head), rows, wide=True),))
 
 
@@ -325,7 +330,7 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
         ("body k", *(circuit.carrier for circuit in circuits)),
         ("Z_i", *(teeth(circuit, 0) for circuit in circuits)),
         ("Z_j", *(teeth(circuit, 1) for circuit in circuits)),
-        ("tau", *(ExactText(str(circuit.ratio)) for circuit in circuits)),
+        ("tau", *(exact(circuit.ratio) + (" mm" if circuit.travels else "") for circuit in circuits)),
     ]
     return Table(("", *(circuit.id for circuit in circuits)), rows)
 
@@ -342,7 +347,8 @@ def _circuits_in_short(train: GearTrain) -> str:
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
     """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and links at rest."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
-    pairs = f"{plural(found.turning_pairs, 'turning pair')} - {plural(found.gear_pairs, 'gear pair')}{minus}"
+    slides = f" + {plural(found.sliding_pairs, 'sliding pair')}" if found.sliding_pairs else ""
+    pairs = f"{plural(found.turning_pairs, 'turning pair')}{slides} - {plural(found.gear_pairs, 'gear pair')}{minus}"
     yield f"By count: {pairs} = {found.by_count}."
     # a rank modulo a prime may be lower than the true rank
     exact = " (exact)." if found.certain else " (rank modulo two primes)."

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from geartrain.dynamics.train_teeth import STANDARD, TrainTeeth, find_train_teeth
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector, across, minus, size, unit_or_z
-from geartrain.scene.context import SceneContext, exact, rounded
+from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.elements import SceneBody, SceneWave, SceneWheel, ToothProfile
 from geartrain.teeth.outlines.fixed_teeth import wall
 from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
@@ -239,22 +239,35 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
     place = stage.layout.axes.get(label)
     # coaxial links are carried by the link that carries their axis, whatever joints were declared
     bearer = tree.top.get(link)
-    speed = stage.speed(link)
+    speed, travels = stage.speed(link), link in tree.lines
     return SceneBody(
         id=link,
         parent=None if bearer is None else stage.body[bearer],
         axis=label,
         point=(0.0, 0.0, 0.0) if place is None else place.point,
-        direction=stage.reference(label),
+        direction=_line(stage, link, label) if travels else stage.reference(label),
         sense=stage.sense(link),
         speed=exact(stage.ratio(link)),
-        shown=stage.shown(speed),
-        decimal=rounded(speed),
+        shown=stage.shown(speed, link),
+        decimal=stage.rounded(speed, link),
         start=stage.start(link),
         role=_role(stage, link),
         bookkeeping=link in train.kinematics.joint_sums,
         note=train.declaration.links[link].note or "",
+        travels=travels,
+        base=None if bearer is None or tree.bearer(link) == bearer else stage.body[tree.bearer(link)],
     )
+
+
+def _line(stage: SceneContext, link: str, label: str) -> Vector:
+    """Return the direction in which a link slides: as declared, along the axis of its screw, otherwise along x."""
+    axis = stage.train.declaration.axes.get(label)
+    if axis is not None and "direction" in axis.model_fields_set:
+        return stage.reference(label)
+    tree = stage.train.kinematics.tree
+    screws = (each for each in stage.train.circuits if each.kind == "screw" and link in (each.i, each.carrier))
+    found = next((tree.axis_seen_from(each.carrier, each.j) for each in screws), None)
+    return (1.0, 0.0, 0.0) if found is None else stage.reference(found)
 
 
 def _role(stage: SceneContext, link: str) -> str:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
 from geartrain.numerics.quantity import turns_in
 from geartrain.numerics.results import Key
 from geartrain.numerics.vectors import Vector, dot, unit_or_z
@@ -83,9 +84,21 @@ class SceneContext:
             return None
         return found / self.case.inputs[self.driving_link]
 
-    def shown(self, speed: Fraction | None) -> str | None:
-        """Return a speed as a string, exact if the inputs are exact and rounded if not; None if the speed is None."""
-        return None if speed is None else self.case.shown(speed)
+    def shown(self, speed: Fraction | None, link: str) -> str | None:
+        """Return the speed of a link as a string, exact if the inputs are exact and rounded if not, with the unit of a
+        travel; None if the speed is None.
+        """
+        if speed is None:
+            return None
+        text = pi_text(speed) if touches_pi(speed) else self.case.shown(speed)
+        return text + self._unit(link)
+
+    def rounded(self, speed: Fraction | None, link: str) -> str:
+        """Return the speed of a link as a decimal string, with the unit of a travel; empty if the speed is None."""
+        return "" if speed is None else decimal(speed) + self._unit(link)
+
+    def _unit(self, link: str) -> str:
+        return " mm" if link in self.train.kinematics.tree.lines else ""
 
     def sense(self, link: str) -> int:
         """Return -1 if a link's axis is opposite to the reference direction of its parallel axes, else 1."""
@@ -151,11 +164,6 @@ class SceneContext:
 def exact(value: Fraction | None) -> str | None:
     """Return a ratio as an exact string; None if the ratio is None."""
     return None if value is None else fraction_text(value)
-
-
-def rounded(value: Fraction | None) -> str:
-    """Return a ratio as a decimal string; empty if the ratio is None."""
-    return "" if value is None else decimal(value)
 
 
 def packed_key(name: str, kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> Key:

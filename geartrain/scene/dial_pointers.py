@@ -25,7 +25,7 @@ from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
-from geartrain.scene.context import SceneContext, exact, rounded
+from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
 from geartrain.scene.layout import WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke
@@ -81,7 +81,7 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
     """Return the speed of a link relative to another as a linear combination of declared speeds."""
-    found = {of: 1}
+    found, base = {of: 1}, stage.train.kinematics.tree.reference(of, base)
     found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.kinematics.signs)
     return found
 
@@ -344,8 +344,8 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
 def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:
     output = stage.outputs[name]
     of, base = output.links(name, stage.train.declaration.frame)
-    signs = stage.train.kinematics.signs
-    speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
+    signs, seen = stage.train.kinematics.signs, stage.train.kinematics.tree.reference(of, base)
+    speed, ratio = (_exact(relative_speed(of, seen, each, signs)) for each in (stage.speed, stage.ratio))
     # viewed against its axis, a positive angle is counter-clockwise
     sense = -1 if dot(stage.along(stage.train.kinematics.tree.axis(of)), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)
@@ -356,13 +356,13 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     return Pointer(
         output=name,
         body=stage.body[of],
-        base=stage.body[base],
+        base=stage.body[seen],
         dial=dials.index(key) if key in dials else None,
         speed=exact(ratio),
-        shown=stage.shown(speed),
-        decimal=rounded(speed),
+        shown=stage.shown(speed, of),
+        decimal=stage.rounded(speed, of),
         sense=sense,
-        text=_as_read(sense, speed),
+        text="" if of in stage.train.kinematics.tree.lines else _as_read(sense, speed),
         pairs=tuple(pairs),
         bodies=tuple(bodies),
         wheels=tuple(wheels),

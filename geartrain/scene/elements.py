@@ -108,7 +108,9 @@ class SceneBody(Shown):
     sense: int
     """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; else 1."""
     speed: str | None
-    """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined."""
+    """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined. For
+    a link that slides, one turn is a travel of 1 mm.
+    """
     shown: str | None
     """Speed of the link at the declared inputs, in the train's unit, exact if they are; None if undetermined."""
     decimal: str
@@ -121,6 +123,15 @@ class SceneBody(Shown):
     """True if the speed is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
     note: str = ""
     """Note on the link, as declared."""
+    travels: bool = False
+    """True if the link slides along its axis, by 1 mm for each turn of its angle."""
+    base: int | None = None
+    """Index of the body whose angle is subtracted from the angle of this body in its joint; None for `parent`."""
+
+    @property
+    def reference(self) -> int | None:
+        """Index of the body whose angle is subtracted from the angle of this body in its joint; None for the frame."""
+        return self.parent if self.base is None else self.base
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import read_fraction
+from geartrain.scene.elements import SceneBody
 from geartrain.scene.movement import ErrorSource, ErrorStep, ErrorTable
 from geartrain.scene.train_scene import Scene
 
@@ -24,7 +25,10 @@ _ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, an
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Pose of a scene: angles A of the bodies about their directions [rad, modulo a turn], and rigid motions."""
+    """Pose of a scene: angles A of the bodies about their directions [rad, modulo a turn], and rigid motions.
+
+    The angle of a body that slides is 2 pi times its travel in mm.
+    """
 
     angles: Floats
     turned: Floats
@@ -60,7 +64,7 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
     angles = np.array(
         [
             # reduced to one turn as a fraction: the float of many turns would lose digits of the angle
-            body.sense * (body.start + 2 * pi * float(turns_of(body.speed, turns) % 1) + error[at])
+            body.sense * (body.start + 2 * pi * float(_kept(body, turns_of(body.speed, turns))) + error[at])
             for at, body in enumerate(scene.bodies)
         ]
     )
@@ -71,11 +75,21 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
         if body.parent is None:
             turned[at] = np.eye(3)
             continue
-        # each body turns relative to its parent about its own axis, which moves with the parent
-        about, point = _rotation(body.direction, angles[at] - angles[body.parent]), np.array(body.point)
+        # each body turns about or slides along its own axis, which moves with the parent
+        joint = angles[at] - (0.0 if body.reference is None else angles[body.reference])
+        if body.travels:
+            turned[at] = turned[body.parent]
+            moved[at] = turned[body.parent] @ (np.array(body.direction) * joint / (2 * pi)) + moved[body.parent]
+            continue
+        about, point = _rotation(body.direction, joint), np.array(body.point)
         turned[at] = turned[body.parent] @ about
         moved[at] = turned[body.parent] @ (point - about @ point) + moved[body.parent]
     return ScenePose(angles, turned, moved)
+
+
+def _kept(body: SceneBody, turns: Fraction) -> Fraction:
+    """Return the turns of a body modulo one turn; the travel of a link that slides is not reduced."""
+    return turns if body.travels else turns % 1
 
 
 def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self
 from pydantic import BaseModel, ConfigDict, Field
 
 from geartrain.numerics.quantity import Quantity
-from geartrain.teeth.contact_coefficients import DeclaredEfficiency
+from geartrain.teeth.contact_coefficients import DeclaredEfficiency, Efficiencies
 
 if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
@@ -31,6 +31,8 @@ class CouplingKind(NamedTuple):
     """Name of the class."""
     varies: bool = False
     """True if the instantaneous ratio varies about its mean."""
+    travels: bool = False
+    """True if the driver turns and the driven link slides."""
 
 
 COUPLINGS: Mapping[str, CouplingKind] = {
@@ -38,6 +40,10 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "pin_follower": CouplingKind("pins", "PinFollower", varies=True),
     "pins_in_holes": CouplingKind("pins", "PinsInHoles"),
     "parallel": CouplingKind("pins", "Parallel"),
+    "rack": CouplingKind("travel", "Rack", travels=True),
+    "screw": CouplingKind("travel", "Screw", travels=True),
+    "drum": CouplingKind("travel", "Drum", travels=True),
+    "crank_slider": CouplingKind("crank_slider", "CrankSlider", varies=True, travels=True),
     "belt": CouplingKind("belt", "Belt"),
     "ratio": CouplingKind("ratio", "Ratio"),
     "universal_joint": CouplingKind("laws", "UniversalJoint", varies=True),
@@ -163,6 +169,11 @@ class Coupling(BaseModel):
     def bounds(self) -> tuple[Fraction, Fraction] | None:
         """Minimum and maximum of `mean` if it is known with a tolerance; None for an exact mean ratio."""
         return None
+
+    @property
+    def losses(self) -> Efficiencies | None:
+        """Basic efficiencies with the first and with the second end driving; None without loss."""
+        return self.efficiency
 
     @property
     def transmission(self) -> TransmissionFunction | None:

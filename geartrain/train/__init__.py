@@ -11,7 +11,8 @@ manufacturing, wheel_stock, reconstruction   materials and cutting errors; blank
 fields, validation, references   strict fields; short forms and problems; conflicting names and units
 yaml_nodes, declaration_style    YAML with line numbers; rewriting in short or long forms
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and changed copies of a declaration
-periods                          table of astronomical periods
+periods, printed_period          table of astronomical periods; periods as sources print them
+owned_wheels                     wheels that a maker owns, and table of construction sets
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 from geartrain.train.declaration import Epoch, FrictionInForce, Train
 from geartrain.train.manufacturing import ArborSizes, Material, PairMounting, WheelManufacture, material_table
-from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Source, Teeth, Wheel
+from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Slide, Source, Teeth, Wheel
 from geartrain.train.outputs import (
     Dial,
     DialName,
@@ -66,6 +67,7 @@ __all__ = [
     "Period",
     "Published",
     "Revolute",
+    "Slide",
     "Source",
     "SpeedUnit",
     "SpringDrive",

@@ -6,6 +6,7 @@ Also the epoch (a date, and the turns of the input at that date) and the effecti
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,7 +18,19 @@ from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
-from geartrain.numerics.quantity import Figure, PairDamping, PairStiffness, Quantity, Speed, Torque, in_unit, same_kind
+from geartrain.numerics.quantity import (
+    Figure,
+    InputSpeed,
+    Load,
+    PairDamping,
+    PairStiffness,
+    Quantity,
+    Rate,
+    as_rotation,
+    as_torque,
+    in_unit,
+    same_kind,
+)
 from geartrain.numerics.results import summary_line
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
 from geartrain.teeth.coupling import Coupling
@@ -33,7 +46,19 @@ from geartrain.train.fields import (
     short_for,
 )
 from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
-from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolutes, Source, Thickness, Wheel
+from geartrain.train.mechanism import (
+    Axis,
+    GearPair,
+    Joint,
+    Link,
+    MaterialDensity,
+    Revolutes,
+    Slide,
+    Slides,
+    Source,
+    Thickness,
+    Wheel,
+)
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date
 from geartrain.train.reconstruction import Reconstruction
@@ -180,15 +205,17 @@ class Train(Declared):
         description="Directions and positions of axes, by label; default all axes are parallel",
     )
     revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
+    slides: Slides = Field((), description="Sliding pairs of the links, which form one tree with the turning pairs")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs in mesh")
     couplings: tuple[DeclaredCoupling, ...] = Field((), description="Couplings of links other than gear pairs")
     belts: tuple[str, ...] = Field(
         (), description="Belts or chains around two wheels, `first ~ second`: a short form, read into `couplings`"
     )
-    inputs: ByName[Speed] = Field(
+    inputs: ByName[InputSpeed] = Field(
         {},
         validate_default=True,
-        description="Prescribed speeds by link: numbers in the train's `unit`, or with a unit such as `30 rpm`",
+        description="Prescribed speeds by link: numbers in the train's `unit`, or with a unit such as `30 rpm`; for a "
+        "sliding link a travel such as `1.25 mm` or `2 mm/s`",
     )
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Required outputs of the train, by name"
@@ -214,12 +241,15 @@ class Train(Declared):
     )
     stiffness: PairStiffness | None = Field(None, description="Default mesh stiffness of all gear pairs")
     damping: PairDamping | None = Field(None, description="Default mesh damping of all gear pairs")
-    loads: ByName[Torque] = Field(
-        {}, validate_default=True, description="External torques by link; positive if power enters the train"
+    loads: ByName[Load] = Field(
+        {},
+        validate_default=True,
+        description="External torques by link, and forces on sliding links such as `-100 N`; positive about the axis "
+        "or along it, so that power enters the train if the link moves in the positive sense",
     )
     solve_for: Id | None = Field(None, description="Link whose external torque is the unknown")
     crank: Id | None = Field(None, description="Link at which power enters the train; default the inputs")
-    rate: Speed | None = Field(None, description="Speed of the input in real time, for powers and impacts")
+    rate: Rate | None = Field(None, description="Speed of the input in real time, for powers and impacts")
     drive: Drive | None = Field(None, description="Drive of the train in time; default `rate`")
     escapement: Escapement | None = Field(
         None, description="Escapement, which lets one link advance by half a tooth per beat"
@@ -402,6 +432,7 @@ class Train(Declared):
             outputs[name] = inherited.model_copy(update=update) if inherited else output
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
         drive = own.drive or self.drive or (None if self.rate is None else Drive(rate=self.rate))
+        rate = self.rate if drive is None or drive.rate is None else drive.rate
         return StateCase(
             state,
             inputs={link: self._speed(speed) for link, speed in inputs.items()},
@@ -412,12 +443,13 @@ class Train(Declared):
             loc=loc,
             engaged=engaged,
             clutches=clutches,
-            loads=self.loads_in(state),
+            loads={link: as_torque(load) for link, load in self.loads_in(state).items()},
             solve_for=self.solve_for if own.solve_for is None else own.solve_for,
             exact=all(self._is_exact(speed) for speed in inputs.values()),
             drive=drive,
             expect=own.expect or self.expect or "determined",
-            rate=self.rate if drive is None or drive.rate is None else drive.rate,
+            rate=None if rate is None else as_rotation(rate),
+            sliding=self.sliding,
             senses={links: next(iter(each)) for links, each in senses.items() if len(each) == 1},
         )
 
@@ -496,7 +528,8 @@ class Train(Declared):
     def has_inertia(self) -> bool:
         """True if the inertia of at least one link is declared, or follows from the density of its wheels."""
         wheels = (wheel.density is not None for _, wheel in self.wheels.values())
-        return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
+        heavy = any(link.inertia or (link.mass and name in self.sliding) for name, link in self.links.items())
+        return self.density is not None or heavy or any(wheels)
 
     def has_torque_units(self, state: str | None) -> bool:
         """Return True if one state has loads or bearing torques other than 0, and all of these torques have units.
@@ -528,6 +561,7 @@ class Train(Declared):
 
     def _speed(self, speed: Quantity) -> Fraction:
         """Convert a prescribed speed to the train's unit."""
+        speed = as_rotation(speed)
         if speed.unit is None:
             return speed.value
         if self.unit is not None:
@@ -538,7 +572,9 @@ class Train(Declared):
         """Return True if a speed is a rational number of the train's units, False if radians are converted to turns or
         the reverse.
         """
-        return not speed.value or same_kind(speed.unit, None if self.unit is not None else self.input_unit or None)
+        return not speed.value or same_kind(
+            as_rotation(speed).unit, None if self.unit is not None else self.input_unit or None
+        )
 
     @cached_property
     def input_unit(self) -> str:
@@ -551,7 +587,7 @@ class Train(Declared):
             speeds = [speed for group in groups for speed in group.values()]
         else:
             speeds = [speed for group in (self.inputs, *groups) for speed in group.values()]
-        named = [speed for speed in speeds if speed.unit]
+        named = [speed for speed in map(as_rotation, speeds) if speed.unit]
         return next((speed.unit or "" for speed in named if speed.value), (named[0].unit or "") if named else "")
 
     @property
@@ -597,6 +633,36 @@ class Train(Declared):
             row = period_table().get(self.unit.per)
             return f"turns per {(row.what if row else '') or str(self.unit.per).removeprefix('1 ')}"
         return self.input_unit
+
+    @property
+    def travel_unit(self) -> str:
+        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm` per turn without units
+        of speeds.
+        """
+        name = self.unit_name.replace("rpm", "turn/min")
+        return re.sub("^turns?", "mm", name) or "mm"
+
+    @cached_property
+    def sliding(self) -> frozenset[str]:
+        """Links that slide on the link that carries them; all others turn."""
+        if not self.slides:
+            return frozenset()
+        found, reached = set(), {self.frame}
+        waiting: list[Joint] = [*self.revolutes, *self.slides]
+        while joint := next((each for each in waiting if len(reached.intersection(each.pair)) == 1), None):
+            waiting.remove(joint)
+            (link,) = {*joint.pair} - reached
+            reached.add(link)
+            if isinstance(joint, Slide):
+                found.add(link)
+        return frozenset(found)
+
+    @property
+    def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
+        """The train and its states with their paths: both have inputs, loads, fixed links, locks and outputs."""
+        yield (), self
+        for name, state in self.states.items():
+            yield ("states", name), state
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
         """Yield the name and the wheel of every tooth count that is declared with a range or choices."""

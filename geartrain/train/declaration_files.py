@@ -16,7 +16,7 @@ from typing import Any
 
 from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train.declaration import Train
-from geartrain.train.validation import declare, written_out
+from geartrain.train.validation import JOINTS, declare, written_out
 from geartrain.train.yaml_nodes import YamlNode, as_yaml, node_from_data, parse_yaml
 
 _MOST_BYTES = 64 * 2**20
@@ -123,9 +123,8 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
 
     def declared(text: str) -> dict[str, Any]:
         data = _build(parse_yaml(text, str(path)), path.parent, (path.resolve(),), path.stem).model_dump()
-        return data | {
-            "revolutes": sorted(map(str, data["revolutes"]))
-        }  # short forms group the turning pairs by axis, so their order changes
+        # short forms group the joints by axis, so their order changes
+        return data | {key: sorted(map(str, data[key])) for key in JOINTS}
 
     text = _read(path)
     # an invalid file is refused before anything is rewritten

@@ -1,4 +1,4 @@
-"""Rewriting of a declaration's turning pairs, gear pairs and belts in short or in long forms.
+"""Rewriting of a declaration's turning, sliding and gear pairs and belts in short or in long forms.
 
 Only these sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their
 entries. An entry with keys that its short form cannot express stays long. The section `couplings` is renamed to
@@ -14,6 +14,8 @@ from functools import partial
 from typing import Any
 
 import yaml
+
+from geartrain.train.validation import JOINTS
 
 _WIDTH = 120
 _NAME = re.compile(r"[^\s~'\"\[\]{},:#&*!|>%@`][^\s~'\"\[\]{},:#]*")
@@ -51,8 +53,9 @@ def with_short_forms(text: str) -> str:
     >>> print(with_short_forms("gears:\n  - {pair: [p, w]}"), end="")
     gears: [p ~ w]
     """
+    joints = {key: partial(_short_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_short_pair)
-    return _rewritten(text, {"revolutes": _short_joints, "gears": gears, "couplings": _short_belts})
+    return _rewritten(text, {**joints, "gears": gears, "couplings": _short_belts})
 
 
 def with_long_forms(text: str) -> str:
@@ -73,8 +76,9 @@ def with_long_forms(text: str) -> str:
     >>> print(*with_long_forms("gears:\n  - p ~ w").splitlines(), sep=" /")
     gears: /  - {pair: [p, w]}
     """
+    joints = {key: partial(_long_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_long_pair)
-    return _rewritten(text, {"revolutes": _long_joints, "gears": gears, "belts": _long_belts})
+    return _rewritten(text, {**joints, "gears": gears, "belts": _long_belts})
 
 
 def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[str] | None]]) -> str:
@@ -162,7 +166,7 @@ def _pair_of(written: _SectionSource, node: yaml.Node, keys: set[str]) -> list[s
 # ------------------------------------------------------------------------------------------------------------ to short
 
 
-def _short_joints(written: _SectionSource) -> list[str] | None:
+def _short_joints(written: _SectionSource, key: str) -> list[str] | None:
     pairs = [_pair_of(written, node, {"pair", "axis"}) for node in written.items]
     if not pairs or not all(pairs):
         return None
@@ -181,7 +185,7 @@ def _short_joints(written: _SectionSource) -> list[str] | None:
         )
         for axis, (links, entries) in axes.items()
     ]
-    return list(_section("revolutes", merged, written.head, "{}", ""))
+    return list(_section(key, merged, written.head, "{}", ""))
 
 
 def _short_pair(written: _SectionSource, node: yaml.Node) -> str:
@@ -210,21 +214,21 @@ def _short_belts(written: _SectionSource) -> list[str] | None:
 # ------------------------------------------------------------------------------------------------------------- to long
 
 
-def _long_joints(written: _SectionSource) -> list[str] | None:
+def _long_joints(written: _SectionSource, key: str) -> list[str] | None:
     if not isinstance(written.value, yaml.MappingNode):
         return None
     entries: list[_Entry] = []
-    for key, links in written.value.value:
+    for label, links in written.value.value:
         names = [written.source(each) for each in links.value] if isinstance(links, yaml.SequenceNode) else []
         if len(names) < 2:
             return None
         own = written.entry("", links)
         for other in names[1:]:
-            text = f"{{pair: [{names[0]}, {other}], axis: {written.source(key)}}}"
+            text = f"{{pair: [{names[0]}, {other}], axis: {written.source(label)}}}"
             entries.append(_Entry(text, own.before, own.behind))
             # the comments of an axis are kept at its first entry only
             own = _Entry("")
-    return list(_section("revolutes", entries, written.head, "", "- "))
+    return list(_section(key, entries, written.head, "", "- "))
 
 
 def _long_pair(written: _SectionSource, node: yaml.Node) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import DeclarationError, Loc, Problem, suggest
 from geartrain.teeth.coupling import COUPLING_ENDS
-from geartrain.train.validation import declare, written_out
+from geartrain.train.validation import JOINTS, declare, written_out
 from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
             result.pop(key, None)
         elif old is not None and key in _BY_NAME:
             result[key] = _merge_mappings(old, node, key)
-        elif old is not None and key in ("gears", "couplings", "revolutes"):
+        elif old is not None and key in ("gears", "couplings", *JOINTS):
             result[key] = _merge_lists(old, node, _identity(key))
         else:
             result[key] = node
@@ -121,7 +121,7 @@ def _expanded(node: YamlNode, kind: str) -> YamlNode:
 
 def _identity(kind: str) -> Callable[[YamlNode], object]:
     """Return the function that computes a key by which the entries of a list are matched with those of the parent."""
-    return {"revolutes": _joined_links, "gears": _pair_name, "couplings": _coupling_name}[kind]
+    return {**dict.fromkeys(JOINTS, _joined_links), "gears": _pair_name, "couplings": _coupling_name}[kind]
 
 
 def _joined_links(node: YamlNode) -> frozenset[str]:
@@ -131,6 +131,10 @@ def _joined_links(node: YamlNode) -> frozenset[str]:
 def _pair_name(node: YamlNode) -> str:
     given = node.mapping.get("id")
     return given.text if given else "~".join(texts(node.mapping.get("pair")))
+
+
+def _pair_ends(node: YamlNode) -> Iterator[str]:
+    return texts(node.mapping.get("pair"))
 
 
 def _coupling_name(node: YamlNode) -> str:
@@ -163,9 +167,9 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
     couplings.
     """
     gone: dict[str, list[object]] = {key: list(texts(node)) for key, node in remove.mapping.items()}
-    if "revolutes" in remove.mapping:
-        # turning pairs have no names, and are removed by their two links
-        gone["revolutes"] = [frozenset(texts(node)) for node in remove.mapping["revolutes"].items]
+    for key in (key for key in JOINTS if key in remove.mapping):
+        # joints have no names, and are removed by their two links
+        gone[key] = [frozenset(texts(node)) for node in remove.mapping[key].items]
     _check_known(root, remove, gone)
     links, wheels = set(gone.get("links", ())), set(gone.get("wheels", ()))
     for link in links:
@@ -179,8 +183,8 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
         parts = {name: _without_wheels(node, wheels) for name, node in kept.mapping.items()}
         result["links"] = YamlNode(parts, kept.place, kept.keys)
     for key, ends, removed in (
-        ("revolutes", lambda node: texts(node.mapping.get("pair")), links),
-        ("gears", lambda node: texts(node.mapping.get("pair")), wheels),
+        *((key, _pair_ends, links) for key in JOINTS),
+        ("gears", _pair_ends, wheels),
         ("couplings", _coupling_ends, links | wheels),
     ):
         if key in result:
@@ -214,14 +218,17 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[objec
         key: set(_child(root, key)) for key in ("links", "outputs", "dials", "states", "axes")
     }
     known["wheels"] = {wheel for link in _child(root, "links").values() for wheel in _child(link, "wheels")}
-    for key in ("revolutes", "gears", "couplings"):
+    for key in (*JOINTS, "gears", "couplings"):
         known[key] = {_identity(key)(node) for node in root.mapping.get(key, YamlNode([], "")).items}
     problems = []
     for key, names in gone.items():
         for at, name in enumerate(names):
             if key in known and name not in known[key]:
                 if isinstance(name, frozenset):
-                    part, fix = f"turning pair of {' and '.join(sorted(name))}", "delete this entry"
+                    part, fix = (
+                        f"{'turning' if key == 'revolutes' else 'sliding'} pair of {' and '.join(sorted(name))}",
+                        "delete this entry",
+                    )
                 else:
                     part, fix = f"part '{name}'", suggest(str(name), known[key], otherwise="delete this entry")
                 why = f"the parent has no such entry in {key}"

@@ -65,7 +65,7 @@ _JOINT_SCHEMA = {
     "type": "object",
     "additionalProperties": {"type": "array", "items": {"type": ["string", "number"]}, "minItems": 2},
 }
-"""JSON Schema of the short form of `revolutes`, a mapping from axis label to the links on the axis."""
+"""JSON Schema of the short form of `revolutes` and `slides`, a mapping from axis label to the links on the axis."""
 
 
 FrictionTorque = Annotated[
@@ -410,7 +410,8 @@ class Link(Declared):
         None, description="Moment of inertia about its axis; default from its wheels, if their `density` is given"
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
-        None, description="Mass of a link on a moving carrier; default from its wheels, as for `inertia`"
+        None,
+        description="Mass of a link that slides or is on a moving carrier; default from its wheels, as for `inertia`",
     )
     bearing: DeclaredBearing | None = Field(
         None,
@@ -469,7 +470,15 @@ class Axis(Declared):
         return self
 
 
-class Revolute(Declared):
+class Joint(Declared):
+    """Turning or sliding pair of two links."""
+
+    pair: tuple[Id, Id] = Field(description="Two links that move relative to each other")
+    axis: Id = Field(description="Label of the axis")
+    note: str | None = Field(None, description="Remark for readers")
+
+
+class Revolute(Joint):
     """Turning pair of two links. Turning pairs with the same axis label are coaxial.
 
     See Also
@@ -479,10 +488,24 @@ class Revolute(Declared):
 
     pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
     axis: Id = Field(description="Label of the axis; equal labels mean coaxial joints")
-    note: str | None = Field(None, description="Remark for readers")
 
 
 Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
+
+
+class Slide(Joint):
+    """Sliding pair of two links. Sliding pairs with the same axis label move along the same line.
+
+    See Also
+    --------
+    Train : its field `slides`
+    """
+
+    pair: tuple[Id, Id] = Field(description="Two links that slide along each other")
+    axis: Id = Field(description="Label of the axis; equal labels mean travel along one line")
+
+
+Slides = Annotated[tuple[Slide, ...], AlsoShort(_JOINT_SCHEMA)]
 
 
 class GearPair(Declared):

@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Figure, RelativeError, Span, above_zero, bad, checked
+from geartrain.numerics.quantity import Amount, Figure, RelativeError, Span, above_zero, bad, checked
 from geartrain.train.fields import AlsoShort, Boolean, Declared, Id, exactly_one, short_for, whole_number
 from geartrain.train.printed_period import PrintedPeriod, is_printed_period
 
@@ -269,8 +269,10 @@ class Target(Declared):
         Annotated[Span, BeforeValidator(_check_calendar_unit), above_zero(f"give a period {_RETROGRADE}", "a period")]
         | None
     ) = Field(None, description="Time or length of `turns` turns, above 0")
-    speed: Figure | None = Field(
-        None, description="Speed in the train's unit with its sign; 0 is compared by difference"
+    speed: Amount | None = Field(
+        None,
+        description="Speed in the train's unit with its sign, or the travel of a sliding link such as `1.25 mm`; "
+        "0 is compared by difference",
     )
     sense: Literal["direct", "retrograde"] | None = Field(
         None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
@@ -330,11 +332,11 @@ class Expect(Declared):
 
     SHORT: ClassVar = {"type": ["number", "string"]}
 
-    value: Figure = Field(
-        description="Expected speed in the train's unit; integers and fractions are exact, "
-        "decimals are compared to their digits"
+    value: Amount = Field(
+        description="Expected speed in the train's unit, or travel of a sliding link with its unit; integers and "
+        "fractions are exact, decimals are compared to their digits"
     )
-    tolerance: Annotated[Figure, _TOLERANCE] | None = Field(
+    tolerance: Annotated[Amount, _TOLERANCE] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
     )
 
@@ -351,7 +353,8 @@ class Expect(Declared):
 
 def _read_printed(raw: object, info: ValidationInfo) -> object:
     """Read a published value or its tolerance: a time if a period is printed, otherwise a number."""
-    if info.data.get("as_") == "period":
+    # `as_` is missing if it is not valid, which is reported
+    if info.data.get("as_", "period" if is_printed_period(raw) else None) == "period":
         return PrintedPeriod.parse(raw)
     if is_printed_period(raw):
         raise bad("published", f"'{raw}' is a time, not a number", "add `as: period`")
@@ -370,7 +373,7 @@ class Published(Declared):
     as_: Literal["speed", "input/output", "output/input", "period"] = Field(
         "speed", alias="as", description="Quantity that is printed; ratios need exactly one non-zero input"
     )
-    value: Annotated[Figure, BeforeValidator(_read_printed)] = Field(
+    value: Annotated[Amount, BeforeValidator(_read_printed)] = Field(
         description="Value as printed; the computed value must match all its digits. For a period a time, such as "
         "27.32 d, 24 h 50 min 28.4 s or 29 y 157 d, where y is the train's unit"
     )
@@ -383,7 +386,7 @@ class Published(Declared):
     turns: Annotated[Figure, _TURNS] = Field(
         Figure.parse(1), description="Number of turns of the output in the printed period; above 0"
     )
-    tolerance: Annotated[Figure, BeforeValidator(_read_printed), _TOLERANCE] | None = Field(
+    tolerance: Annotated[Amount, BeforeValidator(_read_printed), _TOLERANCE] | None = Field(
         None, description="Maximum difference, in the unit of the value; for a period a time; default by its digits"
     )
     place: str | None = Field(None, description="Page or table of the source")

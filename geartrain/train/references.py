@@ -7,23 +7,18 @@ from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
 from geartrain.errors import Loc, Problem, dotted, suggest
-from geartrain.numerics.quantity import units_of
+from geartrain.numerics.quantity import as_rotation, units_of
 from geartrain.train.declaration import Train
 from geartrain.train.manufacturing import material_table
+from geartrain.train.mechanism import Joint
 from geartrain.train.outputs import Output, Published, Target
 from geartrain.train.periods import period_table, suggested_period
 from geartrain.train.printed_period import PrintedPeriod, year_seconds
 from geartrain.train.reconstruction import NEW_ARBOR
-from geartrain.train.states import Drive, State
+from geartrain.train.sliding_links import sliding_problems
+from geartrain.train.states import Drive
 
 # ----------------------------------------------------------------------------------------------------- unit consistency
-
-
-def _cases(train: Train) -> Iterator[tuple[Loc, Train | State]]:
-    """Yield the train and its states with their paths: both have inputs, loads, fixed links, locks and outputs."""
-    yield (), train
-    for name, state in train.states.items():
-        yield ("states", name), state
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
@@ -31,14 +26,17 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
     time. Inputs of 0 may have a unit or not.
     """
     inputs = [
-        ((*loc, "inputs", link), speed) for loc, part in _cases(train) for link, speed in (part.inputs or {}).items()
+        ((*loc, "inputs", link), speed)
+        for loc, part in train.cases_declared
+        for link, speed in (part.inputs or {}).items()
     ]
-    named = next((each for each in inputs if each[1].unit is not None), None)
-    plain = next((each for each in inputs if each[1].unit is None and each[1].value), None)
+    named = next((each for each in inputs if as_rotation(each[1]).unit is not None), None)
+    plain = next((each for each in inputs if as_rotation(each[1]).unit is None and each[1].value), None)
     if named is None:
         return
     if plain is not None:
-        why = f"'{plain[1]}' is a number without a unit and '{named[1]}' has a unit"
+        kind = "number without a unit" if plain[1].unit is None else "travel per unit of the train, not per time"
+        why = f"'{plain[1]}' is a {kind} and '{named[1]}' has a unit"
         yield Problem(
             "inputs with and without units are mixed", why, "give all inputs a unit, or none", train.place(*plain[0])
         )
@@ -52,7 +50,9 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
 def mixed_torques(train: Train) -> Iterator[Problem]:
     """Yield a problem if torques with and without units are mixed; torques of 0 may have a unit or not."""
     found = [
-        ((*loc, "loads", link), torque) for loc, part in _cases(train) for link, torque in (part.loads or {}).items()
+        ((*loc, "loads", link), torque)
+        for loc, part in train.cases_declared
+        for link, torque in (part.loads or {}).items()
     ]
     found += [(("links", name, "bearing"), part.bearing.sliding) for name, part in train.links.items() if part.bearing]
     found += [(("couplings", at), each) for at, coupling in enumerate(train.couplings) for each in coupling.torques]
@@ -68,7 +68,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
 
 def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
     """Yield the drives of the train and of its states with their paths."""
-    for loc, part in _cases(train):
+    for loc, part in train.cases_declared:
         if part.drive is not None:
             yield (*loc, "drive"), part.drive
 
@@ -290,17 +290,20 @@ def _links(train: Train) -> Iterator[Problem]:
     elif train.frame not in links:
         yield _unknown(train, "link", train.frame, links, "frame")
     labels = set()
-    for at, joint in enumerate(train.revolutes):
+    joints: list[tuple[str, str, int, Joint]]
+    joints = [("revolutes", "turning", at, joint) for at, joint in enumerate(train.revolutes)]
+    joints += [("slides", "sliding", at, joint) for at, joint in enumerate(train.slides)]
+    for key, kind, at, joint in joints:
         labels.add(joint.axis)
         for link in joint.pair:
             if link not in links and link != train.frame:
-                yield _unknown(train, "link", link, links, "revolutes", at, "pair")
+                yield _unknown(train, "link", link, links, key, at, "pair")
         if joint.pair[0] == joint.pair[1]:
             yield Problem(
-                f"a turning pair joins '{joint.pair[0]}' to itself",
-                "a turning pair joins two different links",
+                f"a {kind} pair joins '{joint.pair[0]}' to itself",
+                f"a {kind} pair joins two different links",
                 "name the other link",
-                train.place("revolutes", at),
+                train.place(key, at),
             )
     for label in train.axes:
         if label not in labels:
@@ -439,7 +442,7 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
     for at, coupling in enumerate(train.couplings):
         yield from ((kind, name, ("couplings", at, *path)) for kind, name, path in coupling.references())
         yield "source", coupling.source, ("couplings", at)
-    for loc, part in _cases(train):
+    for loc, part in train.cases_declared:
         for key in ("inputs", "fixed", "loads"):
             yield from (("link", link, (*loc, key)) for link in getattr(part, key) or ())
         for at, pair in enumerate(part.locks or ()):
@@ -490,7 +493,7 @@ def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Ite
 
 
 def _prescriptions(train: Train) -> Iterator[Problem]:
-    for loc, part in _cases(train):
+    for loc, part in train.cases_declared:
         if train.frame in (part.inputs or ()):
             yield Problem(
                 f"the frame '{train.frame}' is an input",
@@ -505,6 +508,7 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
                 yield from published_units(train, output.published, (*loc, "outputs", name, "published"))
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
+    yield from sliding_problems(train)
     yield from rates(train)
     if train.escapement is not None and train.escapement.link == train.frame in train.links:
         what = f"the escapement is on the frame '{train.frame}', which does not turn"

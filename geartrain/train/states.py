@@ -17,11 +17,15 @@ from pydantic_core import PydanticCustomError
 from geartrain.errors import Loc, Problem
 from geartrain.numerics.exact import abridged_text, decimal
 from geartrain.numerics.quantity import (
+    TRAVEL_ARM,
     Figure,
     Inertia,
+    InputSpeed,
+    Load,
     Mass,
     MeasuredLength,
     Quantity,
+    Rate,
     Speed,
     Time,
     Torque,
@@ -144,10 +148,12 @@ class Drive(Declared):
     ('weight', 0.08)
     """
 
-    rate: Speed | None = Field(None, description="Constant speed of the input in real time, for any load")
+    rate: Rate | None = Field(None, description="Constant speed of the input in real time, for any load")
     torque: DriveTorque | None = Field(None, description="Constant torque")
     weight: Annotated[Mass, above_zero("give a mass such as 4 kg")] | None = Field(
-        None, description="Mass of a weight on a line around a drum; needs `drum`"
+        None,
+        description="Mass of a weight on a line around a drum; needs `drum`, unless the `crank` is the link of the "
+        "weight, which slides",
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
         None,
@@ -160,10 +166,10 @@ class Drive(Declared):
     @model_validator(mode="after")
     def _has_one_key(self) -> Drive:
         exactly_one(self, "a drive", _KINDS, "kind")
-        if (self.weight is None) != (self.drum is None):
+        if self.weight is None and self.drum is not None:
             raise PydanticCustomError(
                 "drive",
-                "`weight` and `drum` must be given together",
+                "`drum` is given without `weight`",
                 {"fix": "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"},
             )
         return self
@@ -176,14 +182,16 @@ class Drive(Declared):
 
     @property
     def pull(self) -> float | None:
-        """Constant torque of a weight at its drum, mass times gravity times radius, or of a spring at its equalised
+        """Constant torque of a weight, mass times gravity times the radius of its drum, or of a spring at its equalised
         fusee [N m]; None for other drives.
+
+        For the link of the weight itself it is the torque equivalent to the force, see `as_torque`.
         """
         if self.spring is not None and self.spring.fusee is not None and self.spring.fusee.torque is not None:
             return self.spring.fusee.torque.si
-        if self.weight is None or self.drum is None:
+        if self.weight is None:
             return None
-        return self.weight.si * GRAVITY * self.drum.si
+        return self.weight.si * GRAVITY * (float(TRAVEL_ARM) if self.drum is None else self.drum.si)
 
     @property
     def steady_torque(self) -> float | None:
@@ -331,9 +339,11 @@ class State(Declared):
     locks: tuple[tuple[Id, Id], ...] | None = Field(
         None, description="Pairs of links that are locked together; default from the train"
     )
-    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link; default from the train")
-    loads: ByName[Torque] | None = Field(
-        None, description="External torques by link, positive if power enters the train; default from the train"
+    inputs: ByName[InputSpeed] | None = Field(None, description="Prescribed speeds by link; default from the train")
+    loads: ByName[Load] | None = Field(
+        None,
+        description="External torques, and forces on sliding links, by link, positive if power enters the train in the "
+        "positive sense; default from the train",
     )
     solve_for: Id | None = Field(None, description="Link whose external torque is the unknown; default from the train")
     drive: Drive | None = Field(None, description="Drive of the train in time; default from the train")
@@ -364,6 +374,7 @@ class Remove(Declared):
     gears: tuple[Id, ...] = Field((), description="Ids of gear pairs")
     couplings: tuple[Id, ...] = Field((), description="Ids of couplings")
     revolutes: tuple[tuple[Id, Id], ...] = Field((), description="Turning pairs, each as its two links")
+    slides: tuple[tuple[Id, Id], ...] = Field((), description="Sliding pairs, each as its two links")
     outputs: tuple[Id, ...] = Field((), description="Names of outputs")
     dials: tuple[Id, ...] = Field((), description="Names of dials")
     states: tuple[Id, ...] = Field((), description="Names of states")
@@ -473,6 +484,8 @@ class StateCase(Shown):
     """Links of the declared brake or lock that causes an indirect one, by the links that are fixed or locked
     indirectly.
     """
+    sliding: frozenset[str] = frozenset()
+    """Links that slide, whose speeds are travels in mm."""
     problems: tuple[Problem, ...] = ()
     """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
     senses: Mapping[tuple[str, ...], int] = field(default_factory=dict)
@@ -498,7 +511,8 @@ class StateCase(Shown):
         link : str
             One of the inputs.
         """
-        return f"{link} = {self.shown(self.inputs[link])}"
+        unit = " mm" if link in self.sliding else ""
+        return f"{link} = {self.shown(self.inputs[link])}{unit}"
 
     def shown(self, speed: Fraction) -> str:
         """Return a speed as text: a fraction, or a decimal number if it is not exact.

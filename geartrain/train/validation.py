@@ -1,7 +1,7 @@
 """Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and
 fix.
 
-`revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the other links.
+`revolutes: {main: [frame, sun, carrier]}`, and `slides` likewise: on each axis the first link carries the other links.
 `gears: [s ~ p]`: a pair of two wheels.
 `belts: [p ~ q]`: a coupling of kind belt around two wheels.
 """
@@ -269,14 +269,17 @@ def _models_in(annotation: Any) -> Iterator[Any]:
 
 # ------------------------------------------------------------------------------------------------------- short forms
 
+JOINTS = ("revolutes", "slides")
+"""Keys with a short form in which the first link on each axis carries the other links."""
 _MARK = "~"
 """Separator of the two wheels in the short form of a gear pair."""
 
 
 def has_short_forms(data: Mapping[str, Any]) -> bool:
     """Return True if plain data contain short forms, or bare lists instead of pairs."""
-    pairs = (each for key in ("gears", "revolutes") if isinstance(data.get(key), list | tuple) for each in data[key])
-    short = isinstance(data.get("revolutes"), Mapping) or bool(data.get("belts"))
+    listed = (data[key] for key in ("gears", *JOINTS) if isinstance(data.get(key), list | tuple))
+    pairs = (each for parts in listed for each in parts)
+    short = any(isinstance(data.get(key), Mapping) for key in JOINTS) or bool(data.get("belts"))
     return short or any(isinstance(each, str | list | tuple) for each in pairs)
 
 
@@ -285,14 +288,13 @@ def written_out(root: YamlNode) -> YamlNode:
 
     Raises `DeclarationError` for short forms that are not valid.
     """
-    joints, gears = root.mapping.get("revolutes"), root.mapping.get("gears")
-    short_joints = joints if joints is not None and isinstance(joints.value, dict) else None
+    joints = {key: root.mapping[key] for key in JOINTS if key in root.mapping}
+    gears = root.mapping.get("gears")
+    short_joints = {key: each for key, each in joints.items() if isinstance(each.value, dict)}
     short_gears = [each for each in gears.items if isinstance(each.value, str)] if gears is not None else []
     _check_short_forms(joints, gears, short_joints, short_gears)
     root = _with_belts(root)
-    changed: dict[str, YamlNode] = {}
-    if short_joints is not None:
-        changed["revolutes"] = YamlNode(list(_joints(short_joints)), short_joints.place)
+    changed = {key: YamlNode(list(_joints(each)), each.place) for key, each in short_joints.items()}
     if gears is not None and short_gears:
         pairs = [_pair(each) if isinstance(each.value, str) else each for each in gears.items]
         changed["gears"] = YamlNode(pairs, gears.place)
@@ -326,15 +328,18 @@ def _belt(belt: YamlNode) -> YamlNode:
 
 
 def _check_short_forms(
-    joints: YamlNode | None, gears: YamlNode | None, short_joints: YamlNode | None, short_gears: list[YamlNode]
+    joints: Mapping[str, YamlNode],
+    gears: YamlNode | None,
+    short_joints: Mapping[str, YamlNode],
+    short_gears: list[YamlNode],
 ) -> None:
     """Raise `DeclarationError` if a pair is a bare list, or a short form has too few or too many parts."""
-    lists = [*_lists("gears", gears, "{} ~ {}"), *_lists("revolutes", joints, "{{pair: [{}, {}], axis: A}}")]
-    axes = short_joints.mapping if short_joints is not None else {}
-    single = [axis for axis, links in axes.items() if len(links.items) < 2]
+    lists = [*_lists("gears", gears, "{} ~ {}")]
+    lists += [each for key, part in joints.items() for each in _lists(key, part, "{{pair: [{}, {}], axis: A}}")]
     wrong = [gear for gear in short_gears if len(names := _wheels(gear.value)) != 2 or not all(names)]
-    if short_joints is not None and single:
-        lists += [_single_link(axis, short_joints.keys.get(axis, short_joints.place)) for axis in single]
+    for joint in short_joints.values():
+        single = [axis for axis, links in joint.mapping.items() if len(links.items) < 2]
+        lists += [_single_link(axis, joint.keys.get(axis, joint.place)) for axis in single]
     if len(wrong) == 2 == len(short_gears) and all(_MARK not in gear.value for gear in wrong):  # gears: [a, b]
         raise DeclarationError(_invalid_pair(YamlNode(" ".join(gear.value for gear in wrong), wrong[0].place)))
     if lists or wrong:  # texts are composed only for the problems that are shown

@@ -138,3 +138,26 @@ def test_backlash_in_mm_is_no_error_where_the_module_is_requested_for(tmp_path: 
     done = call("export", train, "--to", tmp_path / "cut", "--as", "svg", "--module", "2mm")
     assert done.exit_code == 0, done.output
     assert "s~p: 0.1 mm" in (tmp_path / "cut" / "README.md").read_text(encoding="utf-8")
+
+
+def test_parts_that_are_not_ready_to_cut_have_exit_code_1(tmp_path: Path) -> None:
+    train = tmp_path / "planets.yaml"
+    text = """
+name: planets
+links:
+  frame: {wheels: {r: {teeth: 45, internal: true}}}
+  sun: {wheels: {s: 15}}
+  planet: {wheels: {p: 15}, copies: 3}
+  carrier: {}
+revolutes: {main: [frame, sun, carrier], P: [carrier, planet]}
+gears: [s ~ p, p ~ r]
+inputs: {sun: 1}
+"""
+    train.write_text(text, encoding="utf-8")
+    done = call("export", train, "--to", tmp_path / "fit", "--as", "svg", "--module", "2mm")
+    assert (done.exit_code, "not ready to cut" in done.output) == (0, False), done.output
+    # 16 + 45 teeth are not a multiple of 3: one planet can be assembled
+    train.write_text(text.replace("s: 15", "s: 16").replace("p: 15", "p: 14"), encoding="utf-8")
+    done = call("export", train, "--to", tmp_path / "miss", "--as", "svg", "--module", "2mm")
+    assert (done.exit_code, "not ready to cut" in done.output) == (1, True), done.output
+    assert (tmp_path / "miss" / "README.md").exists()

@@ -60,17 +60,17 @@ states:
   pushed low: {engaged: [forward, low], inputs: {OUT: 1}, outputs: {IN: {}}}
   required: {engaged: [forward, direct, F]}
 """
-# O4: a chain drives one cog by its front and the other by its back; here by gears with the same ratios
+# O4: a chain drives one cog by its front and the other by its back
 RETRO = """
 frame: f
 links:
   f: {}
-  chain: {wheels: {front: {teeth: 44, internal: true}, back: 44}}
+  chain: {wheels: {c: 44}}
   a: {wheels: {cog a: 18}}
   b: {wheels: {cog b: 26}}
   wheel: {}
 revolutes: {C: [f, chain], W: [f, a, b, wheel]}
-gears: [front ~ cog a, back ~ cog b]
+couplings: [{kind: belt, around: [c, cog a]}, {kind: belt, around: [c, cog b], reversed: [cog b]}]
 clutches: {A: {locks: [a, wheel], one_way: forward}, B: {locks: [b, wheel], one_way: forward}}
 outputs: {wheel: {}}
 states: {ahead: {inputs: {chain: 1}}, back: {inputs: {chain: -1}}}
@@ -126,7 +126,7 @@ def test_o1_the_ring_holds_five_halves_of_the_torque_of_the_sun_or_overruns() ->
     assert train.solve()["carrier"] == Fraction(2, 7)
     held = actions(train)["F"]
     assert (held.holds, held.torque, held.slip) == (True, Fraction(5, 2), 0)
-    assert notes(train) == ("driven from carrier F lets go: no engine braking",)
+    assert notes(train) == ("driven from carrier, F lets go: no engine braking",)
     both = train.with_changes(inputs={"sun": 1, "carrier": 1})
     assert both.solve()["ring"] == 1
     free = actions(both)["F"]
@@ -158,7 +158,7 @@ def test_o3_a_simpson_set_holds_in_first_gear_only_while_the_engine_drives() -> 
     assert (held.holds, held.torque) == (True, Fraction(16, 11))
     driven = train.driven("OUT", "IN", "1")
     assert driven.external["C2"] / -driven.external["OUT"] == Fraction(16, 27)
-    assert notes(train, "1") == ("driven from OUT F lets go: no engine braking",)
+    assert notes(train, "1") == ("driven from OUT, F lets go: no engine braking",)
     assert (train.solve("2")["OUT"], actions(train, "2")["F"].slip) == (Fraction(11, 16), Fraction(121, 256))
     assert (train.solve("3")["OUT"], actions(train, "3")["F"].slip) == (1, 1)
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from commands import call
 
 from geartrain import GearTrainError, load
 from geartrain.report import collect_report, collect_torque_report
@@ -397,3 +398,67 @@ def test_check_finds_pulleys_that_overlap_and_a_coaxial_ratio_of_1() -> None:
     locked = SET.replace("-75/50", "1")
     (remark,) = load(locked).kinematics.remarks
     assert "that is a lock" in remark.what
+
+
+# ------------------------------------------------------------------------------------------------------------- in time
+
+
+HEAVY_BELT = """
+links: {frame: {}, a: {}, b: {inertia: 1 kg m2}}
+revolutes: {A: [frame, a], B: [frame, b]}
+couplings: [{kind: belt, around: {a: 50 mm, b: 75 mm}, REVERSED efficiency: {forward: 98 %, backward: 50 %}}]
+inputs: {a: 1}
+loads: {b: LOAD N m}
+"""
+HEAVY_SET = """
+links: {frame: {}, sun: {}, ring: {inertia: 1 kg m2}, arm: {inertia: 1 kg m2}}
+revolutes: {main: [frame, sun, ring, arm]}
+couplings: [{pair: [PAIR], carrier: arm, ratio: RATIO, efficiency: {forward: 90 %, backward: 80 %}}]
+inputs: {INPUT: 1}
+fixed: [FIXED]
+loads: {OUT: -2 N m}
+"""
+
+
+@pytest.mark.parametrize(
+    ("turned", "load_"), [("", "-3"), ("", "3"), ("reversed: [b],", "3"), ("reversed: [b],", "-3")]
+)
+def test_a_belt_in_time_has_the_torque_of_the_balance(turned: str, load_: str) -> None:
+    train = load(HEAVY_BELT.replace("REVERSED", turned).replace("LOAD", load_))
+    driving = (load_ == "-3") == (turned == "")
+    wanted = 2 / 0.98 if driving else -1.0
+    assert float(train.torques().external["a"]) == pytest.approx(wanted)
+    run = train.dynamics("1 turn/s", turns=1, skip=0, steps=400)
+    assert run.torque == pytest.approx(wanted, rel=1e-9)
+    assert "slip, creep and stretch of a~b" in str(run)
+
+
+@pytest.mark.parametrize(
+    ("pair", "ratio", "driving", "fixed", "out", "wanted"),
+    [
+        # the sun drives the ring in the arm's frame: ring -3/2 0.9, arm the rest
+        ("sun, ring", "-3/2", "sun", "ring", "arm", 2 / (1 + 1.5 * 0.9)),
+        ("ring, sun", "-2/3", "sun", "ring", "arm", 2 / (1 + 1.5 * 0.8)),
+        ("sun, ring", "-3/2", "sun", "arm", "ring", -2 / 1.5 * 0.8),
+        ("ring, sun", "2/3", "sun", "ring", "arm", None),
+        ("sun, ring", "-3/2", "ring", "sun", "arm", None),
+    ],
+)
+def test_a_set_in_time_has_the_torque_of_the_balance(
+    pair: str, ratio: str, driving: str, fixed: str, out: str, wanted: float | None
+) -> None:
+    values = {"PAIR": pair, "RATIO": ratio, "INPUT": driving, "FIXED": fixed, "OUT": out}
+    text = HEAVY_SET
+    for key, value in values.items():
+        text = text.replace(key, value)
+    train = load(text)
+    balance = float(train.torques().external[driving])
+    assert wanted is None or balance == pytest.approx(wanted)
+    assert train.dynamics("1 turn/s", turns=1, skip=0, steps=400).torque == pytest.approx(balance, rel=1e-9)
+
+
+def test_the_rated_power_of_the_reference_turbine_is_its_published_one() -> None:
+    found = call("torques", "nrel-5mw", "--state", "rated")
+    # 5 MW of electricity at a generator efficiency of 94.4 %
+    assert "Power in 5.297 MW" in found.stdout
+    assert pytest.approx(5.29661, abs=1e-5) == 5 / 0.944

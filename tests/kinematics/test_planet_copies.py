@@ -221,3 +221,21 @@ def test_unequal_copies_cannot_mesh() -> None:
     with pytest.raises(DeclarationError, match="cannot be joined"):
         read(text).solve()
     assert read(text.replace("copies: 2", "copies: 3")).unfolded.mobility.by_rank == 2
+
+
+def test_a_rounded_position_of_a_planet_gives_positions_of_its_copies() -> None:
+    """A third of a turn from (67.549981495, -39) mm, rounded at 1e-9 mm, is (0, 78) mm up to 1e-10 mm."""
+    train = geartrain.load("""
+links: {frame: {}, carrier: {}, p: {wheels: {w: 20}, copies: 3}}
+axes:
+  A: {direction: [1, 0, 0], position: [0 mm, 0 mm, 0 mm]}
+  B: {direction: [1, 0, 0], position: [100 mm, 67.549981495 mm, -39 mm]}
+revolutes: {A: [frame, carrier], B: [carrier, p]}
+inputs: {carrier: 1, p: 0}
+""")
+    places = [axis.position for label, axis in train.unfolded.declaration.axes.items() if label.startswith("B")]
+    assert [[round(part.si * 1000, 6) for part in place or ()] for place in places] == [
+        [100, 67.549981, -39],
+        [100, 0, 78],
+        [100, -67.549981, -39],
+    ]

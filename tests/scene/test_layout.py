@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import itertools
 import math
 import random
@@ -271,3 +272,39 @@ def test_slots_are_found_in_a_row_longer_than_calls_may_be_deep() -> None:
         assert slots[one].low <= slots[other].high, "mates share a slot"
         assert slots[other].low <= slots[one].high, "mates share a slot"
     assert slots[near].high < slots[far].low or slots[far].high < slots[near].low
+
+
+# groups of equal planets ----------------------------------------------------------------------------------------------
+
+RAVIGNEAUX = """
+name: planets on planets
+links:
+  frame: {{}}
+  small: {{wheels: {{s1: {small}}}}}
+  large: {{wheels: {{s2: 21}}}}
+  ring: {{wheels: {{r: {{teeth: 45, internal: true}}}}}}
+  carrier: {{}}
+  short: {{wheels: {{ps: 12}}, copies: {copies}}}
+  long: {{wheels: {{pl: 12}}, copies: {copies}}}
+revolutes: {{main: [frame, small, large, ring, carrier], S: [carrier, short], L: [carrier, long]}}
+gears: [s1 ~ ps, s2 ~ pl, pl ~ r, ps ~ pl]
+inputs: {{small: 1}}
+fixed: [carrier]
+"""
+
+
+@pytest.mark.parametrize(("small", "copies", "fits"), [(15, 2, True), (15, 3, True), (16, 3, False)])
+def test_copies_of_planets_that_mesh_with_each_other_are_rotated_about_their_carrier(
+    small: int, copies: int, fits: bool
+) -> None:
+    train = geartrain.load(RAVIGNEAUX.format(small=small, copies=copies))
+    layout = lay_out(train)
+    points = {label: complex(*place.point[:2]) for label, place in layout.axes.items()}
+    for number in range(1, copies):
+        turn = cmath.exp(2j * math.pi * number / copies)
+        for first in "SL":
+            found = points[f"{first}.{number + 1}"] - points["main"]
+            assert found == pytest.approx((points[first] - points["main"]) * turn)
+    # the rule on equal planets, which knows no positions, finds the same
+    assert any("do not mesh" in notice.what for notice in layout.notices) != fits
+    assert any(finding.rule == "A2" for finding in train.build_findings) != fits

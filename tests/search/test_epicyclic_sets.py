@@ -7,13 +7,15 @@ from collections.abc import Mapping
 from fractions import Fraction
 from itertools import product
 from math import acos, asin, atan2, cos, gcd, isinf, sin
+from pathlib import Path
 from typing import Any
 
 import pytest
+from commands import call
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from geartrain import GearTrain
+from geartrain import GearTrain, load
 from geartrain.errors import QuestionError, RangeError
 from geartrain.search import EpicyclicSet, find_sets, read_ratio, search_train
 from geartrain.search.epicyclic.epicyclic_sets import kinds
@@ -54,6 +56,19 @@ def test_three_k_sets_may_be_requested_with_their_carrier_too(name: str) -> None
     modes = [f"{a}:carrier:{b}" for a, b in product(kind.links[:-1], repeat=2) if a != b]
     for found in find_sets(F(4), kind, modes, range(12, 40), best=12, spaced=False).solutions:
         assert GearTrain.declare(found.to_train()).solve().failures == ()
+
+
+def test_a_set_is_declared_with_its_planets(tmp_path: Path) -> None:
+    path = tmp_path / "set.yaml"
+    done = call(
+        "teeth", "set", "3", "--kind", "ravigneaux", "--range", "12:45", "--planets", "3", "--best", "1", "-o", path
+    )
+    assert done.exit_code == 0
+    assert {name: link.copies for name, link in load(path).declaration.links.items() if "planet" in name} == {
+        "planet1": 3,
+        "planet2": 3,
+    }
+    assert "without findings: 3 planets 'planet1', 3 planets 'planet2'" in " ".join(call("check", path).output.split())
 
 
 def test_modes_are_all_choices_of_three_members_but_for_mirror_images() -> None:

@@ -115,7 +115,9 @@ def checked(found: Orrery, periods: dict[str, Fraction], slack: Fraction, counts
         assert found.errors[name] == period / has[name] - 1
         assert abs(found.errors[name]) <= slack
     assert {arbor.name: arbor.sense for arbor in found.arbors} == senses
-    answer = GearTrain.declare(found.to_train()).solve()
+    train = GearTrain.declare(found.to_train())
+    assert all(name in train.declaration.title for name in periods)
+    answer = train.solve()
     assert answer
     for name in periods:
         assert answer[name] == senses[name] / has[name]

@@ -346,6 +346,24 @@ def test_a_clock_goes_by_its_beats_and_loses_the_work_of_its_weight() -> None:
     assert run.energy.closure < 1e-9
 
 
+def test_a_weight_that_is_a_link_drives_its_clock_as_its_torque_and_inertia_on_the_drum_do() -> None:
+    hung = {
+        **CLOCK,
+        "links": {**CLOCK["links"], "weight": {"mass": "0.5 kg"}},
+        "slides": {"rope": ["frame", "weight"]},
+        "couplings": [{"kind": "drum", "turns": "barrel", "slides": "weight", "diameter": "40 mm", "reversed": True}],
+        "crank": "weight",
+        "drive": {"weight": "0.5 kg"},
+    }
+    ways = {"turns": 1 / 900, "skip": 0, "steps": 18_000, "samples": 40, "fast": False}
+    drum, weight = (GearTrain.declare(each).dynamics(**ways) for each in (CLOCK, hung))
+    assert weight.angles["escape"] == pytest.approx(drum.angles["escape"], abs=1e-14)
+    # 2 pi of a sliding link are 1 mm
+    assert weight.angles["weight"] / (2 * pi) == pytest.approx(-20 * drum.angles["barrel"], abs=1e-12)
+    assert weight.energy.loads == pytest.approx(drum.energy.loads, rel=1e-12)
+    assert weight.energy.impact_loss == pytest.approx(drum.energy.impact_loss, rel=1e-9)
+
+
 def test_a_wheel_caught_within_a_step_gives_its_weights_work_to_the_escapement() -> None:
     run = load("longcase-clock").dynamics(turns=1 / 180, skip=0, steps=360_000, fast=False)
     assert run.energy.impact_loss == pytest.approx(run.energy.loads, rel=1e-6)

@@ -153,7 +153,7 @@ SLIPS = {
     "density: 8.7": "'8.7' has no unit",
     "drive: {}": "a drive needs exactly one kind; found: nothing",
     "drive: {rate: 1, torque: 2 N m}": "found: rate and torque",
-    "drive: {weight: 4 kg}": "`weight` and `drum` must be given together",
+    "drive: {weight: 4 kg}": "the weight at 'a' has no `drum`",
     "drive: {torque: -2 N m}": "-2 N m is below 0",
     "drive: {wieght: 4 kg}": "did you mean 'weight'",
     "drive: {hand: {torque: 1 N m, stiffness: 2 N m/rad}}": "`stiffness` applies only to a hand with a `rate`",

@@ -33,10 +33,11 @@ ROOM = 15 * sin(pi / 5) - 7 * sqrt(1 + 3 * sin(pi / 7) ** 2)
 CHECKED = {
     "01": (0, f"the tips of 5 planets 'p7' have a clearance of only {ROOM:.4g} modules"),
     "03": (0, "the sum of the shifts must be 1.094 [P1]"),
+    "04": (0, "all 2 expectations hold; without findings: 4 planets 'planet'"),
     # 6 h over 6.0874 h is 1 - 0.0143575
     "05": (1, "target period 6 h in either sense missed by -14357.5 ppm (tolerance 1 %)"),
     "06": (0, "wheel 'n40' is not cut: its pairs 'n30~n40' and 'n40~n50' require different teeth"),
-    "08": (1, "found -25000; only the sign differs"),
+    "08": (1, "found -25000; only the sign differs (`magnitude: true` ignores it)"),
     "10": (0, "wheel 'finger' has one tooth, which cannot drive continuously"),
     "11": (0, "all 2 expectations hold"),
     "12": (0, "overlap by 0.1832 modules unless their addenda are at most 0.908"),
@@ -64,8 +65,30 @@ def test_a_declared_addendum_decides_whether_they_fit(addendum: str, level: str)
     assert [found.level for found in load(text).build_findings if found.rule == "A3"] == [level]
 
 
-def test_counts_to_search_may_be_a_list() -> None:
-    path = CASES / "09-list-of-counts.yaml"
+def test_a_published_ratio_may_be_a_magnitude() -> None:
+    text = case("08").read_text(encoding="utf-8").replace("as: output/input", "as: output/input, magnitude: true")
+    assert load(text).solve().failures == ()
+
+
+def test_a_state_with_an_input_at_rest_is_determined_and_its_open_clutch_slips() -> None:
+    result = load(case("04")).solve("coast")
+    assert {link: result[link] for link in ("axle", "ring", "cage", "sprocket", "shell")} == {
+        "axle": 0,
+        "ring": 0,
+        "cage": 0,
+        "sprocket": 0,
+        "shell": 1,
+    }
+    gearbox = json.loads(call("gearbox", case("04"), "--json").stdout)
+    (coast,) = (state for state in gearbox["states"] if state["state"] == "coast")
+    # the cage seen from the shell
+    assert coast["slips"]["pawls"] == "-1"
+
+
+@pytest.mark.parametrize("of", [None, "{of: [15, 19, 57, 60]}", "{of: {15: 1, 19: 1, 57: 1, 60: 1}}"])
+def test_counts_to_search_may_be_a_list_of_owned_wheels(of: str | None, tmp_path: Path) -> None:
+    text, path = case("09").read_text(encoding="utf-8"), tmp_path / "owned.yaml"
+    path.write_text(text if of is None else text.replace("[15, 19, 57, 60]", of), encoding="utf-8")
     found = json.loads(call("teeth", "train", path, "--centre-tolerance", "1", "--json").stdout)
     # 1/2 (15/60 + 19/57) = 7/24, and its mirror image
     wanted = [{"a": 15, "b": 19, "c": 60, "d": 57}, {"a": 19, "b": 15, "c": 57, "d": 60}]

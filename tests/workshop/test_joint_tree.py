@@ -130,7 +130,7 @@ def test_a_file_is_written_or_refused_by_name(tmp_path: Path) -> None:
     assert call("export", "planetary", "-o", tmp_path / "set.xml").exit_code == 0
     refused = call("export", "prius-power-split", "-o", tmp_path / "two.urdf")
     assert refused.exit_code == 2
-    assert "has 2 inputs" in refused.output
+    assert "the number of moving inputs is 2" in refused.output
     assert "write MJCF" in refused.output
     noted = call("export", "carman-thorndike-evans-2012", "-o", tmp_path / "pins.xml").output
     assert "is written with its mean ratio" in noted

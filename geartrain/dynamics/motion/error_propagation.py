@@ -182,7 +182,10 @@ class ErrorPath(NamedTuple):
     driver: int
     driven: int
     carrier: int
+    """Link whose angle is subtracted from the angle of the driver: usually the carrier of both sides."""
     coefficient: int
+    driven_carrier: int
+    """Link whose angle is subtracted from the angle of the driven side."""
 
 
 @dataclass(frozen=True)

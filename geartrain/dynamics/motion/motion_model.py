@@ -326,8 +326,15 @@ class Motion(Shown):
 
     def _statistics(self) -> list[RunningStatistics]:
         return [
-            RunningStatistics(name, self._problem.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()
+            RunningStatistics(name, self._problem.seen_ratio(of, base), slides=name in self._sliding)
+            for name, (of, base) in self.outputs.items()
         ]
+
+    @cached_property
+    def _sliding(self) -> frozenset[str]:
+        """Outputs of links that slide, for which an angle of 2 pi is a travel of 1 mm."""
+        lines = self._problem.tree.lines if self._problem.tree is not None else {}
+        return frozenset(name for name, (of, _) in self.outputs.items() if of in lines)
 
     @property
     def _start_angles(self) -> list[float]:

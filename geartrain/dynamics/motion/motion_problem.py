@@ -54,6 +54,8 @@ class MotionProblem:
     """
     loops: Sequence[Loop] = ()
     """Loops closed by redundant pairs, around which the transmission errors of the teeth may be incompatible."""
+    tree: Tree | None = None
+    """Joints of the train, for speeds relative to links that slide; None if no link slides."""
 
     @cached_property
     def periods(self) -> Mapping[str, Fraction]:
@@ -80,6 +82,7 @@ class MotionProblem:
         """Return the mean speed of a link relative to another, about the axis of the first, divided by the speed of the
         driving link.
         """
+        base = base if self.tree is None else self.tree.reference(link, base)
         return relative_speed(link, base, self.ratio, self.signs)
 
     def relative(self, link: str, carrier: str) -> Fraction:
@@ -162,6 +165,7 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
         {gear.name: float(gear.phase.value) for gear in declared.gears if gear.phase is not None},
         find_shared_wheels(circuits, own.tree) if meshes else {},
         [parts.loop(chord) for chord in parts.closing] if meshes or train.couplings else [],
+        own.tree if own.tree.lines else None,
     )
 
 

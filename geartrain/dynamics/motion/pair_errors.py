@@ -53,7 +53,9 @@ class PairErrors:
         """Propagation of the errors of pairs to the requested links."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
-        ends = {name: [self.index[link] for link in (each.i, each.j, each.carrier)] for name, each in circuits.items()}
+        ends = {
+            name: [self.index[link] for link in (each.i, each.j, *each.subtracted)] for name, each in circuits.items()
+        }
         wanted = [self.index[link] for link in self.links]
         found = find_error_propagation(self.train.system, ends, lambda name: self._joint(circuits[name]), wanted)
         if found is None:
@@ -72,9 +74,10 @@ class PairErrors:
 
     def _joint(self, circuit: Circuit) -> ErrorPath:
         driven = self.driven_side(circuit)
-        ends = (circuit.i, circuit.j)
-        driver, follower, carrier = (self.index[link] for link in (ends[1 - driven], ends[driven], circuit.carrier))
-        return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
+        ends = [self.index[link] for link in (circuit.i, circuit.j)]
+        bases = [self.index[link] for link in circuit.subtracted]
+        coefficient = (circuit.a, circuit.b)[driven]
+        return ErrorPath(ends[1 - driven], ends[driven], bases[1 - driven], coefficient, bases[driven])
 
     def driven_side(self, circuit: Circuit) -> int:
         """Return 0 if the circuit's first link is driven, 1 if its second link is driven.
@@ -132,7 +135,7 @@ class PairErrors:
         self, at: int, circuit: Circuit, ahead: TransmissionFunction, transmission: TransmissionFunction
     ) -> PairErrorSource:
         driven = self.driven_side(circuit)
-        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
+        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.subtracted[1 - driven]
         driver = self.train.relative(ends[1 - driven], carrier)
         forward = -1 if driver < 0 else 1
         sense = self.sense(circuit)

@@ -80,6 +80,8 @@ class RunningStatistics(Result):
     """True if `minimum`, `most`, `slow` and `fast` are the extremes over the whole run; False if they are the extremes
     at the evaluated positions.
     """
+    slides: bool = False
+    """True for a link that slides: an angle of 2 pi is a travel of 1 mm."""
 
     def add(self, error: Floats, rate: Floats) -> None:
         """Include the errors and speeds at further positions in the peak values and moments.

@@ -17,6 +17,7 @@ from geartrain.kinematics.circuits import Axes, Circuit, Tree, pallet_link
 from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate
+from geartrain.numerics.quantity import TRAVEL_ARM
 from geartrain.teeth.coupling import Coupling
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.train import GearPair, StateCase, Train
@@ -165,6 +166,11 @@ class LoadCase:
         """Directions and positions of the axes of all links."""
         return Axes(self.train, self.tree)
 
+    @property
+    def arms(self) -> Mapping[str, Fraction]:
+        """Lever arm [m] at which the force on each sliding link is calculated as a torque."""
+        return dict.fromkeys(self.tree.lines, TRAVEL_ARM)
+
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
         """Return the labels of the axes of a circuit's first and second link on its carrier."""
         seen_from = self.tree.axis_seen_from
@@ -190,6 +196,9 @@ class LoadCase:
 
         The relative speed of two links may be determined even if neither speed is.
         """
+        return self._difference(link, self.tree.reference(link, carrier))
+
+    def _difference(self, link: str, carrier: str) -> Fraction | None:
         own = self.sense(link)
         found = relative_speed(link, carrier, self.speeds.get, self.signs)
         if found is not None:
@@ -223,7 +232,7 @@ class LoadCase:
 
     def turn(self, circuit: Circuit) -> Fraction | None:
         """Return the speed of a circuit's first link relative to its carrier; at 0 no power flows through the pair."""
-        return self.relative(circuit.i, circuit.carrier)
+        return self._difference(circuit.i, circuit.subtracted[0])
 
     @cached_property
     def bearings(self) -> tuple[BearingTorque, ...]:
@@ -245,7 +254,7 @@ class LoadCase:
     def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
         """Friction torques above 0 that do not depend on the load, by the link and the link that carries it."""
         own = (
-            (link, self.tree.parent[link][0], friction) for link in self.train.links if (friction := self.bearing(link))
+            (link, self.tree.borne_by(link), friction) for link in self.train.links if (friction := self.bearing(link))
         )
         jumpers = (
             (each.i, each.carrier, self.couplings[each.id].friction_torque)

@@ -83,10 +83,10 @@ def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     """Return the efficiencies of a coupling, first with the driven link of the declaration driving; 1 for a follower,
     whose mean power is 0.
     """
-    efficiency = setting.couplings[circuit.id].efficiency
-    if efficiency is not None and circuit.b:
-        declared = efficiency.backward.base, efficiency.forward.base
-        return MeanEfficiencies(declared, declared)
+    coupling = setting.couplings[circuit.id]
+    if (losses := coupling.losses) is not None and circuit.b:
+        both = losses.backward.base, losses.forward.base
+        return MeanEfficiencies(both, both, exact=coupling.efficiency is not None)
     joint = setting.joints.get(circuit.id)
     if not isinstance(joint, PinMesh) or not joint.transmission.friction or not circuit.b:
         return MeanEfficiencies()

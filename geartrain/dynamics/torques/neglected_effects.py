@@ -101,7 +101,7 @@ def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[
             added = wider
         else:
             added = np.full_like(added, inf) * [[-1], [1]]
-        found = {link: tuple(bounds(link, setting.tree.parent[link][0], added).tolist()) for link in links}
+        found = {link: tuple(bounds(link, setting.tree.borne_by(link), added).tolist()) for link in links}
     return {
         link: (low, high)
         for link, (low, high) in found.items()
@@ -115,7 +115,7 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
             joint = setting.joints.get(circuit.id)
             transmission = joint.transmission if joint else None
             yield _NonuniformPair(
-                circuit.id, transmission, circuit.j, circuit.carrier, Fraction(circuit.a), Fraction(-circuit.b)
+                circuit.id, transmission, circuit.j, circuit.subtracted[1], Fraction(circuit.a), Fraction(-circuit.b)
             )
             continue
         tooth = setting.meshes.get(circuit.id)
@@ -126,7 +126,7 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
         driver, own = (circuit.i, circuit.a) if first else (circuit.j, circuit.b)
         mean = Fraction(tooth.transmission.ratio)
         yield _NonuniformPair(
-            circuit.id, tooth.transmission if tooth.verdict else None, driver, circuit.carrier, -own / mean, mean
+            circuit.id, tooth.transmission if tooth.verdict else None, driver, circuit.subtracted[0], -own / mean, mean
         )
 
 
@@ -253,7 +253,7 @@ def _teeth(
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
         has_friction = setting.has_friction(gear) and means[circuit.id] == MeanEfficiencies()
-        if has_friction and setting.relative(circuit.i, circuit.carrier) != 0:
+        if has_friction and setting.turn(circuit) != 0:
             bare[_NO_HELIX if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
     for why, names in bare.items():
         if names:
@@ -274,8 +274,7 @@ def _open(
     found = tuple(
         circuit.id
         for circuit in busy
-        if (means[circuit.id] != MeanEfficiencies() or _at_no_speed(setting, circuit))
-        and setting.relative(circuit.i, circuit.carrier) is None
+        if (means[circuit.id] != MeanEfficiencies() or _at_no_speed(setting, circuit)) and setting.turn(circuit) is None
     )
     if found:
         yield NeglectedEffect("losses of pairs", found, "their driving side depends on speeds that are not determined")
@@ -300,7 +299,7 @@ def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
     """Yield the bearings whose sense of rotation is undetermined or changes within a revolution."""
     bearing_friction = _bearing_friction(setting)
-    free = tuple(link for link in bearing_friction if setting.relative(link, setting.tree.parent[link][0]) is None)
+    free = tuple(link for link in bearing_friction if setting.relative(link, setting.tree.borne_by(link)) is None)
     if free:
         yield NeglectedEffect("friction of bearings", free, "their sense of rotation is not determined")
     known = [link for link in bearing_friction if link not in free]
@@ -310,7 +309,7 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
         yield NeglectedEffect("friction of bearings that reverse", tuple(known), why)
         return
     for link, (low, high) in back.items():
-        mean = setting.relative(link, setting.tree.parent[link][0]) or Fraction(0)
+        mean = setting.relative(link, setting.tree.borne_by(link)) or Fraction(0)
         why = (
             f"it is computed at the mean speed {decimal(mean, 4)}, but the speed varies from {low:.4g} to {high:.4g} "
             "within a turn, so that more is lost: torques over a turn include it"

@@ -305,16 +305,19 @@ def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
 
 def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
     """Yield each pair and bearing with the power that flows into it from each of its links."""
-    speed = found.speeds
     for pair in found.pairs.values():
         yield (
             PowerNode("pair", pair.id),
-            [(link, -torque * speed[link]) for link, torque in zip(pair.links, pair.torques, strict=True)],
+            # a link of undetermined speed has no torque
+            [(link, -found.power(link, own)) for link, own in zip(pair.links, pair.torques, strict=True) if own],
         )
     for bearing in found.bearings:
         ends = ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction))
         # a bearing at rest or of undetermined speed has no torque, and its speed may be missing
-        yield PowerNode("bearing", bearing.link), [(link, -torque * speed[link]) for link, torque in ends if torque]
+        yield (
+            PowerNode("bearing", bearing.link),
+            [(link, -found.power(link, torque)) for link, torque in ends if torque],
+        )
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:

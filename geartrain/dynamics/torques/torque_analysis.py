@@ -16,6 +16,7 @@ from geartrain.dynamics.torques.torque_balance import LoadedPair, LoadShares, To
 from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import decimal
+from geartrain.numerics.quantity import TRAVEL_ARM
 from geartrain.train import Train
 
 _GREAT = 10**12  # lambda of section 6: factor of the load that makes constant friction negligible
@@ -85,9 +86,8 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
     likely = [link for link in dict.fromkeys((*setting.case.inputs, *outputs, *borne)) if link in moving]
     torques = {link: torque for link in likely if (torque := balancing_torque(motions, link)) is not None}
     helpful = {link: torque for link, torque in torques.items() if not known.get(link)}
-    amounts = [f"{decimal(torque, 6)} at {link}" for link, torque in helpful.items()] or [
-        f"{decimal(torque, 6)} more at {link}" for link, torque in torques.items()
-    ]
+    shown = {link: decimal(_load(setting.arms, link, torque), 6) for link, torque in torques.items()}
+    amounts = [f"{shown[link]} at {link}" for link in helpful] or [f"{shown[link]} more at {link}" for link in torques]
     fix = f"; a torque of {' or '.join(amounts[:3])} would balance them" if amounts else ""
     held = f"with {', '.join(requested)} at rest, they" if requested else "they"
     text = f"the loads do not balance: {held} set {_some(likely or sorted(moving))} in motion{fix}"
@@ -280,7 +280,7 @@ def _planet_meshes(
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
         ways = (mesh.forward, mesh.backward)
-        at_first, at_second, _ = mesh.torques(0)
+        at_first, at_second = mesh.torques(0)[:2]
         for planet, mate, wheel, own, other, losses in (
             (circuit.i, circuit.j, second, at_first, at_second, ways),
             (circuit.j, circuit.i, first, at_second, at_first, ways[::-1]),
@@ -570,16 +570,17 @@ def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
     """Return a circuit as a loaded pair with its losses; without losses if its relative speed is undetermined."""
-    i, j, k = circuit.i, circuit.j, circuit.carrier
-    senses = (setting.sense(i), setting.sense(j), setting.sense(k))
-    relative = setting.relative(i, k) or Fraction(0)
+    # a travel reacts on a link that slides and on a link that turns, other pairs on one link
+    links = (circuit.i, circuit.j, *(circuit.subtracted if circuit.travels else circuit.subtracted[:1]))
+    senses = tuple(map(setting.sense, links))
+    relative = setting.turn(circuit) or Fraction(0)
     forward, backward = means.given(0, driving=False) if means else (Fraction(1), Fraction(1))
     a, b = circuit.a, circuit.b
     # the sign of a row is arbitrary: normalised, so that equal planets have equal rows for either order of their
     # wheels and for opposite axes
     if min(a * senses[0], b * senses[1], key=abs) < 0:
         a, b = -a, -b
-    return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
+    return LoadedPair(circuit.id, links, senses, a, b, a * relative, forward, backward)
 
 
 def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fraction]) -> dict[str, Fraction]:
@@ -622,11 +623,12 @@ def _torques(
     # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
     for link, torque in bearing_friction.items():
         external[link] -= torque
+    arms = setting.arms
     return Torques(
         setting.case.state,
         verdict,
         balance.unknown,
-        {link: torque for link, torque in external.items() if torque or link in solved.external},
+        {link: _load(arms, link, torque) for link, torque in external.items() if torque or link in solved.external},
         setting.speeds,
         {
             mesh.id: _pair(setting, mesh, circuit, flow)
@@ -637,21 +639,30 @@ def _torques(
         neglected,
         reactions,
         {each.name: each.slip for each in setting.case.one_way if not each.holds},
+        arms,
     )
+
+
+def _load(arms: Mapping[str, Fraction], link: str, torque: Fraction) -> Fraction:
+    """Return the force on a sliding link [N] for the torque by which it is calculated; torques are unchanged."""
+    return torque / arms[link] if link in arms else torque
 
 
 def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPattern) -> PairTorque:
     x = flow.solved.multipliers[mesh.id]
-    first, second, carrier = (x * each for each in mesh.torques(flow.pattern.get(mesh.id, 0)))
     # power flows from the first link to the second if the multiplier is opposite to the rolling speed
     ahead = ((x < 0) - (x > 0)) * mesh.turn
     return PairTorque(
         mesh.id,
         circuit.wheels[0 if ahead > 0 else 1] if ahead else "",
         mesh.links,
-        (first, second, carrier),
+        tuple(
+            # the frame takes the force of a travel if it does not slide with the pair
+            x * torque / (TRAVEL_ARM if circuit.travels and at in (0, 2) else 1)
+            for at, torque in enumerate(mesh.torques(flow.pattern.get(mesh.id, 0)))
+        ),
         x,
-        mesh.rolling if setting.relative(circuit.i, circuit.carrier) is not None else None,
+        mesh.rolling if setting.turn(circuit) is not None else None,
         mesh.efficiency(ahead),
         mesh.id in flow.solved.loose,
         setting.means[mesh.id].exact,
@@ -667,9 +678,11 @@ def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
     found = []
     for link in _brakes(setting):
         torque = solved.brakes.get(link)
-        found.append(_holding(setting, (link,), None if torque is None else (torque,)))
+        found.append(_holding(setting, (link,), None if torque is None else (_load(setting.arms, link, torque),)))
     for (a, b), torque in zip(_locks(setting), solved.locks, strict=True):
-        both = None if torque is None else (setting.sense(a) * torque, -setting.sense(b) * torque)
+        both = None
+        if torque is not None:
+            both = _load(setting.arms, a, setting.sense(a) * torque), _load(setting.arms, b, -setting.sense(b) * torque)
         found.append(_holding(setting, (a, b), both))
     return tuple(found)
 

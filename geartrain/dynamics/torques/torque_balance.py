@@ -30,10 +30,10 @@ class LoadedPair:
     """Gear pair or coupling that transmits torque: equations (1), (2), (4) and (5) of docs/torques.md."""
 
     id: str
-    links: tuple[str, str, str]
-    """Links i, j and k: first link, second link, and carrier."""
-    senses: tuple[int, int, int]
-    """Senses of the axes of first link, second link and carrier, 1 or -1."""
+    links: tuple[str, ...]
+    """Links i, j and k: first link, second link, and carrier; four links if the two sides react on different links."""
+    senses: tuple[int, ...]
+    """Senses of the axes of `links`, 1 or -1."""
     a: int
     """Coefficient of the first link in the pair's Willis equation."""
     b: int
@@ -80,11 +80,12 @@ class LoadedPair:
         """Return the efficiency with the first link driving (`side` 1) or the second (-1); 1 for side 0."""
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
-    def torques(self, side: int) -> tuple[Fraction, Fraction, Fraction]:
-        """Return the torques on first link, second link and carrier for a multiplier of 1: equation (5)."""
+    def torques(self, side: int) -> tuple[Fraction, ...]:
+        """Return the torques on `links` for a multiplier of 1: equation (5)."""
         left = self.a * (self.backward if side < 0 else Fraction(1))
         right = self.b * (self.forward if side > 0 else Fraction(1))
-        return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
+        reactions = (-left - right,) if len(self.links) == 3 else (-left, -right)
+        return tuple(sense * torque for sense, torque in zip(self.senses, (left, right, *reactions), strict=True))
 
     def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
         """Return the signs of the torques on both links relative to `other`, an equal pair with the same unknown
@@ -259,7 +260,7 @@ class TorqueBalance:
         return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
-        """Yield the entries of a mesh's torques in the balance: row, index of its link (0 to 2), and factor."""
+        """Yield the entries of a mesh's torques in the balance: row, index of its link in `links`, and factor."""
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
 

@@ -20,7 +20,7 @@ class LinkTorque(Result):
     KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "requested")
 
     torque: Fraction
-    """External torque on the link [N m, or number without a unit]."""
+    """External torque on the link, or force on a link that slides [N m or N, or number without a unit]."""
     power: Fraction | None
     """Power that the torque puts into the train [torque times the train's unit of speed]; None if the speed is
     undetermined.
@@ -64,7 +64,9 @@ class HoldingTorque(Result):
 
 
 class MemberTorques(NamedTuple):
-    """Torques on the members of a gear pair or coupling [N m, or number without a unit]."""
+    """Torques on the members of a gear pair or coupling, and the force on a member that slides [N m and N, or numbers
+    without a unit].
+    """
 
     first: Fraction
     """Torque on the first link of the pair [N m, or number without a unit]."""
@@ -117,10 +119,14 @@ class PairTorque(Result):
     """Name of the pair or coupling."""
     driver: str
     """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
-    links: tuple[str, str, str]
-    """Names of first link, second link and carrier of the pair."""
-    torques: tuple[Fraction, Fraction, Fraction]
-    """Torques on the three links, each about its own axis [N m, or number without a unit]."""
+    links: tuple[str, ...]
+    """Names of first link, second link and carrier of the pair. For a link that slides and a link that turns, the
+    links on which they react follow: the third takes the reaction of the force, the fourth that of the torque.
+    """
+    torques: tuple[Fraction, ...]
+    """Torques on these links, each about its own axis, or forces on links that slide [N m or N, or number without a
+    unit].
+    """
     multiplier: Fraction
     """Multiplier x of the pair's Willis equation; without losses the torque on the first link is x times its
     coefficient a.
@@ -139,6 +145,11 @@ class PairTorque(Result):
     """False if `share` is a mean over teeth, a float with 15 digits."""
 
     @property
+    def forces(self) -> tuple[bool, ...]:
+        """True for each of `links` on which a force acts, False for a torque."""
+        return (True, False, True, False) if len(self.links) == 4 else (False,) * 3
+
+    @property
     def efficiency(self) -> Fraction | float:
         """Basic efficiency (with the carrier at rest) for `driver` as driving side; a float for a mean over teeth."""
         return self.share if self.exact else float(self.share)
@@ -146,7 +157,7 @@ class PairTorque(Result):
     @property
     def on_members(self) -> MemberTorques:
         """Torques on first link, second link and carrier [N m, or number without a unit]."""
-        return MemberTorques(*self.torques)
+        return MemberTorques(self.torques[0], self.torques[1], self.torques[-1])
 
     @cached_property
     def power(self) -> Fraction | None:
@@ -321,7 +332,9 @@ class Torques(FrozenFields, Tabular, TrainResult):
     requested: tuple[str, ...] = ()
     """Links whose external torque was computed from the torque balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
-    """External torque on each link [N m, or number without a unit]: loads, requested torques, brakes."""
+    """External torque on each link, or force on a link that slides [N m or N, or number without a unit]: loads,
+    requested torques, brakes.
+    """
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
     """Speed of each link whose speed is determined [unit of the train]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
@@ -340,6 +353,22 @@ class Torques(FrozenFields, Tabular, TrainResult):
     """Speed at which each one-way clutch overruns, without torque and loss [unit of the train], by clutch; None if
     undetermined.
     """
+    arms: Mapping[str, Fraction] = field(default_factory=dict)
+    """Lever arm [m] of the force on each link that slides: force times arm times speed, a travel of 1 mm counted as one
+    turn, is the power.
+    """
+
+    def power(self, link: str, load: Fraction) -> Fraction:
+        """Return the power of a torque or force on a link [unit of torque times the train's unit of speed].
+
+        Parameters
+        ----------
+        link : str
+            Link with determined speed.
+        load : Fraction
+            Torque, or force on a link that slides.
+        """
+        return load * self.arms.get(link, 1) * self.speeds[link]
 
     def _meaning(self, column: str) -> str:
         text = self.MEANINGS[column]
@@ -366,7 +395,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         """External power of each link whose speed is determined [unit of torque times the train's unit of speed],
         positive if it flows into the train.
         """
-        return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
+        return {link: self.power(link, load) for link, load in self.external.items() if link in self.speeds}
 
     @property
     def link_torques(self) -> Mapping[str, LinkTorque]:

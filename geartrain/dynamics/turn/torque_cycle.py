@@ -261,6 +261,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """False if there were too many patterns of power flow to examine all of them."""
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that the torques do not include."""
+    force: bool = False
+    """True if `link` slides: its torques are forces [N, or numbers without a unit]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -294,8 +296,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def unit(self) -> str:
-        """Unit of torques: `N m`, or empty for numbers without a unit."""
-        return "N m" if self.newton_metres else ""
+        """Unit of torques: `N m`, `N` for a link that slides, or empty for numbers without a unit."""
+        return ("N" if self.force else "N m") if self.newton_metres else ""
 
     @property
     def maximum_torque(self) -> float | None:

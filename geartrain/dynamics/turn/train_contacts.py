@@ -229,6 +229,12 @@ class PairContact:
         return (i, j) if self.first else (j, i)
 
     @property
+    def bases(self) -> tuple[str, str]:
+        """Links whose speeds are subtracted from the speeds of the two `ends`, usually the carrier."""
+        i, j = self.circuit.subtracted
+        return (i, j) if self.first else (j, i)
+
+    @property
     def two_sided(self) -> bool:
         """True if the two flanks differ, or if friction depends on the driving side."""
         return self.losses.has_friction or self.has_flanks
@@ -312,7 +318,7 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
 
 def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     coupling, joint = setting.couplings[circuit.id], setting.joints.get(circuit.id)
-    if (declared := coupling.efficiency) is not None:
+    if (declared := coupling.losses) is not None:
         driver, driven = float(declared.forward.base), float(declared.backward.base)
         return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
     friction = setting.train.friction_of(coupling)

@@ -181,7 +181,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     known = dict(question.loads)
     for link, friction in bearings.items():
         # only the presence of friction matters here; the odd factor prevents it from cancelling a load by chance
-        for end in (link, setting.tree.parent[link][0]):
+        for end in (link, setting.tree.borne_by(link)):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
     whole = generic_balance(build_balance(setting, known, question.links))
@@ -189,8 +189,8 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     busy = replace(
         setting, circuits=[each for each in setting.circuits if each.id in {mesh.id for mesh in balance.meshes}]
     )
-    links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, circuit.carrier)}
-    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, question.links)
+    links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, *circuit.subtracted)}
+    links.update(*((link, setting.tree.borne_by(link)) for link in bearings), known, question.links)
     links.update(map(setting.reacts_on, question.links))
     teeth = {mesh.name: mesh for mesh in problem.teeth}
     _refuse_jumps(busy)
@@ -227,20 +227,29 @@ class _RunResults:
     @cached_property
     def _way(self) -> int:
         """Sign of the reported link's mean speed about its own axis."""
-        setting, link = self.run.train.setting, self.run.train.requested[self._row]
+        setting, link = self.run.train.setting, self._link
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
         """Return the torque at the reported link, positive in its mean sense, in the solution with minimum loss."""
-        return np.asarray(self._way * found.torque[self._row])
+        return np.asarray(self._way * found.torque[self._row] / self._arm)
 
     def _highest(self, found: PositionTorques) -> Floats:
         """Return the torque at the reported link, positive in its mean sense, in the solution with maximum loss."""
-        return np.asarray(self._way * found.highest[self._row])
+        return np.asarray(self._way * found.highest[self._row] / self._arm)
+
+    @property
+    def _link(self) -> str:
+        return self.run.train.requested[self._row]
+
+    @property
+    def _arm(self) -> float:
+        """Lever arm of the force on a reported link that slides [m]; 1 for a torque."""
+        return float(self.run.train.setting.arms.get(self._link, 1))
 
     def cycle(self) -> TorqueCycle:
         train, found = self.run.train, self.run.found
-        link = train.requested[self._row]
+        link = self._link
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         maximum = None if locked else self._extreme(1, False)
         torque, neglected, period = self._torque(found), self._neglected(), train.motion.period
@@ -274,6 +283,7 @@ class _RunResults:
             self._stretches(),
             train.complete,
             neglected,
+            link in train.setting.arms,
         )
 
     def _neglected(self) -> tuple[NeglectedEffect, ...]:

@@ -424,7 +424,7 @@ class TurnBalance:
         return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
 
     def _contact_state(self, contact: PairContact, motion: LinkMotion) -> DriverState:
-        turning = contact.way * self._speed(motion, contact.ends[0], contact.circuit.carrier)
+        turning = contact.way * self._speed(motion, contact.ends[0], contact.bases[0])
         return DriverState(motion.angles.get(contact.name, np.zeros(0)), turning)
 
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
@@ -466,7 +466,7 @@ class TurnBalance:
 
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
         """Return the friction torques of a bearing on its link and on its carrier, each about the link's own axis."""
-        carrier, setting = self.setting.tree.parent[link][0], self.setting
+        carrier, setting = self.setting.tree.borne_by(link), self.setting
         speed = self._speed(state.motion, link, carrier)
         torque = np.sign(speed) * self._rubbing(state, link, speed)
         found = [(link, -setting.sense(link) * torque)]
@@ -501,8 +501,8 @@ class TurnBalance:
         found: dict[int, Floats] = {}
         for mesh in column.meshes:
             first, second = self._for_planet(mesh.id, force)
-            i, j, k = mesh.senses
-            members = i * first, j * second, -k * (first + second)
+            reactions = (-first - second,) if len(mesh.links) == 3 else (-first, -second)
+            members = [sense * each for sense, each in zip(mesh.senses, (first, second, *reactions), strict=True)]
             for row, member, factor in self.balance.places(mesh):
                 found[row] = found.get(row, 0.0) + float(factor) * members[member]
         return found
@@ -559,7 +559,7 @@ class TurnBalance:
         acting[: len(self.requested)] = torque
         for link, load in self.loads.items():
             acting[self.outside.index(link)] += load
-        slipping = [self._speed(motion, link, self.setting.tree.parent[link][0]) for link in self.bearings]
+        slipping = [self._speed(motion, link, self.setting.tree.borne_by(link)) for link in self.bearings]
         # power lost in a bearing: friction torque times speed
         rubbed = [
             self._rubbing(state, link, each) * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)
@@ -590,10 +590,10 @@ class TurnBalance:
         forces = state.forces[column.meshes[0].id]
         circuit = self.contacts[name].circuit
         powers = []
-        for end, link in enumerate((circuit.i, circuit.j)):
+        for end, (link, base) in enumerate(zip((circuit.i, circuit.j), circuit.subtracted, strict=True)):
             ahead, back = (self._for_planet(name, forces.get(side, forces[1]))[end] for side in (1, -1))
             torque = np.where(pressed < 0, back, ahead) * pressed
-            powers.append(torque * self._speed(state.motion, link, circuit.carrier))
+            powers.append(torque * self._speed(state.motion, link, base))
         return -(powers[0] + powers[1]), np.maximum(-powers[0], 0) + np.maximum(-powers[1], 0)
 
 

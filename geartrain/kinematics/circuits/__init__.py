@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geartrain.kinematics.circuits.fundamental import Circuit, find_circuits
+from geartrain.kinematics.circuits.fundamental import Circuit, couplings_on_axes, find_circuits
 from geartrain.kinematics.circuits.joint_tree import (
     Axes,
     Tree,
@@ -20,6 +20,7 @@ __all__ = [
     "Tree",
     "check_pallets",
     "close_joints",
+    "couplings_on_axes",
     "find_circuits",
     "find_tree",
     "pallet_link",

@@ -57,6 +57,22 @@ class Circuit(NamedTuple):
     """Remark: the sense of rotation is only a convention, or the links turn as one body; empty without a remark."""
     by_teeth: bool = True
     """True if a and b are the tooth counts of `wheels`, apart from the sign; False for couplings without teeth."""
+    bases: tuple[str, ...] = ()
+    """Links whose speeds are subtracted from the speeds of i and j; empty if the carrier is subtracted from both.
+
+    A sliding carrier does not turn: for a link that turns, the base is the nearest link at or above the carrier that
+    turns, and for a link that slides, the nearest one that slides in the same direction (or the frame).
+    """
+
+    @property
+    def travels(self) -> bool:
+        """True if link j turns and link i slides."""
+        return self.kind != "gear" and COUPLINGS[self.kind].travels
+
+    @property
+    def subtracted(self) -> tuple[str, str]:
+        """Links whose speeds are subtracted from the speeds of links i and j."""
+        return (self.bases[0], self.bases[1]) if self.bases else (self.carrier, self.carrier)
 
     @property
     def swings(self) -> bool:
@@ -78,8 +94,14 @@ class Circuit(NamedTuple):
         """Links with non-zero coefficients of the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
-        pair without losses, and the row modulo 1 gives the phases of its teeth.
+        pair without losses, and the row modulo 1 gives the phases of its teeth. If a sliding carrier is involved, the
+        coefficients -a and -b belong to the two `bases`.
         """
+        if self.bases:
+            row: dict[str, int] = {}
+            for link, factor in zip((self.i, self.j, *self.bases), (self.a, self.b, -self.a, -self.b), strict=True):
+                row[link] = row.get(link, 0) + factor
+            return tuple((link, factor) for link, factor in row.items() if factor)
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
         # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
@@ -141,7 +163,8 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur"
         ):  # fast path for nearly all pairs, without directions
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
-            circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
+            circuit = Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair)
+            circuits.append(_turning(tree, circuit) if tree.lines else circuit)
             continue
         try:
             a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
@@ -151,7 +174,8 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
                 replace(each, what=f"gear pair '{gear.name}': {each.what}", place=place) for each in error.problems
             ]
             continue
-        circuits.append(Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note))
+        circuit = Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note)
+        circuits.append(_turning(tree, circuit) if tree.lines else circuit)
     for at, coupling in enumerate(train.couplings):
         found = _coupling_circuits(train, axes, coupling, at)
         problems += [each for each in found if isinstance(each, Problem)]
@@ -193,6 +217,10 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
             return _not_coaxial(train, row, at)
         return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
     labels = _labels(tree, carrier, row.driven, row.driver)
+    if COUPLINGS[coupling.kind].travels:
+        ends = (row.driven, row.driver)
+        circuit = Circuit(row.id, coupling.kind, *ends, carrier, row.a, row.b, ends, by_teeth=False)
+        return _travel(train, axes, coupling, circuit, at)
     b = row.b
     if coupling.OBLIQUE:
         if problem := _wrong_angle(train, axes, coupling, labels, at):
@@ -206,7 +234,59 @@ def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: Couplin
         return _oblique(train, coupling, row, labels, at)
     ends = (row.driven, row.driver)
     note = _SOLID if row.a + b == 0 and _shared_axis(tree, *ends) is not None else ""
-    return Circuit(row.id, coupling.kind, *ends, carrier, row.a, b, row.wheels or ends, note, row.wheels is not None)
+    by_teeth = row.wheels is not None
+    circuit = Circuit(row.id, coupling.kind, *ends, carrier, row.a, b, row.wheels or ends, note, by_teeth)
+    return _turning(tree, circuit) if tree.lines else circuit
+
+
+def _turning(tree: Tree, circuit: Circuit) -> Circuit:
+    """Return the circuit of two links that turn, without the sliding links among its members."""
+    i, j, base = (tree.moving(link, None) for link in (circuit.i, circuit.j, circuit.carrier))
+    if (i, j, base) == (circuit.i, circuit.j, circuit.carrier):
+        return circuit
+    return circuit._replace(i=i, j=j, bases=(base, base))
+
+
+def _travel(train: Train, axes: Axes, coupling: Coupling, circuit: Circuit, at: int) -> Circuit | Problem:
+    """Return the circuit of a link j that turns and a link i that slides, each relative to the carrier's motion of its
+    kind.
+    """
+    tree, carrier = axes.tree, circuit.carrier
+    along, about = tree.axis_seen_from(carrier, circuit.i), tree.axis_seen_from(carrier, circuit.j)
+    slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
+    if along not in slides or about in slides:
+        return _wrong_motion(train, coupling, circuit, at, along not in slides)
+    b = circuit.b
+    if not axes.plain:
+        declared = all(label in axes.directions for label in (along, about))
+        if declared and coupling.kind == "screw" and not axes.are_parallel((along, about)):
+            return _oblique_screw(train, coupling, (along, about), at)
+        # the sense of a screw is that of its thread; other couplings are declared about and along their own axes
+        if coupling.kind != "screw":
+            b *= axes.sign(along) * axes.sign(about)
+    line = slides[along]
+    i, j = tree.moving(circuit.i, line), tree.moving(circuit.j, None)
+    return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
+
+
+def _wrong_motion(train: Train, coupling: Coupling, circuit: Circuit, at: int, turns: bool) -> Problem:
+    link, key = (circuit.i, "slides") if turns else (circuit.j, "turns")
+    does, joints = ("turns", "slides") if turns else ("slides", "revolutes")
+    return Problem(
+        f"coupling '{coupling.name}': '{link}' {does} on '{circuit.carrier}'",
+        f"a {coupling.kind} joins a link that turns to a link that slides",
+        f"declare '{link}' under `{joints}`, or name another link as `{key}`",
+        train.place("couplings", at),
+    )
+
+
+def _oblique_screw(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
+    return Problem(
+        f"coupling '{coupling.name}': the slide '{labels[0]}' is not parallel to the axis '{labels[1]}' of the screw",
+        "a nut moves along the axis of its screw",
+        f"give both the same direction in `axes`, such as `{labels[0]}: {{direction: [1, 0, 0]}}`",
+        train.place("couplings", at),
+    )
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
@@ -235,8 +315,9 @@ def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | 
 
 def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
     """Return the couplings of a train, with the angle between their axes filled in where it follows from `axes`."""
-    axes = Axes(train, tree)
-    found = []
+    if not any(coupling.OBLIQUE for coupling in train.couplings):
+        return tuple(train.couplings)
+    axes, found = Axes(train, tree), []
     for coupling in train.couplings:
         if coupling.OBLIQUE:
             driver, driven = coupling.links(train.wheels)

@@ -1,4 +1,4 @@
-"""Turning pairs as a tree rooted at the frame; directions and positions of the axes, and the signs of meshes.
+"""Turning and sliding pairs as a tree rooted at the frame; directions and positions of axes, and signs of meshes.
 
 Helical wheels in mesh are checked for compatible teeth, and their senses of rotation are determined.
 
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import combinations
 from math import atan2, degrees, pi, remainder
@@ -24,13 +24,13 @@ from geartrain.numerics.elimination import eliminate
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel, size
-from geartrain.train import Escapement, StateCase, Train, Wheel
+from geartrain.train import Escapement, Revolute, Slide, StateCase, Train, Wheel
 
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """Turning pairs of a train as a spanning tree rooted at the frame; it determines the carriers of pairs and their
-    axes.
+    """Turning and sliding pairs of a train as a spanning tree rooted at the frame; it determines the carriers of pairs
+    and their axes.
     """
 
     frame: str
@@ -38,6 +38,37 @@ class Tree(FrozenFields):
     """Parent of each link (its neighbour towards the frame), and the label of the axis between them, as declared."""
     top: Mapping[str, str]
     """Link that carries the axis of each link: the first link on the path to the frame that is not on the same axis."""
+    lines: Mapping[str, str] = field(default_factory=dict)
+    """Direction of travel of each link that slides, by name: its axis label, or the first label of a parallel axis."""
+
+    def reference(self, link: str, base: str) -> str:
+        """Return the link at or above `base` whose motion is comparable with the motion of `link`; the frame if there
+        is none.
+
+        For a link that turns it is the nearest one that turns, because a sliding link does not turn relative to its
+        bearer. For a link that slides it is the nearest one that slides in the same direction.
+        """
+        return self.moving(base, self.lines.get(link)) if self.lines else base
+
+    def moving(self, link: str, line: str | None) -> str:
+        """Return the nearest link at or above `link` that slides along `line`, or that turns if `line` is None; the
+        frame if there is none.
+        """
+        while link != self.frame and self.lines.get(link) != line:
+            link = self.parent[link][0]
+        return link
+
+    def borne_by(self, link: str) -> str:
+        """Return the link relative to which the motion in the joint of `link` is measured: its parent, or if the parent
+        has a motion of the other kind, the nearest link above with a comparable motion.
+        """
+        return self.reference(link, self.parent[link][0])
+
+    def bearer(self, link: str) -> str:
+        """Return the link relative to which `link` moves on its axis: the link that carries the axis, or if that has a
+        motion of the other kind, the nearest link above with a comparable motion.
+        """
+        return self.reference(link, self.top[link])
 
     def axis(self, link: str) -> str | None:
         """Return the axis label of the joint between a link and its parent; None for the frame."""
@@ -88,11 +119,15 @@ def check_pallets(train: Train, tree: Tree) -> None:
 
 @collector_paused()
 def find_tree(train: Train) -> Tree:
-    """Build the tree of turning pairs with the frame as root. Raises `DeclarationError` if they do not form a tree."""
-    if not train.revolutes and len(train.links) > 1:
+    """Build the tree of joints with the frame as root. Raises `DeclarationError` if they do not form a tree."""
+    declared: list[tuple[Revolute | Slide, Loc]] = [
+        *((joint, ("revolutes", at)) for at, joint in enumerate(train.revolutes)),
+        *((joint, ("slides", at)) for at, joint in enumerate(train.slides)),
+    ]
+    if not declared and len(train.links) > 1:
         raise DeclarationError(_no_joints(train))
     joints: dict[str, list[tuple[str, str, int]]] = {link: [] for link in train.links}
-    for at, joint in enumerate(train.revolutes):
+    for at, (joint, _) in enumerate(declared):
         first, second = joint.pair
         joints[first].append((second, joint.axis, at))
         joints[second].append((first, joint.axis, at))
@@ -100,7 +135,8 @@ def find_tree(train: Train) -> Tree:
     top: dict[str, str] = {}
     bearer: dict[str, tuple[str, int]] = {}
     used: set[int] = set()
-    problems: list[Problem] = []
+    sliding: dict[str, str] = {}
+    problems = list(_labels_of_both(train))
     queue = deque([train.frame])
     while queue:
         link = queue.popleft()
@@ -110,38 +146,88 @@ def find_tree(train: Train) -> Tree:
                 continue
             used.add(at)
             if other == train.frame or other in parent:
-                problems.append(_cycle(train, Tree(train.frame, parent, top), link, other, at))
+                problems.append(_cycle(train, Tree(train.frame, parent, top), link, other, declared[at][1]))
                 continue
             parent[other] = (link, axis)
+            if isinstance(declared[at][0], Slide):
+                sliding[other] = axis
             # a link on the axis of its parent has the carrier of its parent
             top[other] = top[link] if link in parent and parent[link][1] == axis else link
             first_top, first_at = bearer.setdefault(axis, (top[other], at))
             if first_top != top[other]:
-                problems.append(_two_axes(train, axis, first_top, top[other], first_at, at))
+                places = declared[first_at][1], declared[at][1]
+                problems.append(_two_axes(train, axis, first_top, top[other], *places))
             queue.append(other)
     problems += [_unconnected(train, link) for link in train.links if link != train.frame and link not in parent]
     if problems:
         raise DeclarationError(problems)
-    return Tree(train.frame, parent, top)
+    return Tree(train.frame, parent, top, _lines(train, parent, sliding) if sliding else {})
 
 
-def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
+def _lines(train: Train, parent: Mapping[str, tuple[str, str]], sliding: Mapping[str, str]) -> dict[str, str]:
+    """Return the direction of travel of each sliding link by the first label with that direction.
+
+    Slides with different labels have the same direction if declared directions are parallel, and if all turning links
+    between them turn about this direction, so that it does not change.
+    """
+    labels = dict.fromkeys(sliding.values())
+    lines = {label: label for label in labels}
+    known = {label: _line(_vector(train.axes[label].direction)) for label in labels if _has_direction(train, label)}
+    for link, label in sliding.items():
+        above = parent[link][0]
+        while label in known and above in parent:
+            other = parent[above][1]
+            if above in sliding and known.get(other) == known[label]:
+                lines[label] = lines[other]
+                break
+            turns = train.axes[other].direction if other in train.axes else _Z
+            if above not in sliding and _line(_vector(turns)) != known[label]:
+                break
+            above = parent[above][0]
+    return {link: lines[label] for link, label in sliding.items()}
+
+
+def _has_direction(train: Train, label: str) -> bool:
+    return label in train.axes and "direction" in train.axes[label].model_fields_set
+
+
+def _labels_of_both(train: Train) -> Iterator[Problem]:
+    """Yield a problem for each axis label of both turning and sliding pairs."""
+    turning = {joint.axis for joint in train.revolutes}
+    for at, joint in enumerate(train.slides):
+        if joint.axis in turning:
+            yield Problem(
+                f"axis label '{joint.axis}' is used by turning pairs and by sliding pairs",
+                "a label names one axis, about which links turn or along which they slide",
+                f"give the slide another label: `{{pair: [{', '.join(joint.pair)}], axis: {joint.axis} slide}}`",
+                train.place("slides", at),
+            )
+
+
+def _cycle(train: Train, tree: Tree, link: str, other: str, loc: Loc) -> Problem:
     links, _ = tree.path(link, other)
+    if other in tree.parent and any(other in joint.pair for joint in train.slides):
+        return Problem(
+            f"link '{other}' has two joints: to '{tree.parent[other][0]}' and to '{link}'",
+            "a link turns or slides on one other link, not both",
+            f"remove one of the two joints, or declare a further link between '{link}' and '{other}'",
+            train.place(*loc),
+        )
     return Problem(
         f"the turning pairs form a cycle: {' - '.join([*links, link])}",
         "turning pairs must form a tree: n links on one axis are joined by n - 1 turning pairs",
         f"remove one of these turning pairs, such as [{link}, {other}]",
-        train.place("revolutes", at),
+        train.place(*loc),
     )
 
 
-def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, at: int) -> Problem:
+def _two_axes(train: Train, axis: str, first: str, second: str, first_loc: Loc, loc: Loc) -> Problem:
     return Problem(
         f"axis label '{axis}' names two axes",
-        f"one axis is carried by '{first}' ({train.place('revolutes', first_at)}), the other by '{second}'; "
+        f"one axis is carried by '{first}' ({train.place(*first_loc)}), the other by '{second}'; "
         "joints with one label must be coaxial",
         "give the second axis a different label",
-        train.place("revolutes", at),
+        train.place(*loc),
     )
 
 
@@ -316,9 +402,12 @@ class Axes:
         if self.plain:
             return frozenset()
         sums: set[str] = set()
-        parent = self.tree.parent
-        for link, (up, label) in parent.items():  # from the frame outwards
-            if up in sums or (up in parent and not self.are_parallel((label, self.tree.axis(up)))):
+        parent, moving = self.tree.parent, self.tree.moving
+        for link, (above, label) in parent.items():  # from the frame outwards
+            # a sliding link has its own coordinate, and does not turn
+            up = moving(above, None)
+            turns = link not in self.tree.lines
+            if turns and (up in sums or (up in parent and not self.are_parallel((label, self.tree.axis(up))))):
                 sums.add(link)
         return frozenset(sums)
 
@@ -326,7 +415,10 @@ class Axes:
         """Return True if all joint axes between two links are parallel, so that their relative speed is the speed of a
         rotation.
         """
-        return self.plain or self.are_parallel(self.tree.path(of, base)[1])
+        if self.plain or of in self.tree.lines:
+            return True
+        slides = {self.tree.axis(link) for link in self.tree.lines}
+        return self.are_parallel(label for label in self.tree.path(of, base)[1] if label not in slides)
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
         """Return True if all axes in `labels` have the same or opposite directions in the pose in which all angles are
@@ -364,6 +456,8 @@ class Axes:
             return None
         direction = self.direction(label)
         parts = (*direction, *cross(_vector(here), direction))
+        if label in {self.tree.axis(link) for link in self.tree.lines}:
+            parts = (Fraction(0),) * 3 + direction
         return {at: part for at, part in enumerate(parts) if part}
 
     def _crossing(self, one: str, other: str) -> tuple[float, int]:
@@ -493,7 +587,27 @@ def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase
         stops, linkages = bodies.close(across)
         problems += [_linkage(train, case, rigid) for rigid in linkages]
         case = _joint_by_joint(train.frame, case, across, stops)
+    if axes.tree.lines:
+        case = _in_coordinates(axes.tree, case)
     return replace(case, problems=tuple(problems)) if problems else case
+
+
+def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
+    """Return the prescriptions with each lock of a link to its bearer as a lock to the nearest link with a comparable
+    motion; a lock to the frame is a brake.
+    """
+    fixed, locks, causes = list(case.fixed), [], dict(case.causes)
+    for a, b in case.locks:
+        link, base = (a, b) if tree.bears(b, a) else (b, a)
+        own = tree.reference(link, base) if tree.bears(base, link) else base
+        new = (a, b) if own == base else (link,) if own == tree.frame else (link, own)
+        if new != (a, b):
+            causes[new] = causes.get((a, b), (a, b))
+        if len(new) == 1:
+            fixed.append(link)
+        else:
+            locks.append((new[0], new[1]))
+    return replace(case, fixed=tuple(dict.fromkeys(fixed)), locks=tuple(locks), causes=causes)
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 from geartrain.errors import MissingExtraError
 from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, divide, product
 from geartrain.kinematics.formulas.rational_functions import Formula, make_formula, whole
+from geartrain.numerics.multiples_of_pi import integer_factors
 from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
@@ -135,6 +136,7 @@ class _Style:
     power: Callable[[str, int], str]
     over: Callable[[str, str], str]
     bracketed: Callable[[str], str]
+    pi: str
 
 
 _TEXT = _Style(
@@ -142,12 +144,14 @@ _TEXT = _Style(
     lambda base, power: f"{base}^{power}",
     lambda top, bottom: f"{_in_brackets(top)}/{_in_brackets(bottom)}",
     lambda text: f"({text})",
+    "π",
 )
 _LATEX = _Style(
     lambda wheel: "z_{\\mathrm{" + wheel.replace("_", r"\_") + "}}",
     lambda base, power: f"{base}^{{{power}}}",
     lambda top, bottom: rf"\frac{{{top}}}{{{bottom}}}",
     lambda text: rf"\left({text}\right)",
+    r"\pi",
 )
 
 
@@ -315,7 +319,7 @@ class ClosedForm(Result):
 
 
 def _product(p: FactoredPolynomial, wheels: Sequence[str], style: _Style) -> str:
-    parts = [] if abs(p.content) == 1 else [str(abs(p.content))]
+    parts = integer_factors(abs(p.content), style.pi)
     for wheel, power in zip(wheels, p.powers, strict=True):
         if power:
             parts.append(style.symbol(wheel) if power == 1 else style.power(style.symbol(wheel), power))

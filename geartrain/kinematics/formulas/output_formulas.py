@@ -284,8 +284,7 @@ class SymbolicEquations:
 
     def _chord(self, parts: Components, at: int) -> Chord:
         chord = parts.circuits[at]
-        carrier = parts.index[chord.carrier]
-        i, j = (parts.node(parts.index[link], carrier) for link in (chord.i, chord.j))
+        i, j = parts.ends(chord)
         around = self._speed_ratio(chord, chord.j) * self._ratios[i] * self._ratios[j].inverse()
         return Chord(at, around, parts.node_group[i])
 
@@ -406,7 +405,7 @@ def find_formulas(
     )
     equations = _equations(train, tree, case, wheels, free)
     try:
-        return _collect_formulas(train, case, equations, wheels)
+        return _collect_formulas(train, tree, case, equations, wheels)
     except TooLongError:
         raise QuestionError(_too_coupled(train)) from None
 
@@ -457,19 +456,22 @@ def _equations(
     requested = {link for name, output in case.outputs.items() for link in output.links(name, train.frame)}
     kept = {train.frame, *requested, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)}
     circuits = relevant_circuits(circuits, kept)
-    kept |= {link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier)}
+    kept |= {link for circuit in circuits for link in (circuit.i, circuit.j, *circuit.subtracted)}
     links = [link for link in train.links if link in kept]
     variables = {name: at for at, name in enumerate(wheels)}
     return SymbolicEquations(links, train.frame, circuits, case, Axes(train, tree).link_signs, variables)
 
 
-def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
+def _collect_formulas(
+    train: Train, tree: Tree, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]
+) -> Formulas:
     solution = solve_rows(equations.rows, equations.width, _declared(train, wheels))
     outputs: dict[str, Formula] = {}
     undetermined: list[str] = []
     cancelled: dict[str, Laurent] = {}
     for name, output in case.outputs.items():
-        value = solution.value(equations.relative(*output.links(name, train.frame)))
+        of, base = output.links(name, train.frame)
+        value = solution.value(equations.relative(of, tree.reference(of, base)))
         if value is None:
             undetermined.append(name)
             continue

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, common_divisor, divide
 from geartrain.numerics.exact import fraction_text, is_short, log10
+from geartrain.numerics.multiples_of_pi import integer_factors
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
@@ -118,7 +119,7 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
     words: list[str] = []
     for coefficient, exponents in terms:
         powers = [f"{w}^{e}" if e > 1 else w for w, e in zip(wheels, exponents, strict=True) if e]
-        size = [] if abs(coefficient) == 1 and powers else [fraction_text(abs(coefficient))]
+        size = integer_factors(abs(coefficient)) or ([] if powers else ["1"])
         sign = "-" if coefficient < 0 else "+" if words else ""
         words += [
             *([sign] if sign and words else []),

@@ -46,7 +46,7 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
         return Gridlock()
     jams = tuple(_locked_subgraph(parts, jammed) for jammed in find_locked_networks(parts))
     gone = {mesh for jam in jams for mesh in jam.release.meshes}
-    ordinary = all(carrier == parts.frame for carrier in parts.group_carrier)  # then components are not coupled
+    ordinary = all(carrier == parts.frame for carrier in parts.node_carrier)  # then components are not coupled
     held = () if ordinary else _locked_links(part, gone)
     if held:
         return Gridlock(jams, held, _coupled_removal(part, gone, sum(jam.release.at_least for jam in jams)))
@@ -65,15 +65,15 @@ def find_locked_networks(parts: Components) -> list[LockedNetwork]:
         group: ([], [], {}) for group in groups
     }
     index, group_of = parts.index, parts.node_group
-    for circuit, (_, _, i, j, k, _, b, *_) in enumerate(parts.circuits):
+    for circuit, (_, _, i, j, k, _, b, _, _, _, bases) in enumerate(parts.circuits):
         # a follower is not a mesh
         if not b:
             continue
-        carrier = index[k] * size
-        node = at[carrier + index[i]]
+        first, second = bases or (k, k)
+        node = at[index[first] * size + index[i]]
         if (here := inside.get(group_of[node])) is not None:
             circuits, ends, number = here
-            other = at[carrier + index[j]]
+            other = at[index[second] * size + index[j]]
             circuits.append(circuit)
             ends.append((number.setdefault(node, len(number)), number.setdefault(other, len(number))))
     return [
@@ -167,8 +167,8 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
     circuits = [
         circuit._replace(
             # each link's relative speed is multiplied by its own factor, which cancels in the product around a loop
-            a=circuit.a * factor(circuit.j, circuit.carrier),
-            b=circuit.b * factor(circuit.i, circuit.carrier),
+            a=circuit.a * factor(circuit.j, circuit.subtracted[1]),
+            b=circuit.b * factor(circuit.i, circuit.subtracted[0]),
         )
         for circuit in part.circuits
     ]

@@ -66,6 +66,8 @@ class Mobility(Result):
     """Names of pairs whose wheels never roll on each other; empty if the system is too dense to determine them."""
     certain: bool = True
     """False if the rank was computed modulo two primes (wrong with a probability of 1e-36)."""
+    sliding_pairs: int = 0
+    """Number of sliding pairs."""
 
     def _summary(self) -> str:
         locked = f", {len(self.locked)} loops that do not close" if self.locked else ""
@@ -74,10 +76,10 @@ class Mobility(Result):
 
     @property
     def by_count(self) -> int:
-        """Mobility by count: number of turning pairs minus number of gear pairs and couplings, j_R - j_G. It is correct
-        only if no pair is redundant.
+        """Mobility by count: number of turning and sliding pairs minus number of gear pairs and couplings, j_R - j_G.
+        It is correct only if no pair is redundant.
         """
-        return self.turning_pairs - self.gear_pairs - self.couplings
+        return self.turning_pairs + self.sliding_pairs - self.gear_pairs - self.couplings
 
     @property
     def rank(self) -> int:
@@ -110,7 +112,9 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
 
 
 @collector_paused()
-def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET) -> Mobility:
+def find_mobility(
+    reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET, sliding_pairs: int = 0
+) -> Mobility:
     """Compute the mobility of the train, ignoring prescribed speeds, from the exact rank of its equations; see (16) and
     (17) of docs/theory.md.
     """

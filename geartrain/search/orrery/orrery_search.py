@@ -175,8 +175,10 @@ class Orrery(Tabular, Result):
             for arbor in self.arbors
             if arbor.shows
         }
+        pointers = ", ".join(f"{pointer} in {_plain(period)} {unit}" for pointer, period in self.periods.items())
         return {
             "name": name,
+            "title": f"Pointers from one arbor: {pointers}",
             "frame": "frame",
             "unit": {"per": f"1 {unit}"},
             "links": links,

@@ -313,7 +313,7 @@ def find_inertial_loads(
         loads,
         {link: torque.si for link, torque in friction.items()},
         {link: part.drag.si for link, part in turning.items() if part.drag is not None},
-        {link: tree.parent[link][0] for link in turning},
+        {link: tree.borne_by(link) for link in turning},
         train.crank if _is_cranked(train, case) and speeds[train.crank or ""] else None,
     )
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
 from geartrain.dynamics.wheel_teeth import WheelTeeth
+from geartrain.numerics.quantity import TRAVEL_ARM
 from geartrain.numerics.results import Result
 
 if TYPE_CHECKING:
@@ -35,7 +36,9 @@ class LinkInertia(Result):
     link: str
     """Name of the link."""
     value: float
-    """Moment of inertia about the link's axis, including the planets that the link carries [kg m2]; 0 if unknown."""
+    """Moment of inertia about the link's axis, including the planets that the link carries [kg m2]; 0 if unknown. For a
+    link that slides it is the value with the same kinetic energy, a travel of 1 mm counted as one turn.
+    """
     source: Literal["declared", "outlines", "unknown"]
     """Source of the inertia of the link without its planets: declaration, outlines of its wheels, or unknown."""
     carried: float = 0.0
@@ -116,6 +119,8 @@ class _Bodies:
 
     def total_inertia(self, link: str) -> LinkInertia:
         """Return the inertia of a link including the planets that it carries."""
+        if link in self.train.tree.lines:
+            return self._sliding(link)
         own = self._own_inertia(link)
         tree, missing = self.train.tree, list(own.missing)
         carried = 0.0
@@ -129,6 +134,16 @@ class _Bodies:
             else:
                 carried += mass * radius**2
         return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
+
+    def _sliding(self, link: str) -> LinkInertia:
+        """Return the moment of inertia equivalent to the mass of a slide and of the links that it carries."""
+        tree, line = self.train.tree, self.train.tree.lines[link]
+        masses = {each: self._mass(each) for each in self.declared.links if tree.moving(each, line) == link}
+        missing = tuple(f"the mass of '{each}' is not known" for each, mass in masses.items() if mass is None)
+        own, whole = masses[link] or 0.0, sum(mass or 0.0 for mass in masses.values())
+        arm = float(TRAVEL_ARM)
+        source: Literal["declared", "unknown"] = "unknown" if masses[link] is None else "declared"
+        return LinkInertia(link, whole * arm**2, source, (whole - own) * arm**2, missing)
 
     def _own_inertia(self, link: str) -> LinkInertia:
         part = self.declared.links[link]

@@ -310,8 +310,11 @@ class TrainModel:
         sense = way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
         path = self.motion._path(circuit.id)
         signs, names = self.problem.signs, self.problem.system.links
-        own, mate, base = (signs.get(names[at], 1) * self.speeds[at] for at in path[:3])
-        return _sparse(forward * (own - base)), _sparse(sense * (mate - base))
+        own, mate, base, driven_base = (
+            signs.get(names[at], 1) * self.speeds[at]
+            for at in (path.driver, path.driven, path.carrier, path.driven_carrier)
+        )
+        return _sparse(forward * (own - base)), _sparse(sense * (mate - driven_base))
 
     def _even(self, circuit: Circuit) -> ExactRatio:
         path = self.motion._path(circuit.id)
@@ -334,7 +337,7 @@ class TrainModel:
         """Yield the dry friction of bearings; the bearings of links with proportional speeds are merged."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
-            form = self._form(link, self.tree.parent[link][0])
+            form = self._form(link, self.tree.borne_by(link))
             scale = float(np.max(np.abs(form), initial=0.0))
             if not scale or not sticking:
                 continue
@@ -350,7 +353,7 @@ class TrainModel:
     def _viscous(self) -> Floats:
         found = np.zeros((len(self.coordinates),) * 2)
         for link, drag in self.case.drag.items():
-            form = self._form(link, self.tree.parent[link][0])
+            form = self._form(link, self.tree.borne_by(link))
             found += drag * np.outer(form, form)
         return found
 
@@ -358,7 +361,7 @@ class TrainModel:
         escapement = self.train.escapement
         for link, (pitch, beat) in self.case.escapements.items():
             assert escapement is not None  # it is the only stop
-            base = pallet_link(escapement, self.tree)
+            base = self.tree.reference(link, pallet_link(escapement, self.tree))
             way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)

@@ -8,6 +8,7 @@ from math import degrees, tau
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.exact import percent_text, watts_text
+from geartrain.numerics.quantity import TRAVEL_ARM
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
 from geartrain.report.torque_report import energy_table, turns_text
@@ -131,7 +132,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
     for name, peaks in run.spectra.items():
         if peaks and peaks[0].amplitude > _STILL:
             rows = [
-                (figure(peak.order, 6), figure(peak.frequency, 6), figure(degrees(peak.amplitude), 4), peak.source)
+                (figure(peak.order, 6), figure(peak.frequency, 6), _angle(run, name, peak.amplitude), peak.source)
                 for peak in peaks
             ]
             header = (f"per turn of {run.driving_link}", "Hz", "amplitude (deg)", "pair and harmonic")
@@ -229,22 +230,38 @@ def _outputs(run: TimeRun) -> Section:
     # only a prescribed speed has its power in `drive`
     power = (run.energy.drive if run.driven == "rate" else run.energy.put_in) / run.duration
     word = "power returned" if power < 0 else "input power"
+    torque = f"torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm"
+    if _slides(run, run.link):
+        torque = f"force at '{run.link}': {figure(run.torque / float(TRAVEL_ARM), 5)} N"
     text = [
-        f"Mean torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm; {word}: {watts_text(abs(power))}.",
+        f"Mean {torque}; {word}: {watts_text(abs(power))}.",
         "Deviations of outputs from the motion in which all drive flanks touch (`geartrain motion`).",
     ]
     off = [each for each in run.deviations if max(each.ahead, each.behind) > _STILL]
     if not off:
         text.append("No output deviates.")
     rows = [
-        (summary.output, *(_angle(each) for each in (summary.ahead, summary.behind, summary.rms))) for summary in off
+        (summary.output, *(_angle(run, summary.output, each) for each in (summary.ahead, summary.behind, summary.rms)))
+        for summary in off
     ]
     header = ("output", "maximum ahead (deg)", "maximum behind (deg)", "rms (deg)")
     return Section("Drive and outputs", text, (Table(header, cut(rows)),) if rows else ())
 
 
-def _angle(angle: float) -> str:
-    return figure(degrees(angle), 4) if angle > _STILL else "0"
+def _slides(run: TimeRun, name: str) -> bool:
+    """Return True for an output or link that slides."""
+    declared = run._declaration
+    if declared is None or not declared.sliding:
+        return False
+    output = declared.case(run.state).outputs.get(name)
+    return (name if output is None or output.of is None else output.of) in declared.sliding
+
+
+def _angle(run: TimeRun, name: str, angle: float) -> str:
+    """Return an angle in degrees as a string, or the travel of a link that slides with its unit."""
+    if angle <= _STILL:
+        return "0"
+    return f"{figure(angle / tau, 4)} mm" if _slides(run, name) else figure(degrees(angle), 4)
 
 
 def _energy(run: TimeRun) -> Section:

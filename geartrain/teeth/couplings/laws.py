@@ -91,7 +91,8 @@ class UniversalJoint(_VaryingPair):
         """Return the joint with the angle between its axes [rad], unless its angle is declared."""
         if self.angle is not None:
             return self
-        return self.model_copy(update={"angle": Quantity.parse(f"{degrees(angle)!r} deg", "angle", plain=False)})
+        shown = f"{degrees(angle):.6g} deg"
+        return self.model_copy(update={"angle": Quantity(Fraction(degrees(angle)), "deg", shown)})
 
     @property
     def periods_per_turn(self) -> Fraction:
@@ -179,9 +180,9 @@ class EllipticalPair(_VaryingPair):
     @property
     def formula(self) -> str:
         """Driven angle q in closed form."""
-        (first, second), rho = self.lobes, self.transmission.rho
-        q, S = ("q" if second == 1 else f"{second} q"), ("S" if first == 1 else f"{first} S")
-        return f"tan({q} / 2) = {(1 + rho) / (1 - rho):.6g} tan({S} / 2)"
+        rho = self.transmission.rho
+        S, q = ({1: f"{of} / 2", 2: of}.get(n, f"{n} {of} / 2") for n, of in zip(self.lobes, "Sq", strict=True))
+        return f"tan({q}) = {(1 + rho) / (1 - rho):.6g} tan({S})"
 
 
 class PitchCurvePair(_VaryingPair):

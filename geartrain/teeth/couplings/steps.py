@@ -48,6 +48,10 @@ _Moves = Annotated[
 ]
 
 
+def _times(number: Fraction) -> str:
+    return "once" if number == 1 else f"{number} times"
+
+
 class SteppingCoupling(Coupling):
     """Coupling that moves its driven link by steps, base class of all kinds."""
 
@@ -191,7 +195,7 @@ class Step(SteppingCoupling):
     def remark(self) -> str:
         """Number of steps at once, or the fraction of the time during which the driven link moves, in words."""
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))
-        return super().remark if self.moving else f"moves at once, {steps} times a turn of the driver"
+        return super().remark if self.moving else f"moves at once, {_times(steps)} a turn of the driver"
 
     @property
     def about(self) -> str:

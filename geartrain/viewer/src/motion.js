@@ -42,7 +42,9 @@ export class Machine {
     if (this.simulated) return this.scene.bodies[body].start + this.initial[body] + this.run.turned(body, this.time(turns));
     const speed = this.speeds[body];
     const made = this.made(turns);
-    const mean = speed ? TURN * partOfProduct(speed, made) : 0;
+    // the angle of a body that slides is a whole turn for each millimetre
+    const kept = this.scene.bodies[body].travels ? (a, b) => Number(a) * Number(b) : partOfProduct;
+    const mean = speed ? TURN * kept(speed, made) : 0;
     return this.scene.bodies[body].start + mean + this.errors(made)[body];
   }
 
@@ -53,8 +55,9 @@ export class Machine {
 
   /** Angle of a body relative to its parent, modulo one turn (rad). */
   joint(body, turns = this.turns) {
-    const { parent } = this.scene.bodies[body];
-    return this.angle(body, turns) - (parent === null ? 0 : this.angle(parent, turns));
+    const { parent, base } = this.scene.bodies[body];
+    const reference = base ?? parent;
+    return this.angle(body, turns) - (reference === null ? 0 : this.angle(reference, turns));
   }
 
   /** Angles of all bodies minus their mean angles (rad). */

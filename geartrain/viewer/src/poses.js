@@ -61,6 +61,7 @@ export class Poses {
       const { matrix } = this.nodes[index];
       if (body.hangs !== undefined) return hung(matrix, body, this.unwound(body.as, joint));
       const point = vector(body.point);
+      if (body.travels) return matrix.makeTranslation(vector(body.direction).multiplyScalar(joint / (2 * Math.PI)).add(this.shifts[index]));
       matrix.makeRotationAxis(vector(body.direction), joint);
       const out = this.slid(index);
       matrix.setPosition(point.clone().sub(out).applyMatrix4(matrix).negate().add(point).add(this.shifts[index]));

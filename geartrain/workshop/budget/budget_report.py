@@ -183,10 +183,10 @@ def _weight(crank: CrankLoad) -> Iterator[str]:
     weight = crank.weight
     if weight is None:
         return
-    text = f"The drive gives {weight.torque:.4g} N m at '{weight.link}'."
+    text = f"The drive gives {weight.torque:.4g} {weight.unit} at '{weight.link}'."
     if weight.needed is not None:
         word = "the drive suffices" if weight.suffices else "the drive does not suffice"
-        text += f" The train needs up to {weight.needed:.4g} N m to start; {word}."
+        text += f" The train needs up to {weight.needed:.4g} {weight.unit} to start; {word}."
     if weight.mean is not None and weight.minimum is not None:
         text += f" The torque at '{weight.wheel}' is {weight.mean:.4g} N m on average and at least {weight.minimum:.4g}"
         text += "" if weight.efficiency is None else f"; {100 * weight.efficiency:.4g} % of the energy arrives there"

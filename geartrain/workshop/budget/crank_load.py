@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.errors import GearTrainError
-from geartrain.numerics.quantity import Quantity
+from geartrain.numerics.quantity import TRAVEL_ARM, Quantity
 from geartrain.numerics.results import Result
 from geartrain.train.periods import period_table
 
@@ -77,9 +77,11 @@ class WeightDrive(Result):
     KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "minimum", "efficiency")
 
     link: str
-    """Name of the link that carries the drum."""
+    """Name of the link that carries the drum, or of the weight itself."""
     torque: float
-    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts."""
+    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts; for the link
+    of the weight itself its force [N].
+    """
     needed: float | None = None
     """Torque at the drum that starts the train from its worst position under its declared loads [N m].
 
@@ -93,6 +95,8 @@ class WeightDrive(Result):
     """Minimum torque at the escape wheel over the run, driven by the weight only [N m]."""
     efficiency: float | None = None
     """Energy that reaches the escape wheel divided by the energy of the weight; None if it is not computed."""
+    unit: str = "N m"
+    """Unit of `torque` and `needed`: N m, or N for the link of the weight itself."""
 
     @property
     def suffices(self) -> bool | None:
@@ -111,26 +115,27 @@ def find_weight_drive(
     drive = train.declaration.case(state).drive
     if drive is None or drive.pull is None:
         return None
+    arm, unit = (float(TRAVEL_ARM), "N") if link in train.declaration.sliding else (1.0, "N m")
+    pull = drive.pull / arm
     if under_load is not None:
-        return WeightDrive(link, drive.pull, under_load.starting_torque)
+        return WeightDrive(link, pull, under_load.starting_torque, unit=unit)
     escapement = train.declaration.escapement
     if escapement is None:
-        return WeightDrive(link, drive.pull)
-    found = find_natural_run(_driven_by(train, state, link, drive.pull), state, driving_link, escapement.link)
+        return WeightDrive(link, pull, unit=unit)
+    found = find_natural_run(_driven_by(train, state, link, f"{pull!r} {unit}"), state, driving_link, escapement.link)
     # the escape wheel resists, so its torque is the negative of the load
     mean = None if found.mean is None else -found.mean
     minimum = None if found.maximum is None else -found.maximum.torque
-    return WeightDrive(link, drive.pull, None, escapement.link, mean, minimum, found.efficiency)
+    return WeightDrive(link, pull, None, escapement.link, mean, minimum, found.efficiency, unit)
 
 
-def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
-    """Return a copy of the train whose only load is the torque `pull` [N m] on the drum, in its sense of rotation."""
+def _driven_by(train: GearTrain, state: str | None, link: str, pull: str) -> GearTrain:
+    """Return a copy of the train whose only load is the torque or force `pull` on a link, in its sense of motion."""
     from geartrain.analysis.gear_train import GearTrain
 
     speed = train.solve(state)[link]
-    way = -1 if speed is not None and speed < 0 else 1
-    # repr keeps all digits of the float
-    load = Quantity.parse(f"{way * pull!r} N m", "torque", plain=False)
+    way = "-" if speed is not None and speed < 0 else ""
+    load = Quantity.parse(f"{way}{pull}", "torque or force", plain=False)
     return GearTrain(train.declaration.model_copy(update={"loads": {link: load}}))
 
 

@@ -33,17 +33,14 @@ def to_urdf(work: SolidModel) -> str:
     moving = [link for link, speed in case.inputs.items() if speed]
     rates = _rates(work)
     if len(moving) != 1 or not rates.get(moving[0]):
-        what = (
-            f"URDF needs one input that turns and determined speeds, and '{work.train.name}' has {len(moving)} inputs"
-        )
-        why, fix = "a mimic joint follows one other joint", "write MJCF (-o FILE.xml), or choose another --state"
-        raise GearTrainError(Problem(what, why, fix, "-o"))
+        what = f"'{work.train.name}' cannot be written as URDF"
+        why = f"mimic joints need one input that determines all speeds; the number of moving inputs is {len(moving)}"
+        raise GearTrainError(Problem(what, why, "write MJCF (-o FILE.xml), or choose another --state", "-o"))
     root = Element("robot", name=work.train.name)
+    moments = {"ixx": _INERTIA, "iyy": _INERTIA, "izz": _INERTIA, "ixy": "0", "ixz": "0", "iyz": "0"}
     for body in bodies:
-        link = SubElement(root, "link", name=body.id)
-        inertial = SubElement(link, "inertial")
+        inertial = SubElement(SubElement(root, "link", name=body.id), "inertial")
         SubElement(inertial, "mass", value=_MASS)
-        moments = {"ixx": _INERTIA, "iyy": _INERTIA, "izz": _INERTIA, "ixy": "0", "ixz": "0", "iyz": "0"}
         SubElement(inertial, "inertia", moments)
     for body in bodies:
         if body.parent is None:
@@ -82,9 +79,8 @@ def to_mjcf(work: SolidModel) -> str:
             SubElement(equality, "joint", name=label, joint1=first, polycoef="0 0 0 0 0")
         elif len(others) == 1:
             ((second, b),) = others
-            SubElement(
-                equality, "joint", name=label, joint1=first, joint2=second, polycoef=f"0 {_number(-b / a)} 0 0 0"
-            )
+            ratio = f"0 {_number(-b / a)} 0 0 0"
+            SubElement(equality, "joint", name=label, joint1=first, joint2=second, polycoef=ratio)
         else:
             tendon = SubElement(tendons, "fixed", name=label)
             for joint, each in terms.items():
@@ -99,12 +95,10 @@ def to_mjcf(work: SolidModel) -> str:
 
 def mean_ratios(work: SolidModel) -> Iterator[Problem]:
     """Yield a problem for each coupling whose ratio varies about the mean that a file of joints contains."""
+    why, fix = "the ratio of two coupled joints is a constant", "use .glb or .fmu for its motion"
     for circuit in work.train.circuits:
         if circuit.swings:
-            why = "the ratio of two coupled joints is a constant"
-            yield Problem(
-                f"coupling '{circuit.id}' is written with its mean ratio", why, "use .glb or .fmu for its motion"
-            )
+            yield Problem(f"coupling '{circuit.id}' is written with its mean ratio", why, fix)
 
 
 def _rates(work: SolidModel) -> dict[str, Fraction]:
@@ -113,11 +107,8 @@ def _rates(work: SolidModel) -> dict[str, Fraction]:
     if not answer.verdict:
         return {}
     speeds = [body.sense * Fraction(answer.speeds[body.id]) for body in bodies]
-    return {
-        body.id: speed - speeds[body.parent]
-        for body, speed in zip(bodies, speeds, strict=True)
-        if body.parent is not None
-    }
+    pairs = zip(bodies, speeds, strict=True)
+    return {body.id: speed - speeds[body.parent] for body, speed in pairs if body.parent is not None}
 
 
 def _constraints(work: SolidModel) -> Iterator[tuple[str, Mapping[str, Fraction]]]:

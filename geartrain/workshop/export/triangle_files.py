@@ -212,7 +212,7 @@ def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indic
 
 
 def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
-    """Add the animation of the rotation of each body relative to its parent."""
+    """Add the animation of the rotation or travel of each body relative to its parent."""
     turning = Keyframes.of(work, turns)
     if turning is None:
         return
@@ -229,6 +229,12 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
             clocks[count] = file.accessor(_KEYS, file.append(_KEYS, moments), count + 1, "SCALAR", _FLOAT, **limits)
         half = turning.angle(at, count) / 2
         axis = np.array(body.direction)
+        if body.travels:
+            places = np.array(file.nodes[at]["translation"]) + np.outer(half / pi, axis)
+            output = file.accessor(_KEYS, file.append(_KEYS, places.astype("<f4")), count + 1, "VEC3", _FLOAT)
+            channels.append({"sampler": len(samplers), "target": {"node": at, "path": "translation"}})
+            samplers.append({"input": clocks[count], "output": output, "interpolation": "LINEAR"})
+            continue
         quaternions = np.column_stack([np.sin(half)[:, None] * axis, np.cos(half)])
         # q and -q are the same rotation; with equal signs every reader interpolates the shorter way
         apart = (quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0
@@ -277,7 +283,8 @@ class Keyframes:
         if scene.movement.kind == "still" or scene.driving_link is None:
             return None
         speeds = _relative(work)
-        fastest = max((abs(speed) for speed in speeds if speed), default=Fraction(0))
+        turning = (speed for speed, body in zip(speeds, scene.bodies, strict=True) if speed and not body.travels)
+        fastest = max(map(abs, turning), default=Fraction(0))
         if not fastest:
             return None
         ripples = scene.movement.kind == "real"
@@ -300,6 +307,8 @@ class Keyframes:
     def keys(self, body: int) -> int:
         """Return the number of intervals between key frames of a body; 0 if it is fixed relative to its parent."""
         speed = self.speeds[body]
+        if self.work.scene.bodies[body].travels and not self.ripples:
+            return 1 if speed else 0
         turned = abs(float((speed or 0) * self.turns))
         if self.ripples and self.work.scene.bodies[body].speed is not None:
             return max(ceil(_RIPPLING * turned), _MINIMUM_RIPPLING)
@@ -309,13 +318,13 @@ class Keyframes:
         """Return the angles of a body relative to its parent at `count` + 1 equally spaced times [rad]."""
         bodies = self.work.scene.bodies
         found = np.zeros(count + 1)
-        for at, sign in ((body, 1), (bodies[body].parent, -1)):
+        for at, sign in ((body, 1), (bodies[body].reference, -1)):
             if at is not None and bodies[at].parent is not None:
                 own = bodies[at]
                 whole = read_fraction(own.speed or "0") * self.turns
                 # fractions of a turn in exact integers, so that a periodic motion closes without rounding errors
                 above, below = whole.numerator, whole.denominator * count
-                parts = [above * k % below / below for k in range(count + 1)]
+                parts = [(above * k if own.travels else above * k % below) / below for k in range(count + 1)]
                 found += sign * own.sense * (own.start + 2 * pi * np.array(parts) + self._errors(count)[at])
         return found
 
@@ -335,7 +344,7 @@ def _relative(work: SolidModel) -> tuple[Fraction | None, ...]:
     bodies = work.scene.bodies
     found: list[Fraction | None] = []
     for body in bodies:
-        parent = None if body.parent is None else bodies[body.parent]
+        parent = None if body.reference is None else bodies[body.reference]
         if parent is None or body.speed is None:
             found.append(None)
             continue

@@ -120,6 +120,8 @@ def run(
 ) -> None:
     """Export a train: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables.
 
+    The exit code is 1 if the parts of a folder are not ready to cut.
+
     Example: `geartrain export planetary --to parts --module 2mm`.
     """
     from geartrain.analysis.gear_train import load

@@ -179,10 +179,8 @@ class _Unit:
             return "worm_gear"
         if wheel.kind in ("bevel", "contrate") or place.cone:
             return "bevel_gear"
-        mates = (
-            self.declared.wheels[mate][1] for gear in self.declared.gears if name in gear.pair for mate in gear.pair
-        )
-        worm = any(mate.kind == "worm" for mate in mates)
+        pairs = (gear.pair for gear in self.declared.gears if name in gear.pair)
+        worm = any(self.declared.wheels[mate][1].kind == "worm" for pair in pairs for mate in pair)
         return "ring_gear" if wheel.internal else "worm_wheel" if worm else "cylindrical_gear"
 
     def teeth(self, name: str) -> tuple[float | None, float | None]:
@@ -219,9 +217,9 @@ class _Unit:
         distance = self.work.layout.axis_distance(first, second)
         sizes = [] if distance is None else [_number("center_distance", "mm", distance)]
         number = self.add(kind, gear.name, sizes)
-        carrier = self.numbers.get(("stage", self.circuits[gear.name].carrier))
-        own = carrier is not None and kind == "cylindrical_stage"
-        self.relate("assembly", assembly=carrier if own and carrier else self.unit, part=number)
+        carrier = ("stage", self.circuits[gear.name].carrier)
+        assembly = self.numbers.get(carrier, self.unit) if kind == "cylindrical_stage" else self.unit
+        self.relate("assembly", assembly=assembly, part=number)
         gears = [self.numbers["wheel", wheel] for wheel in (first, second)]
         self.relate("stage", stage=number, gear_1=gears[0], gear_2=gears[1])
         driver = self.work.train.mechanics.drivers(self.cases[self.first].state)[gear.name]
@@ -278,7 +276,7 @@ class _Unit:
 
     @cached_property
     def engagement(self) -> Mapping[tuple[str, ...], list[bool]]:
-        """Whether each brake (one link) and lock (two links) is engaged, in each state."""
+        """Flags of each brake (one link) and lock (two links): True in each state in which it is engaged."""
         found: dict[tuple[str, ...], list[bool]] = {}
         for at, case in enumerate(self.cases):
             for links in (*((link,) for link in case.fixed), *case.locks):
@@ -286,20 +284,15 @@ class _Unit:
                     found.setdefault(links, [False] * len(self.cases))[at] = True
         return found
 
-    @cached_property
-    def clutches(self) -> Mapping[tuple[str, ...], str]:
-        """Names of the declared brakes and clutches by their links."""
-        return {links: name for case in self.cases for links, name in case.clutches.items()}
-
     def clutch_name(self, links: tuple[str, ...]) -> str:
         """Return the declared name of a brake or clutch, or a name made of the links that it holds."""
-        return self.clutches.get(links, f"{' - '.join(links)} held")
+        declared = {links: name for case in self.cases for links, name in case.clutches.items()}
+        return declared.get(links, f"{' - '.join(links)} held")
 
     def clutch(self, links: tuple[str, ...], engaged: list[bool]) -> None:
         """Add a brake on one link or a lock of two links; it is switchable unless it is always engaged."""
         ends = [self.numbers["link", link] for link in links if ("link", link) in self.numbers]
-        name = self.clutch_name(links)
-        fixed = all(engaged) and links not in self.clutches
+        name, fixed = self.clutch_name(links), all(engaged) and not any(links in case.clutches for case in self.cases)
         states = [] if fixed else [{"id": "is_engaged", "boolean_array": engaged}]
         kind = "coupling" if fixed else "switchable_coupling"
         if ends:
@@ -331,22 +324,18 @@ class _Unit:
         """Return the data of one load case: the gear in force, speeds [1/min], and torques [N m]."""
         case, found = self.cases[at], []
         answer = self.work.train.solve(case.state, method="exact")
-        changing = {
-            link for each in self.cases for link in each.inputs if any(link not in one.inputs for one in self.cases)
-        }
         for link, speed in self.per_minute(case, answer).items():
             if ("link", link) in self.numbers and (rpm := as_float(speed)) is not None:
-                drives = [{"id": "defines_speed", "boolean": link in case.inputs}] if link in changing else []
+                changes = len({link in each.inputs for each in self.cases}) > 1
+                drives = [{"id": "defines_speed", "boolean": link in case.inputs}] if changes else []
                 found.append(self.data("link", link, [_number("rotational_speed", "1 / min", rpm), *drives]))
         for link, torque in self.loads(at).items():
             found.append(self.data("load", link, [_number("torque_around_u_axis", "N m", torque)]))
         for held in () if (torques := self.torques[at]) is None else torques.held:
             if ("clutch", name := self.clutch_name(held.links)) in self.numbers and held.torques is not None:
-                values = dict(zip(("inner", "outer"), map(float, held.torques), strict=False))
-                sides = [
-                    _number(f"torque_acting_on_{side}_component_u", "N m", value) for side, value in values.items()
-                ]
-                found.append(self.data("clutch", name, sides))
+                sides = zip(("inner", "outer"), map(float, held.torques), strict=False)
+                reactions = [_number(f"torque_acting_on_{side}_component_u", "N m", value) for side, value in sides]
+                found.append(self.data("clutch", name, reactions))
         gear = [self.data("unit", "", [_integer("gear_shift_index", 1 + at)])] if len(self.cases) > 1 else []
         return [*gear, *found] if found else []
 

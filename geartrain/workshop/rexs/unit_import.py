@@ -36,7 +36,7 @@ _READ = {
 """Types of components from which the declaration is made."""
 _DIGITS = 9  # decimals of positions [mm] and directions
 _NEAR = 1e-6  # relative tolerance of positions and directions, which are rounded in files
-_FRAME = 0  # stands for the casing, as no component does
+_FRAME = 0  # id of the casing among links; components of a file have other ids
 
 
 def declaration_of(path: Path) -> tuple[str, list[str]]:

@@ -3,7 +3,7 @@ import { Fraction } from "../fraction.js";
 import { copyable } from "./copying.js";
 import { el } from "./element.js";
 import { shown } from "./number.js";
-import { Reading, degrees } from "./reading.js";
+import { Reading, degrees, told } from "./reading.js";
 
 /** B - A, absolute and relative to A, if both are exact and have the same unit. */
 export function difference(a, b) {
@@ -141,7 +141,7 @@ export class Outputs {
     if (!words || !this.node.offsetParent) return;
     for (const { reading, angle } of this.angles) {
       const value = reading.now;
-      angle.textContent = value ? degrees(value.degrees) : "\u2013";
+      angle.textContent = value ? (value.travel === undefined ? degrees(value.degrees) : told(value)) : "\u2013";
     }
   }
 }

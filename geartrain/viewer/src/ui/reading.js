@@ -16,12 +16,17 @@ export class Reading {
     this.sense = this.pointer.sense * this.scale.way; // 1 if the scale is counted in the positive sense of the output
     // initial position, in turns from the start of the scale
     this.start = (this.sense * (scene.bodies[this.pointer.body].start - scene.bodies[this.pointer.base].start)) / (2 * Math.PI);
+    this.travels = scene.bodies[this.pointer.body].travels; // 1 mm for a turn
     this.known = this.pointer.speed !== null && Boolean(machine);
   }
 
   /** Current reading {turns, degrees, cell, scale}: turns from the start of the scale (0 to its number of turns) in its counting direction; null without motion. */
   get now() {
     if (!this.known) return null;
+    if (this.travels) {
+      const { whole, angle } = this.machine.pointer(this.index);
+      return { travel: Number(whole) + angle / (2 * Math.PI), scale: this.scale, cell: null };
+    }
     const turns = within(this.sense * this.machine.pointer(this.index).along, this.turns);
     const { divisions } = this.scale;
     return {
@@ -66,6 +71,7 @@ const ratio = (text) => {
 /** Text of the reading. */
 export function told(reading) {
   if (!reading) return "not determined";
+  if (reading.travel !== undefined) return `${reading.travel.toFixed(2)} mm`;
   if (reading.cell === null) return degrees(reading.degrees);
   return `${degrees(reading.degrees)}, ${shownAt(reading)}`;
 }

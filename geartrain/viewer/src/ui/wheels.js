@@ -17,7 +17,7 @@ export function facts(scene, wheel, say, teeth = null) {
       ? [["Speed", "not determined"]]
       : [
           ["Speed, exact", copyable(body.shown, say)],
-          ["Speed, decimal", `${shown(body.decimal)}${scene.unit ? ` ${scene.unit}` : ""}`],
+          ["Speed, decimal", `${shown(body.decimal)}${scene.unit && !body.travels ? ` ${scene.unit}` : ""}`],
         ];
   return [
     ["Teeth", teeth ?? copyable(String(wheel.teeth), say)],

@@ -1,0 +1,140 @@
+"""Crank and slider as a train declares them, and its transmission function.
+
+The slider is at x = r cos S + sqrt(l^2 - r^2 sin^2 S) from the crank's axis, for crank radius r, rod length l and crank
+angle S from the direction of the slide. Its mean speed is 0. One turn of a sliding link is a travel of 1 mm.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import cos, pi, sin, sqrt
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.numerics.quantity import MeasuredLength, above_zero, bad, millimetres
+from geartrain.teeth.couplings.travel import TravelCoupling
+from geartrain.teeth.transmission import TransmissionFunction
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.numerics.arrays import Floats
+
+
+_BISECTIONS = 60  # of a quarter turn, to rounding error
+_SAMPLES = 4096  # the mean over equidistant samples is exact to rounding error unless the rod is as short as the crank
+
+
+class CrankSlider(TravelCoupling):
+    """Crank that moves a slide to and fro through a rod; the line of the slide passes through the crank's axis."""
+
+    kind: Literal["crank_slider"] = Field(description="Crank, rod and slide: mean travel 0")
+    radius: Annotated[MeasuredLength, above_zero("give a radius such as 20 mm")] = Field(
+        description="Distance of the crank pin from the axis of the crank"
+    )
+    rod: Annotated[MeasuredLength, above_zero("give a length such as 60 mm")] = Field(description="Length of the rod")
+
+    @model_validator(mode="after")
+    def _passes(self) -> CrankSlider:
+        if self.rod.base <= self.radius.base:
+            what = f"a rod of {self.rod.text} is not longer than the crank of {self.radius.text}"
+            raise bad("travel", what, "give a longer rod: the crank could not turn through")
+        return self
+
+    @property
+    def mean(self) -> Fraction:
+        """Mean ratio 0, because the slide only moves to and fro."""
+        return Fraction(0)
+
+    @property
+    def transmission(self) -> CrankSliderTransmission:
+        """Transmission function with the crank driving."""
+        return CrankSliderTransmission(float(millimetres(self.radius)), float(millimetres(self.rod)))
+
+
+class CrankSliderTransmission(TransmissionFunction):
+    """Transmission function of a crank that moves a slide through a rod.
+
+    The driven angle is 2 pi times the distance of the slide from the crank's axis in mm. Friction is not modelled.
+
+    Parameters
+    ----------
+    radius : float
+        Crank radius r [mm], above 0.
+    rod : float
+        Length l of the rod [mm], above r.
+
+    Examples
+    --------
+    >>> crank = CrankSliderTransmission(20, 60)
+    >>> [round(end / (2 * pi), 9) for end in crank.error_range()]
+    [40.0, 80.0]
+    """
+
+    ratio = Fraction(0)
+    period = 2 * pi
+
+    def __init__(self, radius: float, rod: float) -> None:
+        self.r, self.l = radius, rod
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Return the position of the slide from the crank's axis [rad; 2 pi is 1 mm]."""
+        import numpy as np
+
+        S = np.asarray(S, dtype=float)
+        return np.asarray(self.period * (self.r * np.cos(S) + self._along(S)))
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """Return the speed ratio: travel of the slide per revolution of the crank at its instantaneous speed [mm]."""
+        import numpy as np
+
+        S = np.asarray(S, dtype=float)
+        return np.asarray(-self.period * self.r * np.sin(S) * (1 + self.r * np.cos(S) / self._along(S)))
+
+    def _along(self, S: Floats) -> Floats:
+        """Return the component of the rod along the slide [mm]."""
+        import numpy as np
+
+        # l^2 - r^2 sin^2 S as a sum, which does not cancel for short rods
+        return np.asarray(np.sqrt((self.l - self.r) * (self.l + self.r) + (self.r * np.cos(S)) ** 2))
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Return the efficiency, which is 1."""
+        import numpy as np
+
+        return np.ones_like(np.asarray(S, dtype=float))
+
+    def peak(self) -> float:
+        """Return the crank angle of maximum speed between the dead centres [rad], by bisection."""
+        low, high = 0.0, pi / 2
+        for _ in range(_BISECTIONS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if self._acceleration(middle) < 0 else (low, middle)
+        return low
+
+    def _acceleration(self, S: float) -> float:
+        """Return the second derivative of the position with respect to the crank angle [mm]."""
+        along = sqrt(self.l**2 - (self.r * sin(S)) ** 2)
+        tilted = self.l**2 * cos(S) ** 2 - along**2 * sin(S) ** 2
+        return -self.r * cos(S) - self.r**2 * tilted / along**3
+
+    def speed_range(self) -> tuple[float, float]:
+        """Return the minimum and maximum speed ratio, which differ in sign only."""
+        most = abs(float(self.speed(self.peak())))
+        return -most, most
+
+    def error_range(self) -> tuple[float, float]:
+        """Return the positions of the slide at both dead centres [rad; 2 pi is 1 mm]."""
+        return self.period * (self.l - self.r), self.period * (self.l + self.r)
+
+    def error_moments(self) -> tuple[float, float]:
+        """Return the mean position of the slide and the rms deviation from it [rad; 2 pi is 1 mm]."""
+        import numpy as np
+
+        positions = self.error(np.arange(_SAMPLES) * (self.period / _SAMPLES))
+        return float(positions.mean()), float(positions.std())
+
+    def steepest_fall(self) -> float:
+        """Return the maximum rate at which the speed ratio decreases [1/rad], at the outer dead centre."""
+        return self.period * self.r * (1 + self.r / self.l)

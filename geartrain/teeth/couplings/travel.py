@@ -1,0 +1,160 @@
+"""Couplings of a link that turns and a link that slides with a constant travel per revolution: racks, screws, drums.
+
+Relative to their carrier, the travel of the sliding link is h times the angle of the turning link in revolutions: h is
+the circumference pi m z of a pinion on a rack, minus the lead of a right-hand screw, which draws its nut back when it
+turns forward, and pi D divided by the number of falls of a line on a drum. Without losses a force F is balanced by the
+torque F h / (2 pi), which does not contain pi for racks and drums.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import atan, cos, pi, tan
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from geartrain.numerics.multiples_of_pi import PI
+from geartrain.numerics.quantity import Angle, MeasuredLength, above_zero, bad, below_right_angle, millimetres
+from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, Efficiencies
+from geartrain.teeth.coupling import Coupling
+
+_MOST = 10**6  # teeth of a pinion, and falls of a line
+
+
+def _number(raw: object) -> object:
+    """Read a positive whole number, since a declaration gives numbers as strings."""
+    number = int(raw) if isinstance(raw, str) and raw.isascii() and raw.isdigit() and len(raw) < 9 else raw
+    if isinstance(number, bool) or not isinstance(number, int) or not 0 < number <= _MOST:
+        raise bad("travel", f"'{raw}' is not a number of teeth or falls", f"give a whole number from 1 to {_MOST:,}")
+    return number
+
+
+def _flag(raw: object) -> object:
+    found = {"true": True, "false": False}.get(raw.lower()) if isinstance(raw, str) else raw
+    if not isinstance(found, bool):
+        raise bad("travel", f"'{raw}' is neither true nor false", "write true or false")
+    return found
+
+
+Number = Annotated[int, BeforeValidator(_number)]
+Flag = Annotated[bool, BeforeValidator(_flag)]
+
+
+class TravelCoupling(Coupling):
+    """Coupling of a link that turns and a link that slides, base class of racks, screws, drums and crank sliders."""
+
+    ENDS = ("turns", "slides")
+    SIDES = ("slides", "turns")
+    HOLDS = True
+
+    turns: str = Field(description="Link that turns: pinion, screw, drum or crank")
+    slides: str = Field(description="Link that slides, or the link on which the carrier of the turning link slides")
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """Link that turns, and link that slides."""
+        return self.turns, self.slides
+
+
+class Rack(TravelCoupling):
+    """Pinion and rack: the travel per revolution is the pitch times the number of teeth of the pinion."""
+
+    kind: Literal["rack"] = Field(description="Pinion that turns on a rack")
+    teeth: Number = Field(description="Tooth count of the pinion")
+    module: Annotated[MeasuredLength, above_zero("give a module such as 2 mm")] | None = Field(
+        None, description="Module; the pitch is pi times the module"
+    )
+    pitch: Annotated[MeasuredLength, above_zero("give a pitch such as 5 mm")] | None = Field(
+        None, description="Pitch of the rack, instead of the module"
+    )
+    reversed: Flag = Field(False, description="True if the rack moves backwards when the pinion turns forwards")
+
+    @model_validator(mode="after")
+    def _has_size(self) -> Rack:
+        if (self.module is None) == (self.pitch is None):
+            raise bad("travel", "a rack needs either `module` or `pitch`", "give one of them, such as `module: 2 mm`")
+        return self
+
+    @property
+    def mean(self) -> Fraction:
+        """Travel of the rack per revolution of the pinion [mm]."""
+        size = millimetres(self.pitch) if self.module is None and self.pitch else PI * millimetres(self.module)  # type: ignore[arg-type]
+        return size * self.teeth * (-1 if self.reversed else 1)
+
+
+class Screw(TravelCoupling):
+    """Screw and nut: the travel per revolution is the lead. It is the same whether the screw or the nut turns."""
+
+    kind: Literal["screw"] = Field(description="Screw in a nut; a right-hand screw draws its nut back")
+    lead: Annotated[MeasuredLength, above_zero("give a lead such as 6 mm")] = Field(
+        description="Travel per revolution, the pitch of the thread times its number of starts"
+    )
+    hand: Literal["right", "left"] = Field("right", description="Hand of the thread")
+    friction: DeclaredCoulombFriction | None = Field(
+        None, description="Coefficient of friction of the thread; needs `diameter`; default without loss"
+    )
+    diameter: Annotated[MeasuredLength, above_zero("give a diameter such as 18 mm")] | None = Field(
+        None, description="Mean diameter of the thread"
+    )
+    flank_angle: Annotated[Angle, below_right_angle("give the angle of one flank, such as 15 deg")] | None = Field(
+        None, description="Angle of a flank from the normal to the axis: 0 square, 15 deg trapezoidal; default 0"
+    )
+
+    @model_validator(mode="after")
+    def _has_thread(self) -> Screw:
+        if self.friction is None:
+            return self
+        if self.efficiency is not None:
+            raise bad("travel", "`friction` and `efficiency` of a screw are both given", "remove one of them")
+        if self.diameter is None:
+            what = "the friction of a screw needs the mean diameter of its thread"
+            raise bad("travel", what, "add `diameter`, such as `diameter: 18 mm`")
+        if self.lead_angle + self.friction_angle >= pi / 2:
+            what = f"a screw with the coefficient of friction {self.friction.sliding.text} cannot move its nut"
+            raise bad("travel", what, "give a smaller coefficient, or a smaller lead")
+        return self
+
+    @property
+    def mean(self) -> Fraction:
+        """Travel of the nut per revolution of the screw [mm], negative for a right-hand thread."""
+        return millimetres(self.lead) * (1 if self.hand == "left" else -1)
+
+    @property
+    def lead_angle(self) -> float:
+        """Lead angle at the mean diameter [rad]; 0 if no diameter is declared."""
+        return 0.0 if self.diameter is None else atan(self.lead.si / (pi * self.diameter.si))
+
+    @property
+    def friction_angle(self) -> float:
+        """Angle of friction on the inclined flanks [rad], arctan(f / cos(flank angle))."""
+        flank = 0.0 if self.flank_angle is None else self.flank_angle.si
+        return 0.0 if self.friction is None else atan(float(self.friction.sliding.value) / cos(flank))
+
+    @property
+    def losses(self) -> Efficiencies | None:
+        """Declared efficiency, or tan(l) / tan(l + r) with the screw driving and tan(l - r) / tan(l) with the nut
+        driving, for the lead angle l and the friction angle r.
+        """
+        if self.friction is None or self.friction.sliding.value == 0:
+            return self.efficiency
+        lead, friction = self.lead_angle, self.friction_angle
+        turning, pushed = tan(lead) / tan(lead + friction), tan(lead - friction) / tan(lead)
+        # 15 digits, so that equal screws have equal fractions
+        return Efficiencies.model_validate({"forward": f"{turning:.15g}", "backward": f"{pushed:.15g}"})
+
+
+class Drum(TravelCoupling):
+    """Line on a drum, with its load on one or more falls: the travel is the circumference divided by the falls."""
+
+    kind: Literal["drum"] = Field(description="Line that a drum winds, with a load that slides")
+    diameter: Annotated[MeasuredLength, above_zero("give a diameter such as 40 mm")] = Field(
+        description="Diameter of the drum plus the thickness of the line"
+    )
+    falls: Number = Field(1, description="Number of parts of the line that carry the load: 2 with one loose pulley")
+    reversed: Flag = Field(False, description="True if the load moves backwards when the drum turns forwards")
+
+    @property
+    def mean(self) -> Fraction:
+        """Travel of the load per revolution of the drum [mm]."""
+        return PI * millimetres(self.diameter) / self.falls * (-1 if self.reversed else 1)

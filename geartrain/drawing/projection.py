@@ -246,7 +246,8 @@ def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
-    for part in projected.scene.shapes:
+    # turned parts after flat parts, whose holes are white
+    for part in sorted(projected.scene.shapes, key=lambda part: bool(part.bands)):
         style: dict[str, Any] = {
             "facecolor": (*to_rgb(PURPLE), 0.12),
             "edgecolor": PURPLE,

@@ -1,4 +1,4 @@
-"""Rational stand-in for pi in exact arithmetic, and the text of exact numbers that contain it.
+"""Rational substitute of pi in exact arithmetic, and the text of exact numbers that contain it.
 
 Travel per revolution of a rack or a drum is a multiple of pi. Exact speeds are computed with a fixed rational number in
 place of pi. Its numerator and denominator are primes above every tooth count, so that identities in pi are preserved
@@ -45,7 +45,7 @@ def integer_factors(number: int, pi: str = "π") -> list[str]:
     """Return the factors of a positive coefficient as texts: an integer, unless it is 1, and the letter pi.
 
     In a quotient of polynomials with powers of `PI`, all terms have the same total number of factors that are its
-    numerator or denominator, so that the denominator stands for 1.
+    numerator or denominator, so that the denominator can be omitted.
 
     >>> integer_factors(36 * PI.numerator), integer_factors(PI.denominator), integer_factors(6)
     (['36', 'π'], [], ['6'])

@@ -179,7 +179,7 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 
 
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
-    """Return the error of an output in seconds a day and seconds a year, and the time after which it is a day off.
+    """Return the error of an output in seconds a day and seconds a year, and the days after which it is a day off.
 
     The first two are "" unless the output has a hand of a clock or a target of about a day, the third is "" for shorter
     targets.
@@ -189,7 +189,7 @@ def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) ->
     days = declared.unit_days / abs(target.speed)
     is_clock = result.output.hand != "needle" or _ABOUT_A_DAY[0] <= days <= _ABOUT_A_DAY[1]
     rates = (_signed(target.seconds_per_day), _signed(target.seconds_per_year)) if is_clock else ("", "")
-    late = "never" if target.days_to_one_day is None else f"{figure(target.days_to_one_day, 6)} d"
+    late = "never" if target.days_to_one_day is None else figure(target.days_to_one_day, 6)
     return *rates, late if days > _LONGER else ""
 
 
@@ -213,7 +213,7 @@ def _targets(declared: Train, answer: Answer) -> Iterator[Section]:
     if not targets:
         return
     each = answer.unit.removeprefix("turns per ") if answer.unit.startswith("turns per ") else "unit"
-    rates = ("s a day", "s a year", "a day off in")
+    rates = ("s a day", "s a year", "days to a day off")
     errors = ("error ppm", *rates, "days a century", f"degrees per {each}")
     header = ("output", "target", *errors, "target speed", "compared", "within")
     table = filled_table(header, targets, 3)

@@ -447,7 +447,10 @@ def _universal(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     if size(cross(*ways)) > _NONE:
         centre = foot(lines[0].point, ways[0], lines[1].point, ways[1])[0]
     normal = unit_or_z(cross(*ways)) if size(cross(*ways)) > _NONE else beside_axis(ways[0])
-    wide, phase = 8.0, getattr(place.declared, "phase", None)
+    # joints far apart are drawn larger, so that they are visible in a picture of the whole train
+    points = [each.point for each in stage.layout.axes.values()]
+    wide = max(8.0, 0.08 * max(size(minus(point, centre)) for point in points))
+    phase = getattr(place.declared, "phase", None)
     turn = 0.0 if phase is None else phase.si
     in_plane = cross(normal, ways[0])
     first = plus(scaled(in_plane, cos(turn)), normal, sin(turn))

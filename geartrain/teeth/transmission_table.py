@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 DEGREE = 4
 _FEWEST, _MOST = 32, 1 << 16  # minimum and maximum number of cells
 _PATIENCE = 8  # an error not halved by this factor of cells is rounding error
+_MANY = 16  # kinks: a search takes less time than that many comparisons
+_MOST_KINKS = 512  # of a table of the kernel, which compares an angle with each of them
 _THIN = 1e-12  # periods: in narrower cells the table is constant
 _SAFETY = 2.0  # stated uncertainty divided by the maximum error found
 # degree 6 follows a function to rounding error in 32 to 512 cells: with a higher degree the fit itself has larger
@@ -123,8 +125,11 @@ class CellTable:
             u = np.mod(S, self.period)
             # every kink below the angle adds a cell to the count of uniform cells
             cell = np.asarray(u * (self.cells / self.period)).astype(np.intp)
-            for kink in self.kinks:
-                cell = cell + (u >= kink)
+            if len(self.kinks) > _MANY:
+                cell = cell + np.searchsorted(self.kinks, u, side="right")
+            else:
+                for kink in self.kinks:
+                    cell = cell + (u >= kink)
             # clipped, since rounding may lead past the last cell and NaN anywhere
             u = u - self.middles.take(cell, mode="clip")
             found = self.coefficients[-1].take(cell, mode="clip")
@@ -260,9 +265,11 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
     to rounding error.
 
     The tables of a `TabulatedTransmission` are used as they are. Return None if no table follows the function: if it
-    has gaps, or if each column of angles has a transmission function of its own.
+    has gaps or too many kinks, or if each column of angles has a transmission function of its own.
     """
     if isinstance(transmission, TransmissionFunction) and type(transmission).picked is not TransmissionFunction.picked:
+        return None
+    if len(folded_kinks(transmission)) > _MOST_KINKS:
         return None
     if isinstance(transmission, TabulatedTransmission):
         found = TransmissionTable(transmission.period, transmission.error_table, transmission.speed_table)

@@ -11,7 +11,8 @@ manufacturing, wheel_stock, reconstruction   materials and cutting errors; blank
 fields, validation, references   strict fields; short forms and problems; conflicting names and units
 yaml_nodes, declaration_style    YAML with line numbers; rewriting in short or long forms
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and changed copies of a declaration
-periods                          table of astronomical periods
+periods, printed_period          table of astronomical periods; periods as sources print them
+owned_wheels                     wheels that a maker owns, and table of construction sets
 """
 
 from __future__ import annotations

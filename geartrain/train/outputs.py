@@ -353,7 +353,8 @@ class Expect(Declared):
 
 def _read_printed(raw: object, info: ValidationInfo) -> object:
     """Read a published value or its tolerance: a time if a period is printed, otherwise a number."""
-    if info.data.get("as_") == "period":
+    # `as_` is missing if it is not valid, which is reported
+    if info.data.get("as_", "period" if is_printed_period(raw) else None) == "period":
         return PrintedPeriod.parse(raw)
     if is_printed_period(raw):
         raise bad("published", f"'{raw}' is a time, not a number", "add `as: period`")

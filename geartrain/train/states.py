@@ -185,7 +185,7 @@ class Drive(Declared):
         """Constant torque of a weight, mass times gravity times the radius of its drum, or of a spring at its equalised
         fusee [N m]; None for other drives.
 
-        For the link of the weight itself it is the torque that stands for the force, see `as_torque`.
+        For the link of the weight itself it is the torque equivalent to the force, see `as_torque`.
         """
         if self.spring is not None and self.spring.fusee is not None and self.spring.fusee.torque is not None:
             return self.spring.fusee.torque.si

@@ -80,8 +80,9 @@ def test_every_link_and_pair_of_a_shipped_train_carries_what_is_declared(name: s
         else:
             coupling = couplings[data["label"]]
             assert data["declared"] is coupling
-            assert (circuit.i, circuit.j) == (coupling.slot, coupling.pin)
-            assert data["ratio"] == (0 if data["kind"] == "pin_follower" else 1)
+            assert (circuit.j, circuit.i) == coupling.ends[:2]
+            pins = data["kind"].startswith("pin") or data["kind"] == "parallel"
+            assert data["ratio"] == ((data["kind"] != "pin_follower") if pins else coupling.mean)
             assert data["form"] is None
     assert sorted(seen) == sorted([*gears, *couplings])
 

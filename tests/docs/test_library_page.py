@@ -25,7 +25,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_every_script_of_the_page_is_run_and_every_block_of_python_is_a_script() -> None:
     assert [name for name, _ in SHOWN] == [name for name in FILES if name.endswith(".py")]
-    assert len(re.findall(r"^```python$", PAGE, re.M)) == len(SHOWN) == 4
+    assert len(re.findall(r"^```python$", PAGE, re.M)) == len(SHOWN) == 5
 
 
 @pytest.mark.parametrize(("name", "shown"), SHOWN, ids=[name for name, _ in SHOWN])

@@ -138,7 +138,7 @@ def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int)
             "slot": pin.slot,
             **({"friction": random.choice([0.01, 0.1, 0.3])} if pin.kind in ("pin_and_slot", "pin_follower") else {}),
         }
-        for pin in plain.couplings
+        for pin in plain.pin_couplings
     ]
     moving = [link for link in plain.links if link != plain.frame]
     # loads are plain numbers here, and a friction that is declared has a unit

@@ -60,17 +60,17 @@ states:
   pushed low: {engaged: [forward, low], inputs: {OUT: 1}, outputs: {IN: {}}}
   required: {engaged: [forward, direct, F]}
 """
-# O4: a chain drives one cog by its front and the other by its back; here by gears with the same ratios
+# O4: a chain drives one cog by its front and the other by its back
 RETRO = """
 frame: f
 links:
   f: {}
-  chain: {wheels: {front: {teeth: 44, internal: true}, back: 44}}
+  chain: {wheels: {c: 44}}
   a: {wheels: {cog a: 18}}
   b: {wheels: {cog b: 26}}
   wheel: {}
 revolutes: {C: [f, chain], W: [f, a, b, wheel]}
-gears: [front ~ cog a, back ~ cog b]
+couplings: [{kind: belt, around: [c, cog a]}, {kind: belt, around: [c, cog b], reversed: [cog b]}]
 clutches: {A: {locks: [a, wheel], one_way: forward}, B: {locks: [b, wheel], one_way: forward}}
 outputs: {wheel: {}}
 states: {ahead: {inputs: {chain: 1}}, back: {inputs: {chain: -1}}}

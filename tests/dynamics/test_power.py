@@ -627,3 +627,11 @@ def test_torques_and_their_flow_need_no_large_library_and_a_picture_names_its_ex
     assert (done.returncode, done.stdout) == (2, "")
     assert "pip install 'matplotlib>=3.8'" in done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_gearbox_in_neutral_with_bearing_friction_loses_power_only_in_bearings_of_known_speed() -> None:
+    train = load(
+        "name: n\nextends: simpson-set\nlinks: {SUN: {bearing: 1/100}, IN: {bearing: 1/100}}\n"
+        "states: {N: {engaged: [], expect: free}}\n"
+    )
+    assert find_power_flow(train.torques("N")).losses == {PowerNode("bearing", "IN"): Fraction(1, 100)}

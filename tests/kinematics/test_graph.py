@@ -81,7 +81,7 @@ def edges_of(train: GearTrain) -> list[tuple[str, ...]]:
     on = {wheel: link for link, part in declared.links.items() for wheel in part.wheels}
     edges = [(*sorted(joint.pair), "revolute", joint.axis) for joint in declared.revolutes]
     edges += [(*sorted(on[wheel] for wheel in gear.pair), "gear", gear.name) for gear in declared.gears]
-    edges += [(*sorted((c.pin, c.slot)), c.kind, c.name) for c in declared.couplings]
+    edges += [(*sorted(c.ends[:2]), c.kind, c.name) for c in declared.couplings]
     return sorted(edges)
 
 

@@ -10,7 +10,7 @@ import pytest
 from commands import call
 
 from geartrain import load
-from geartrain.errors import DeclarationError
+from geartrain.errors import DeclarationError, QuestionError
 from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
 from geartrain.search.train.train_search import search_train
 from geartrain.train.declaration_files import read_declaration
@@ -163,6 +163,22 @@ def test_a_search_satisfies_what_is_printed(value: str, holds: Callable[[int, in
     assert bool(counts) == ("direct" not in value and value != "12.37, as: input/output")
 
 
+def test_a_ratio_to_several_inputs_is_refused_with_its_reason() -> None:
+    text = pair("1 d", 19, 235, "{published: {value: 12, as: input/output}}")
+    text = text.replace("a: 19", "a: {teeth: {search: [18, 22]}}").replace("links: {", "links: {c: {}, ")
+    text = text.replace("A: [frame, a]", "A: [frame, a], C: [frame, c]").replace("inputs: {", "inputs: {c: 2, ")
+    with pytest.raises(QuestionError) as refused:
+        search_train(read_declaration(text))
+    (problem,) = refused.value.problems
+    assert problem.why == "a ratio needs exactly one input that turns, and 2 turn"
+
+
+def test_a_wrong_kind_of_published_value_is_reported_once() -> None:
+    with pytest.raises(DeclarationError) as refused:
+        load(pair("1 d", 19, 235, "{published: {value: 12.37 d, as: Period}}"))
+    assert len(refused.value.problems) == 1
+
+
 # rates of clocks ------------------------------------------------------------------------------------------------------
 
 
@@ -207,11 +223,11 @@ def test_an_exact_hand_is_never_a_day_off(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("hand", "target", "heads"),
     [
-        ("needle", "29.530588853 d", {"a day off in"}),
+        ("needle", "29.530588853 d", {"days to a day off"}),
         ("needle", "29.5 h", set()),
         ("hour", "29.5 h", {"s a day", "s a year"}),
         ("needle", "24.84 h", {"s a day", "s a year"}),
-        ("seconds", "29.530588853 d", {"s a day", "s a year", "a day off in"}),
+        ("seconds", "29.530588853 d", {"s a day", "s a year", "days to a day off"}),
     ],
 )
 def test_rates_are_printed_for_hands_of_clocks_and_days(
@@ -221,7 +237,7 @@ def test_rates_are_printed_for_hands_of_clocks_and_days(
     path.write_text(pair("1 d", 2, 59, f"{{hand: {hand}, targets: [{{period: {target}}}]}}"))
     call("report", path, "--section", "Against the targets", "-o", tmp_path / "rates.md")
     lines = (tmp_path / "rates.md").read_text()
-    assert {head for head in ("s a day", "s a year", "a day off in") if f"| {head} " in lines} == heads
+    assert {head for head in ("s a day", "s a year", "days to a day off") if f"| {head} " in lines} == heads
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,13 @@ import geartrain
 from geartrain.scene import ManufacturingSizes, Scene, ScenePart, SolidModel, SolidPart, build_scene
 
 RUNS = 0.35  # mm: maximum gap of running and press fits
-TOGETHER = {"rv-reducer": {"eccentric"}}  # links that parallel cranks carry, which have no part
+# links without parts: parallel cranks carry them, or they have no wheels, and fingers and stars have no solids
+TOGETHER = {
+    "rv-reducer": {"eccentric"},
+    "simple-calendar": {"date", "moon"},
+    "count-wheel-striking": {"centre"},
+    "film-projector": {"maltese"},
+}
 
 
 @dataclass(frozen=True)

@@ -169,8 +169,8 @@ class _Decision:
     def _loads(self) -> Mapping[str, tuple[str, str] | None]:
         """Loads that are applied one at a time: an output with its two links, or None for all declared loads."""
         declared, case = self.train.declaration, self._patterns[()].case
-        if declared.is_loaded(self.state):
-            return {" and ".join(case.loads) or "the bearings": None}
+        if case.loads:
+            return {" and ".join(case.loads): None}
         ends = {name: output.links(name, declared.frame) for name, output in case.outputs.items()}
         outputs = {name: each for name, each in ends.items() if each[0] not in case.inputs}
         top = self.train.tree.top
@@ -221,7 +221,7 @@ class _Decision:
     def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
         """Yield a note for each load that releases a clutch if it drives the train, instead of being driven."""
         for load, forward in deciding.items():
-            if forward is None or not pattern.holding or (self._loads[load] is None and not pattern.case.loads):
+            if forward is None or not pattern.holding:
                 continue
             backward = self._torques(pattern, load, -1)
             if backward is None or backward.verdict.kind != "overrunning":

@@ -308,7 +308,8 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
     for pair in found.pairs.values():
         yield (
             PowerNode("pair", pair.id),
-            [(link, -found.power(link, torque)) for link, torque in zip(pair.links, pair.torques, strict=True)],
+            # a link of undetermined speed has no torque
+            [(link, -found.power(link, own)) for link, own in zip(pair.links, pair.torques, strict=True) if own],
         )
     for bearing in found.bearings:
         ends = ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction))

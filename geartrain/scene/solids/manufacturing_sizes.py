@@ -172,6 +172,9 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
     form = declared.form_of(gear)
     if form is None:
         return gear
+    if not form.has_shape:
+        # standard teeth are cut, which keep the ratio whatever error is given
+        return gear if form.form == "ideal" else gear.changed(tooth_form={"form": "ideal"})
     # from the decimal string: the float itself is not exactly that decimal
     share = Fraction(str(BACKLASH)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
     thinner = form.thinned(Quantity(share, None, f"{float(share):.9g}"))
@@ -181,7 +184,7 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
 def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
     """Return the problem that the tooth form of a pair fixes its backlash; None if the backlash can be chosen."""
     form = declared.form_of(gear)
-    return None if form is None else form.own_backlash(gear.name)
+    return None if form is None or not form.has_shape else form.own_backlash(gear.name)
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:

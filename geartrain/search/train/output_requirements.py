@@ -229,6 +229,10 @@ def find_output_requirements(
     found = []
     for name, function in functions.items():
         output = case.outputs[name]
+        if output.published is not None and "/" in output.published.as_ and len(moving) != 1:
+            what = f"the published value {output.published.value} of output '{name}' cannot be compared"
+            why = f"a ratio needs exactly one input that turns, and {len(moving) or 'none'} turn"
+            raise QuestionError(Problem(what, why, "give the speed, `as: speed`, or let only one input turn"))
         demands = tuple(_demands(train, output, moving[0] if len(moving) == 1 else None, tolerance))
         if demands:
             found.append(OutputRequirement(name, function, demands))
@@ -262,8 +266,7 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
 def _printed(train: Train, published: Published, drive: Fraction | None, graded: bool) -> SpeedRequirement:
     """Return the requirement of a published value.
 
-    A published ratio needs the speed of a single input, and a period a unit of time. Without them no speed is
-    admissible.
+    drive   speed of the only input that turns, for a published ratio
     """
     label, unit, signed = f"published {published.value} {published.as_}", unit_seconds(train), not published.unsigned
     printed = in_plain_units(published.value, unit)
@@ -272,9 +275,7 @@ def _printed(train: Train, published: Published, drive: Fraction | None, graded:
         scale = unit and unit * published.turns.value * (-1 if published.sense == "retrograde" else 1)
     else:
         scale = Fraction(1) if published.as_ == "speed" else drive
-    if scale is None:
-        # no interval: no speed is admissible
-        return SpeedRequirement(label, Fraction(1), True, (), False)
+    assert scale is not None
     if published.as_ in ("speed", "output/input"):
         wanted, half = printed.value * scale, half * abs(scale)
         near = (_around(wanted, half),) if signed else _magnitudes(abs(wanted), half)

@@ -25,6 +25,7 @@ from geartrain.workshop.rexs.unit_export import omitted_parts, to_rexs
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.scene.solids.solid_assembly import SolidModel
+    from geartrain.train import Train
 
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
@@ -300,6 +301,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
         found += (problem for cup in work.frame.plan.stack.cups for problem in cup.notices())
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
+        found += _teeth_without_shape(work.train.declaration)
     if {"svg", "dxf"} & set(kinds):
         found += work.couplings.notices
     found += [problem for kind in kinds for problem in simplifications(work, kind)]
@@ -400,6 +402,16 @@ def _pairs(work: SolidModel) -> tuple[str, Rows]:
         shown = "" if distance is None else f"{distance:.9g}"
         rows.append((gear.name, first, second, *counts, carriers[gear.name], form.form if form else "", shown))
     return "pair first second first_teeth second_teeth carrier form distance_mm", rows
+
+
+def _teeth_without_shape(declared: Train) -> Iterator[Problem]:
+    """Yield a notice on the pairs that declare a transmission error instead of the shape of their teeth."""
+    forms = {gear.name: declared.form_of(gear) for gear in declared.gears}
+    names = [name for name, form in forms.items() if form is not None and not form.has_shape and form.form != "ideal"]
+    if names:
+        why = "their form gives the transmission error, not the shape of the teeth"
+        what = f"standard teeth are cut for {', '.join(names)}"
+        yield Problem(what, why, "declare a form with shapes, such as `tooth_form: involute`, for parts of that form")
 
 
 def _circuits(work: SolidModel) -> tuple[str, Rows]:

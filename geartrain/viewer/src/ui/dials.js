@@ -15,7 +15,8 @@ function gathered(scene, machine) {
     .map((dial) => ({ name: dial.title, dial, hands: all.filter((each) => each.dial === dial) }))
     .filter(({ hands }) => hands.length);
   if (declared.length) return declared;
-  return all.slice(0, PLAIN).map((each) => ({ name: each.pointer.output, dial: null, hands: [each] }));
+  // a link that slides has no hand
+  return all.filter(({ travels }) => !travels).slice(0, PLAIN).map((each) => ({ name: each.pointer.output, dial: null, hands: [each] }));
 }
 
 class Card {

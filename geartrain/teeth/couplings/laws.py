@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
+from geartrain.errors import RangeError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.quantity import (
@@ -216,6 +217,10 @@ class PitchCurvePair(_VaryingPair):
             raise bad("law", "some radii have a unit and others do not", "give all with a unit, or all without")
         if min(radius.base for radius in self.radii) <= 0:
             raise bad("law", "a radius of the pitch curve is not above 0", "give radii above 0")
+        try:
+            _ = self.distance
+        except RangeError as error:
+            raise bad("law", f"{error.problems[0].what}: {error.problems[0].why}", error.problems[0].fix) from None
         return self
 
     @property

@@ -203,11 +203,14 @@ def test_parts_that_rexs_cannot_represent_are_named() -> None:
     for name, expected in OMITTED.items():
         assert expected in named[name]
     assert not [*omitted_parts(solid(load("planetary-24-18-60")))]
+    jack = [part["name"] for part in parts(rexs("screw-jack")) if "rotational_speed" in values(part)]
+    assert jack == ["screw"], "the travel of the ram is not a speed of rotation"
 
 
 OMITTED = {
     "cycloidal-reducer": "coupling 'holes' is omitted",
     "crossed-helical": "gear pair 'd20~w20' is omitted",
+    "screw-jack": "motion of sliding link 'ram' is omitted",
     "norton-compound": "load without a unit on link 'F' is omitted",
     "planetary-24-18-60-triangular": "tooth form 'triangular' is omitted",
 }

@@ -241,8 +241,8 @@ class GivenError(ToothForm):
     driver: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] = Field(
         1, description="Wheel to whose angle the errors refer, the first or second of the pair"
     )
-    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed), _OneOrSeveral()] = Field(
-        (), description="Transmission error over a period, or a list of errors that are added"
+    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed), _OneOrSeveral()] | None = Field(
+        None, description="Transmission error over a period, or a list of errors that are added; default no error"
     )
     eccentricity: TwoLengths = Field(
         "0",
@@ -281,9 +281,6 @@ class GivenError(ToothForm):
         if self.efficiency is not None:
             _check_efficiency(self.efficiency.forward)
             _check_efficiency(self.efficiency.backward)
-        if self.function is None and not self.error and not any(each.value for each in self.eccentricity):
-            fix = "for example, give `error: {harmonics: [[1, 0.05 deg]]}`"
-            raise bad("error", "a table has neither `error` nor `eccentricity`", fix)
         for name in ("backlash", "eccentricity"):
             value = getattr(self, name)
             for each in value if isinstance(value, tuple) else (value,):
@@ -346,7 +343,7 @@ class GivenError(ToothForm):
 
         first, second = (0, 1) if self.driver == 1 else (1, 0)
         own = counts[first], counts[second]
-        parts = [each.function(own) for each in self.error]
+        parts = [each.function(own) for each in self.error or ()]
         if any(offsets):
             angles = [each.si for each in self.eccentricity_angle]
             apart, at = (offsets[first], offsets[second]), (angles[first], angles[second])

@@ -255,6 +255,15 @@ def test_turning_back_adds_the_backlash() -> None:
         assert degrees(law.verdict.backlash) == pytest.approx(size)  # type: ignore[attr-defined]
 
 
+@pytest.mark.parametrize("driver", [1, 2])
+def test_a_pair_may_have_only_backlash_and_efficiency(driver: int) -> None:
+    law = table(backlash="0.2 deg", efficiency="0.9").transmission(20, 20, driver)
+    assert (law.error_range(), law.speed_range(), law.pitch_count) == ((0, 0), (1, 1), 1)
+    assert list(law.angle([0.0, 1.0])) == [0, 1]
+    assert law.efficiency_mean() == pytest.approx(0.9)
+    assert np.degrees(law.reversed_motion().error([0.3])) == pytest.approx(0.2)
+
+
 def test_lines_between_points_leap_in_speed() -> None:
     law = table(error={"points": [["0", "0 deg"], ["1/4", "0.1 deg"]], "interpolation": "linear"}).transmission(20, 20)
     steep = radians(0.1) / (pi / 40)
@@ -406,7 +415,6 @@ def test_a_simulation_in_time_follows_the_runout() -> None:
 
 POINT = ["0", "0 deg"]
 REFUSED: list[tuple[dict[str, Any], str]] = [
-    ({}, "neither `error` nor `eccentricity`"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/4", "0 deg"]]}}, "not above that of the point before it"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/2", "0 deg"]]}}, "not above that of the point before it"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["3/2", "0 deg"]]}}, "outside the period"),

@@ -18,6 +18,7 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics.multiples_of_pi import OTHER_PI, PI, pi_text
 from geartrain.report.answers import answer_text
 from geartrain.teeth.couplings.crank_slider import CrankSliderTransmission
+from geartrain.train import with_long_forms, with_short_forms
 
 RACK = """
 links: {frame: {}, pinion: {}, carriage: {}}
@@ -458,3 +459,48 @@ def test_a_mistake_is_refused_with_its_fix(mistake: str) -> None:
     with pytest.raises(GearTrainError) as refused:
         geartrain.load(RACK.replace(old, new)).circuits  # noqa: B018
     assert said in str(refused.value)
+
+
+# ------------------------------------------------------------------------------------------- motion, forms, inheritance
+
+
+def test_the_anomaly_of_a_pin_reaches_a_rack_in_millimetres() -> None:
+    train = geartrain.load("""
+links: {frame: {}, a: {}, b: {}, rack: {}}
+revolutes: {A: [frame, a], B: [frame, b]}
+slides: {R: [frame, rack]}
+couplings:
+  - {kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 5 mm}
+  - {kind: rack, turns: b, slides: rack, teeth: 18, module: 2 mm}
+inputs: {a: 1}
+outputs: {rack: {}}
+loads: {rack: -100 N}
+""")
+    # the slot is at most arcsin(1/2) ahead or behind, on a pitch radius of 18 mm
+    found = train.motion().transmission_error("rack")
+    assert found.peak_to_peak / (2 * pi) == pytest.approx(2 * 18 * pi / 6, rel=1e-6)
+    # the slot turns at most 10/(10 - 5) and at least 10/(10 + 5) times as fast as the pin
+    run = train.torques(turns=1)
+    assert (run.maximum_torque, run.minimum_torque) == (pytest.approx(1.8 * 2), pytest.approx(1.8 * 2 / 3))
+    back = train.with_changes({"loads": {"a": "-1 N m"}, "solve_for": "rack"}).torques(turns=1)
+    assert back.unit == "N"
+    assert back.maximum_torque == pytest.approx(1 / 0.018 * 1.5, rel=1e-6)
+
+
+def test_slides_have_a_short_form_that_formatting_keeps() -> None:
+    long = "slides:\n  - {pair: [frame, c], axis: bed}\n  - {pair: [frame, d], axis: bed}\n"
+    assert with_short_forms(long) == "slides: {bed: [frame, c, d]}\n"
+    assert with_long_forms("slides: {bed: [frame, c, d]}\n") == long
+
+
+def test_a_child_replaces_a_slide_by_its_links_and_keeps_the_rest() -> None:
+    child = geartrain.load("""
+extends: lathe-thread
+slides: [{pair: [bed, carriage], axis: guide}]
+outputs: {carriage: {expect: -1.25 mm}}
+""")
+    assert child.kinematics.tree.axis("carriage") == "guide"
+    assert bool(child.solve())
+    graph = child.graph
+    (edge,) = (each for each in graph.edges(data=True) if each[2]["kind"] == "prismatic")
+    assert edge[2]["label"] == "guide"

@@ -537,6 +537,7 @@ WORM = {'name="Mesh [10]" type="cylindrical_stage"': 'name="Mesh [10]" type="wor
         ({}, "planet_carrier_shaft planetary_stage=9 shaft=4", ""),
         ({"cylindrical_stage": "something", "planetary_stage": "other"}, "", "the gear unit has no gear stage"),
         ({'role="part" id="19"': 'role="part" id="99"'}, "", "refers to the missing component 99"),
+        ({'role="gear_2" id="13"': 'role="gear" id="13"'}, "", "a relation 'stage' has no role 'gear_2'"),
         ({"<model ": "<!DOCTYPE model><model "}, "", "document type declaration is not allowed"),
         ({"<model ": "<gear ", "</model>": "</gear>"}, "", "the root element is <gear>, not <model>"),
         ({"</components>": ""}, "", "this is not a REXS model"),

@@ -245,7 +245,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
         parent=None if bearer is None else stage.body[bearer],
         axis=label,
         point=(0.0, 0.0, 0.0) if place is None else place.point,
-        direction=_line(stage, link, label) if travels else stage.reference(label),
+        direction=stage.line(label) if travels else stage.reference(label),
         sense=stage.sense(link),
         speed=exact(stage.ratio(link)),
         shown=stage.shown(speed, link),
@@ -257,17 +257,6 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
         travels=travels,
         base=None if bearer is None or tree.bearer(link) == bearer else stage.body[tree.bearer(link)],
     )
-
-
-def _line(stage: SceneContext, link: str, label: str) -> Vector:
-    """Return the direction in which a link slides: as declared, along the axis of its screw, otherwise along x."""
-    axis = stage.train.declaration.axes.get(label)
-    if axis is not None and "direction" in axis.model_fields_set:
-        return stage.reference(label)
-    tree = stage.train.kinematics.tree
-    screws = (each for each in stage.train.circuits if each.kind == "screw" and link in (each.i, each.carrier))
-    found = next((tree.axis_seen_from(each.carrier, each.j) for each in screws), None)
-    return (1.0, 0.0, 0.0) if found is None else stage.reference(found)
 
 
 def _role(stage: SceneContext, link: str) -> str:

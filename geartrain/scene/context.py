@@ -67,8 +67,9 @@ class SceneContext:
 
     @cached_property
     def crank(self) -> str | None:
-        """Link that is turned by hand: the declared crank, or the driving link; None if there is neither."""
-        return self.train.declaration.crank or self.driving_link
+        """Link that is turned by hand: the declared crank or the driving link; None if it slides, or without one."""
+        link = self.train.declaration.crank or self.driving_link
+        return None if link in self.train.declaration.sliding else link
 
     def speed(self, link: str) -> Fraction | None:
         """Return the exact speed of a link at the declared inputs; None if it is not determined."""
@@ -113,6 +114,19 @@ class SceneContext:
         """Return the declared unit direction of an axis; z if the axis is not in the layout."""
         place = self.layout.axes.get(axis or "")
         return _Z if place is None else unit_or_z(place.direction)
+
+    def line(self, axis: str) -> Vector:
+        """Return the unit direction in which links slide on an axis: as declared, along the axis of a screw, otherwise
+        along x.
+        """
+        declared = self.train.declaration.axes.get(axis)
+        if declared is not None and "direction" in declared.model_fields_set:
+            return self.reference(axis)
+        seen_from = self.train.kinematics.tree.axis_seen_from
+        screws = (each for each in self.train.circuits if each.kind == "screw")
+        found = (seen_from(each.carrier, each.j) for each in screws if seen_from(each.carrier, each.i) == axis)
+        screw = next(found, None)
+        return (1.0, 0.0, 0.0) if screw is None else self.reference(screw)
 
     def reference(self, axis: str | None) -> Vector:
         """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel

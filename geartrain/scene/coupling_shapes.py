@@ -363,8 +363,8 @@ def _star(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 def _along_slide(place: _CouplingPlace) -> Vector:
     """Return the unit vector along which the sliding link of a coupling travels."""
-    tree = place.stage.train.kinematics.tree
-    return unit_or_z(place.stage.along(tree.axis(place.declared.slides)))
+    circuit, tree = place.circuit, place.stage.train.kinematics.tree
+    return place.stage.line(tree.axis_seen_from(circuit.carrier, circuit.i))
 
 
 def _rack(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
@@ -412,7 +412,7 @@ def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     radius = millimetres_of(declared.diameter, 20.0) / 2
     yield place.turned(declared.turns, "drum", place.driver_at, radius, -2 * _THICK, 2 * _THICK)
     side = cross(way, place.axis)
-    start = plus(place.driver_at, side, radius)
+    start = plus(place.driver_at, side, -radius if declared.reversed else radius)
     end = plus(start, way, 4 * radius)
     yield place.turned(declared.slides, "cord", start, 0.04 * radius + 0.2, 0.0, 4 * radius, way)
     yield place.turned(declared.slides, "weight", end, 0.6 * radius, 0.0, 1.6 * radius, way)
@@ -425,7 +425,7 @@ def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     radius, rod = (millimetres_of(length, 10.0) for length in (declared.radius, declared.rod))
     yield place.flat(declared.turns, "arm", place.driver_at, way, _bar((0.0, 0.0), (radius, 0.0), 0.25 * radius))
     yield place.turned(declared.turns, "pin", plus(place.driver_at, way, radius), 0.1 * radius, -_THICK, _THICK)
-    block = plus(place.driver_at, way, rod)
+    block = plus(place.driver_at, way, radius + rod)
     w, h = 0.5 * radius, 0.35 * radius
     yield place.flat(declared.slides, "block", block, way, [(-w, -h), (w, -h), (w, h), (-w, h)])
 

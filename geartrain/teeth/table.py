@@ -214,7 +214,7 @@ def _listed(raw: object) -> object:
     return [raw] if isinstance(raw, dict | ErrorContribution) else raw
 
 
-class ErrorTable(ToothForm):
+class GivenError(ToothForm):
     """Given transmission error of a gear pair, from a measurement or a calculation, instead of the shape of its teeth.
 
     Errors are added. They refer to the angle of the wheel `driver`. If the other wheel drives, its transmission
@@ -229,7 +229,7 @@ class ErrorTable(ToothForm):
     A pinion of 20 teeth with its centre 0.2 modules off its axis drives a wheel of 60.
 
     >>> from math import degrees
-    >>> runout = ErrorTable(form="table", eccentricity=["0.2", "0"])
+    >>> runout = GivenError(form="table", eccentricity=["0.2", "0"])
     >>> round(degrees(runout.transmission(20, 60).error(0.0)), 10)
     0.1363551848
     """
@@ -275,7 +275,7 @@ class ErrorTable(ToothForm):
     )
 
     @model_validator(mode="after")
-    def _check_values(self) -> ErrorTable:
+    def _check_values(self) -> GivenError:
         if self.efficiency is not None and self.efficiency_table is not None:
             raise bad("efficiency", "efficiency and efficiency_table are both given", "remove one of the two keys")
         if self.efficiency is not None:
@@ -301,7 +301,7 @@ class ErrorTable(ToothForm):
         """True if an eccentricity is declared with a unit."""
         return any(each.unit is not None for each in self.eccentricity)
 
-    def thinned(self, backlash: Quantity) -> ErrorTable:
+    def thinned(self, backlash: Quantity) -> GivenError:
         """Return the form itself, because its backlash is an angle."""
         del backlash
         return self

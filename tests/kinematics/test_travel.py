@@ -221,7 +221,7 @@ outputs: {s: {expect: 0 mm}}
 def test_l8_a_crank_and_slider() -> None:
     law = CrankSliderTransmission(20, 60)
     low, high = (end / (2 * pi) for end in law.error_range())
-    assert (low, high, high - low) == (pytest.approx(40), pytest.approx(80), pytest.approx(40))
+    assert (low, high) == (pytest.approx(-40), 0)
     assert law.speed_range()[1] / (2 * pi) == pytest.approx(21.092790931, abs=5e-10)
     assert degrees(law.peak()) == pytest.approx(73.175297, abs=5e-7)
     motion = geartrain.load(CRANK).motion()
@@ -232,7 +232,7 @@ def test_l8_a_crank_and_slider() -> None:
 def test_a_slider_is_where_its_rod_reaches() -> None:
     law = CrankSliderTransmission(20, 60)
     for S in (0.3, 2.0, 4.5):
-        x = law.error(S) / (2 * pi)
+        x = 80 + law.error(S) / (2 * pi)
         pin = 20 * np.array([cos(S), sin(S)])
         assert sqrt((x - pin[0]) ** 2 + pin[1] ** 2) == pytest.approx(60, rel=1e-14)
         slope = (law.error(S + 1e-6) - law.error(S - 1e-6)) / 2e-6

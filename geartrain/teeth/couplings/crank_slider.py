@@ -1,7 +1,8 @@
 """Crank and slider as a train declares them, and its transmission function.
 
 The slider is at x = r cos S + sqrt(l^2 - r^2 sin^2 S) from the crank's axis, for crank radius r, rod length l and crank
-angle S from the direction of the slide. Its mean speed is 0. One turn of a sliding link is a travel of 1 mm.
+angle S from the direction of the slide. Its travel is measured from the outer dead centre at S = 0, and its mean speed
+is 0. One turn of a sliding link is a travel of 1 mm.
 """
 
 from __future__ import annotations
@@ -56,7 +57,7 @@ class CrankSlider(TravelCoupling):
 class CrankSliderTransmission(TransmissionFunction):
     """Transmission function of a crank that moves a slide through a rod.
 
-    The driven angle is 2 pi times the distance of the slide from the crank's axis in mm. Friction is not modelled.
+    The driven angle is 2 pi times the travel of the slide from its outer dead centre in mm. Friction is not modelled.
 
     Parameters
     ----------
@@ -69,7 +70,7 @@ class CrankSliderTransmission(TransmissionFunction):
     --------
     >>> crank = CrankSliderTransmission(20, 60)
     >>> [round(end / (2 * pi), 9) for end in crank.error_range()]
-    [40.0, 80.0]
+    [-40.0, 0.0]
     """
 
     ratio = Fraction(0)
@@ -79,11 +80,11 @@ class CrankSliderTransmission(TransmissionFunction):
         self.r, self.l = radius, rod
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the position of the slide from the crank's axis [rad; 2 pi is 1 mm]."""
+        """Return the travel of the slide from its outer dead centre, at most 0 [rad; 2 pi is 1 mm]."""
         import numpy as np
 
         S = np.asarray(S, dtype=float)
-        return np.asarray(self.period * (self.r * np.cos(S) + self._along(S)))
+        return np.asarray(self.period * (self.r * (np.cos(S) - 1) + self._along(S) - self.l))
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio: travel of the slide per revolution of the crank at its instantaneous speed [mm]."""
@@ -125,11 +126,11 @@ class CrankSliderTransmission(TransmissionFunction):
         return -most, most
 
     def error_range(self) -> tuple[float, float]:
-        """Return the positions of the slide at both dead centres [rad; 2 pi is 1 mm]."""
-        return self.period * (self.l - self.r), self.period * (self.l + self.r)
+        """Return the travels of the slide at both dead centres [rad; 2 pi is 1 mm]."""
+        return -2 * self.period * self.r, 0.0
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean position of the slide and the rms deviation from it [rad; 2 pi is 1 mm]."""
+        """Return the mean travel of the slide and the rms deviation from it [rad; 2 pi is 1 mm]."""
         import numpy as np
 
         positions = self.error(np.arange(_SAMPLES) * (self.period / _SAMPLES))

@@ -11,8 +11,9 @@ from fractions import Fraction
 from math import degrees, pi, sqrt, tan
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, ConfigDict, Field, field_validator, model_validator
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
+from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.quantity import (
     Angle,
@@ -275,7 +276,7 @@ class TabledLaw(_VaryingPair):
     kind: Literal["law"] = Field(description="Driven angle by a mean ratio and a periodic deviation from it")
     mean_ratio: Figure = Field(alias="mean", description="Exact mean speed of the driven link over that of the driver")
     unit: Angle = Field(description="Angle of the driven link for a deviation of 1")
-    harmonics: dict[int, Harmonic] | None = Field(
+    harmonics: Annotated[dict[int, Harmonic], AfterValidator(FrozenDict)] | None = Field(
         None,
         description="Deviation by harmonics: order k in `per` turns -> amplitude A, or [A, angle], for a term "
         "A sin(k S + angle)",

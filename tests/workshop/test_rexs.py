@@ -535,7 +535,7 @@ WORM = {'name="Mesh [10]" type="cylindrical_stage"': 'name="Mesh [10]" type="wor
         ({"<array><c>true</c></array>": "false"}, "", "Brake [15]: `is_engaged` is incomplete"),
         ({}, "assembly assembly=5 part=12", "Sun gear [12]: gear is not mounted on a shaft"),
         ({}, "planet_carrier_shaft planetary_stage=9 shaft=4", ""),
-        ({'"cylindrical_stage"': '"mesh"', '"planetary_stage"': '"set"'}, "", "the gear unit has no gear stage"),
+        ({'type="cylindrical_stage"': 'type="mesh"', 'type="planetary_stage"': 'type="set"'}, "", "has no gear stage"),
         ({'role="part" id="19"': 'role="part" id="99"'}, "", "refers to the missing component 99"),
         ({'role="gear_2" id="13"': 'role="gear" id="13"'}, "", "a relation 'stage' has no role 'gear_2'"),
         ({"<model ": "<!DOCTYPE model><model "}, "", "document type declaration is not allowed"),

@@ -198,13 +198,17 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            If the train does not move, or a pair or output is not declared.
+            If the train does not move, if a pair or output is not declared, or if a requested output depends on a link
+            that one-way clutches drive in steps (see `Motion.advances`).
         """
         from geartrain.dynamics.motion.motion_model import Motion
         from geartrain.dynamics.motion.motion_problem import find_motion_problem
 
         wanted = self.kinematics.seen_links(state, outputs)
-        motion = Motion(find_motion_problem(self.mechanics, state, without), wanted, tolerance, fast)
+        problem = find_motion_problem(self.mechanics, state, without, steps=True)
+        if problem.stepped is not None:
+            wanted = problem.without_steps(wanted, outputs)
+        motion = Motion(problem, wanted, tolerance, fast)
         motion._declaration, motion._state, motion._without = self.declaration, state, tuple(without)
         return motion
 

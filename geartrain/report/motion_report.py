@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import degrees, tau
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypedDict
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import abridged_text
@@ -40,6 +40,13 @@ class PhaseSets(NamedTuple):
     """Number of sets of random tooth phases."""
     seed: int | None
     """Random seed; None if none was given."""
+
+
+class SteppedAdvances(TypedDict, total=False):
+    """Key that the JSON output has only for a train in which one-way clutches drive a link in steps."""
+
+    advances: Mapping[str, float]
+    """Mean speed of the link divided by the speed of the input in its declared sense [1], by link."""
 
 
 class PartialRun(NamedTuple):
@@ -85,7 +92,7 @@ class MotionFigures(Result):
 
     KEYS = (
         *("name", "state", "input", "turns", "positions", "period", "drivers", "reversing_drivers", "rigid", "outputs"),
-        *("separation", "phases", "partial"),
+        *("separation", "phases", "partial", Key("", "steps")),
     )
 
     run: MotionRun
@@ -119,6 +126,11 @@ class MotionFigures(Result):
     """Random tooth phases that were evaluated; None unless requested."""
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
+
+    @property
+    def steps(self) -> SteppedAdvances:
+        """Mean speed of a link that one-way clutches drive in steps; empty without such a link."""
+        return {"advances": self.run.motion.advances} if self.run.motion.advances else {}
 
 
 @dataclass(frozen=True)
@@ -394,6 +406,7 @@ def _deviation_heads(deviation: str) -> tuple[str, str]:
 
 
 def _remarks(run: MotionRun) -> Iterator[str]:
+    yield from _steps_of_clutches(run.motion)
     if run.reversing_drivers:
         composition = run.motion._forward if run.turns >= 0 else run.motion._backward
         names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)
@@ -412,6 +425,19 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             "The run is too long to search every pitch, so extremes are those of the computed positions; a shorter run "
             f"is searched completely. The {run.motion._problem.deviation} p-p is at most {', '.join(limits)}."
         )
+
+
+def _steps_of_clutches(motion: Motion) -> Iterator[str]:
+    """Yield a sentence on the link that one-way clutches drive in steps, and one on the links that are not computed."""
+    for link, speed in motion.advances.items():
+        yield (
+            f"'{link}' advances by {figure(speed, 11)} turn per turn of '{motion._problem.driving_link}' in its "
+            "declared sense, a mean over one common period. It moves with the fastest of the links that drive it "
+            "through one-way clutches, and friction holds it while they are slower or turn back."
+        )
+        others = sorted(motion._problem.behind - {link})
+        also = f" The motion of {', '.join(others)}, which depends on it, is not computed." if others else ""
+        yield f"Not computed: the position of '{link}' within a step, and loads on it.{also}"
 
 
 def _pairs(run: MotionRun, every_output: bool) -> Section:

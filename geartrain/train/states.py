@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf, pi, tau
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -438,6 +438,22 @@ class OneWayAction(Result):
         return self.text()
 
 
+class SteppedLink(NamedTuple):
+    """Link that one-way clutches drive only while a swinging link would overtake it; friction holds it meanwhile.
+
+    See Also
+    --------
+    StateCase : its field `stepped`
+    """
+
+    link: str
+    """Name of the link."""
+    sense: int
+    """Sense in which it moves about its axis, 1 or -1."""
+    drivers: tuple[str, ...]
+    """Links that drive it through the clutches; the frame for a brake."""
+
+
 @dataclass(frozen=True, slots=True)
 class StateCase(Shown):
     """Prescriptions of a train in one state, including values inherited from the train.
@@ -496,6 +512,8 @@ class StateCase(Shown):
     """One-way clutches in force, in the order of declaration."""
     notes: tuple[str, ...] = ()
     """Notes on the one-way clutches, such as what happens if the output drives."""
+    stepped: SteppedLink | None = None
+    """Link that one-way clutches drive in steps, so that its mean speed is not a ratio; None if there is none."""
 
     @property
     def closed(self) -> tuple[str, ...]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from commands import imported_by
+from commands import call, imported_by
+from scipy.integrate import quad
 
 import geartrain
 from geartrain import GearTrain
@@ -96,6 +100,38 @@ links: {f: {}, crank: {}, rocker: {}, h: {}}
 revolutes: {C: [f, crank], W: [f, rocker, h]}
 couplings: [{kind: pin_follower, pin: crank, slot: rocker, pin_radius: 6 mm, offset: 10 mm}]
 clutches: {A: {locks: [rocker, h], one_way: forward}}
+outputs: {h: {}}
+inputs: {crank: 1}
+"""
+# both strokes of the rocker drive h, one through idlers; a dial is geared to h
+BOTH_STROKES = """
+frame: f
+links:
+  f: {}
+  crank: {}
+  rocker: {wheels: {r: 20}}
+  a: {wheels: {a1: 20}}
+  b: {wheels: {b1: 20}}
+  back: {wheels: {k: 20}}
+  h: {wheels: {h1: 20}}
+  dial: {wheels: {d: 40}}
+revolutes: {C: [f, crank], W: [f, rocker, back, h], X: [f, a], Y: [f, b], Z: [f, dial]}
+gears: [r ~ a1, a1 ~ b1, b1 ~ k, h1 ~ d]
+couplings: [{kind: pin_follower, pin: crank, slot: rocker, pin_radius: 6 mm, offset: 10 mm}]
+clutches: {A: {locks: [rocker, h], one_way: forward}, B: {locks: [back, h], one_way: forward}}
+outputs: {h: {}, dial: {}}
+inputs: {crank: 1}
+"""
+# two followers of opposite cranks drive h
+OPPOSITE = """
+frame: f
+links: {f: {}, crank: {}, other: {angle: 180 deg}, rocker: {}, second: {}, h: {}}
+revolutes: {C: [f, crank, other], W: [f, rocker, second, h]}
+locks: [[crank, other]]
+couplings:
+  - {kind: pin_follower, pin: crank, slot: rocker, pin_radius: 6 mm, offset: 10 mm}
+  - {kind: pin_follower, pin: other, slot: second, pin_radius: 6 mm, offset: 10 mm}
+clutches: {A: {locks: [rocker, h], one_way: forward}, B: {locks: [second, h], one_way: forward}}
 outputs: {h: {}}
 inputs: {crank: 1}
 """
@@ -206,9 +242,105 @@ def test_o6_opposed_clutches_hold_their_link_together() -> None:
     assert notes(train) == ("A and B together hold 'x': write a brake or a clutch, such as A: {fixes: x}",)
 
 
-def test_o7_a_swinging_driver_is_refused_by_name() -> None:
-    with pytest.raises(geartrain.DeclarationError, match="behind the one-way clutch 'A' is not a ratio"):
-        geartrain.load(ROCKER)
+def swing_speed(angle: float, radius: float = 6, offset: float = 10) -> float:
+    """Return the speed of the follower divided by that of its pin, from the position of the pin seen from the slot's
+    axis.
+    """
+    x, y = radius * np.cos(angle) - offset, radius * np.sin(angle)
+    return float(radius * (x * np.cos(angle) + y * np.sin(angle)) / (x * x + y * y))
+
+
+def advance_by_quadrature(*speeds: Callable[[float], float]) -> float:
+    """Return the integral of max(0, speeds) over one turn of the pin, divided at all changes of sign and order."""
+    # extremes of the swing, and the two positions at which opposite followers have the same speed
+    reversal = np.arccos(0.6) / (2 * np.pi)
+    ends = sorted({(at + half) % 1 for at in (reversal, -reversal, 0, 0.25) for half in (0, 0.5)} | {1.0})
+    parts = (
+        quad(lambda turn: max(0.0, *(speed(2 * np.pi * turn) for speed in speeds)), low, high, epsabs=1e-14)[0]
+        for low, high in pairwise(ends)
+    )
+    return float(sum(parts))
+
+
+def test_o7_a_swinging_driver_advances_the_link_behind_its_clutch() -> None:
+    train = geartrain.load(ROCKER)
+    answer = train.solve()
+    assert (answer.verdict.kind, bool(answer), "h" in answer.speeds) == ("free", True, False)
+    assert not actions(train)["A"].holds
+    assert notes(train) == ("the speed of 'h' is not determined by ratios: `motion` counts it",)
+    (advance,) = train.motion().advances.values()
+    assert advance == pytest.approx(0.20483276470, abs=1e-11)
+    assert advance == pytest.approx(np.arcsin(0.6) / np.pi, abs=1e-14)
+    assert advance == pytest.approx(advance_by_quadrature(swing_speed), abs=1e-13)
+
+
+def test_o7_two_clutches_take_both_strokes() -> None:
+    motion = geartrain.load(BOTH_STROKES).motion()
+    assert list(motion.outputs) == ["rocker", "back"]
+    assert motion.advances["h"] == pytest.approx(0.40966552940, abs=1e-11)
+    assert motion.advances["h"] == pytest.approx(
+        advance_by_quadrature(swing_speed, lambda angle: -swing_speed(angle)), abs=1e-13
+    )
+
+
+@pytest.mark.parametrize(("sense", "way", "expected"), [("backward", -1, 0.40966552940), ("forward", 1, 0.34404173925)])
+def test_o7_opposite_followers_add_up_unless_their_strokes_overlap(sense: str, way: int, expected: float) -> None:
+    # the return stroke takes 0.295 of a turn, the other stroke 0.705, so that two of these overlap
+    advance = geartrain.load(OPPOSITE.replace("forward", sense)).motion().advances["h"]
+    counted = advance_by_quadrature(
+        lambda angle: way * swing_speed(angle), lambda angle: way * swing_speed(angle + np.pi)
+    )
+    assert way * advance == pytest.approx(expected, abs=1e-11)
+    assert way * advance == pytest.approx(counted, abs=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "advance"),
+    [
+        ("[rocker, h]", "[h, rocker]", -0.2048327647),
+        ("inputs: {crank: 1}", "inputs: {crank: -3}", -0.2048327647),
+        ("{A: {", "{B: {fixes: h, one_way: forward}, A: {", 0.2048327647),
+    ],
+)
+def test_the_advance_has_the_sense_of_the_clutch(old: str, new: str, advance: float) -> None:
+    assert geartrain.load(ROCKER.replace(old, new)).motion().advances == {"h": pytest.approx(advance, abs=1e-10)}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("inputs: {", "loads: {h: -1}\ninputs: {", "loads are declared"),
+        ("{A: {", "{B: {fixes: h, one_way: backward}, A: {", "the clutches drive their link in both senses"),
+        ("h: {}}\nr", "h: {}, k: {}}\nr", "further links are undetermined"),
+        ("locks: [rocker, h]", "fixes: rocker", "the input determines the speeds of both links"),
+    ],
+)
+def test_an_advance_that_cannot_be_counted_is_refused_with_its_reason(old: str, new: str, why: str) -> None:
+    text = ROCKER.replace(old, new)
+    text = text.replace("rocker, h]}", "rocker, h, k]}") if ", k: {}" in text else text
+    with pytest.raises(geartrain.DeclarationError, match="the link behind A cannot be counted") as caught:
+        geartrain.load(text)
+    assert why in str(caught.value)
+
+
+def test_motions_that_depend_on_the_steps_are_refused_by_name() -> None:
+    with pytest.raises(geartrain.QuestionError, match="the motion of 'h' is not determined at every position"):
+        geartrain.load(ROCKER).motion(outputs=["h"])
+    unknown = geartrain.load(ROCKER.replace(", pin_radius: 6 mm, offset: 10 mm", ""))
+    with pytest.raises(geartrain.QuestionError, match="the speeds of crank~rocker within a turn are not known"):
+        _ = unknown.motion().advances
+
+
+def test_commands_print_the_advance(tmp_path: Path) -> None:
+    path = tmp_path / "both.yaml"
+    path.write_text(BOTH_STROKES)
+    motion, report, check = (call(verb, path) for verb in ("motion", "report", "check"))
+    assert "'h' advances by 0.4096655294 turn per turn of 'crank'" in " ".join(motion.stdout.split())
+    assert "The motion of dial, which depends on it, is not computed." in " ".join(report.stdout.split())
+    assert json.loads(call("motion", path, "--json").stdout)["advances"] == {
+        "h": pytest.approx(0.4096655294, abs=1e-10)
+    }
+    assert (check.exit_code, check.stdout[:3]) == (0, "ok ")
 
 
 # ------------------------------------------------------------------------------------------------------ declared loads

@@ -324,6 +324,27 @@ class Motion(Shown):
             found[name] = dict(zip(self._propagation.pairs, self._propagation.sensitivity(*seen).tolist(), strict=True))
         return found
 
+    @cached_property
+    def advances(self) -> Mapping[str, float]:
+        """Mean speed, divided by the speed of the input in its declared sense, of the link that one-way clutches drive
+        in steps [1]; empty if there is none.
+
+        The link moves with the fastest of its drivers while this driver overtakes it, and friction holds it otherwise.
+        The mean is over one common period.
+
+        Raises
+        ------
+        QuestionError
+            If a coupling has no dimensions, or the common period of the drivers is too long.
+        """
+        stepped = self._problem.stepped
+        if stepped is None:
+            return {}
+        from geartrain.dynamics.motion.stepped_advance import mean_advance
+
+        drivers = Motion(self._problem, self._problem.without_steps({}), self.tolerance, self.fast)
+        return {stepped.link: mean_advance(self._problem, drivers._forward, stepped)}
+
     def _statistics(self) -> list[RunningStatistics]:
         return [
             RunningStatistics(name, self._problem.seen_ratio(of, base), slides=name in self._sliding)

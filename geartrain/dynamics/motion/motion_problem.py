@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits.joint_tree import Tree
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
+    from geartrain.train.states import SteppedLink
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,26 @@ class MotionProblem:
     """Loops closed by redundant pairs, around which the transmission errors of the teeth may be incompatible."""
     tree: Tree | None = None
     """Joints of the train, for speeds relative to links that slide; None if no link slides."""
+    stepped: SteppedLink | None = None
+    """Link that one-way clutches drive in steps, which is at rest in the system; None if there is none."""
+    behind: frozenset[str] = frozenset()
+    """Links whose motion depends on the stepped link, including this link; the system does not describe it."""
+
+    def without_steps(
+        self, outputs: Mapping[str, tuple[str, str]], requested: Collection[str] = ()
+    ) -> dict[str, tuple[str, str]]:
+        """Return the outputs that do not depend on the stepped link; if there are none, the links that drive it.
+
+        Raise `QuestionError` if such an output was requested by name.
+        """
+        behind = [name for name, ends in outputs.items() if not self.behind.isdisjoint(ends)]
+        if behind and requested and self.stepped is not None:
+            what = f"the motion of '{behind[0]}' is not determined at every position"
+            why = f"one-way clutches drive '{self.stepped.link}' in steps, and only its mean advance is computed"
+            raise QuestionError(Problem(what, why, f"omit '{behind[0]}'; `geartrain motion FILE` counts the advance"))
+        drivers = self.stepped.drivers if self.stepped is not None else ()
+        kept = {name: ends for name, ends in outputs.items() if name not in behind}
+        return kept or {link: (link, self.frame) for link in drivers if link != self.frame}
 
     @cached_property
     def periods(self) -> Mapping[str, Fraction]:
@@ -128,16 +149,23 @@ class MotionProblem:
         return any(joint.coupling.name == pair for joint in self.couplings) if mesh is None else not mesh.rigid
 
 
-def find_motion_problem(train: TrainMechanics, state: str | None = None, without: Sequence[str] = ()) -> MotionProblem:
+def find_motion_problem(
+    train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), steps: bool = False
+) -> MotionProblem:
     """Collect the data from which the motion of a train in one state is computed.
 
     without   redundant pairs to omit, so that the errors of teeth are compatible around every closed loop
+    steps     True to keep a link at rest that one-way clutches drive in steps; otherwise its speed is undetermined
 
     Raises `QuestionError` if no input turns, or if the speeds of the train are not determined.
     """
     own, declared, meshes = train.kinematics, train.declaration, train.undriven
     case = own.case(state)
-    solution = own.solution(case)
+    solution, behind = own.solution(case), frozenset[str]()
+    if steps and case.stepped is not None:
+        behind = frozenset(declared.links).difference(solution.speeds)
+        case = replace(case, fixed=(*case.fixed, case.stepped.link))
+        solution = own.solution(case)
     if not any(case.inputs.values()):
         what, why = f"'{declared.name}' does not move", "no input has a speed other than 0"
         raise QuestionError(Problem(what, why, "declare a non-zero speed under `inputs`"))
@@ -166,6 +194,8 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
         find_shared_wheels(circuits, own.tree) if meshes else {},
         [parts.loop(chord) for chord in parts.closing] if meshes or train.couplings else [],
         own.tree if own.tree.lines else None,
+        case.stepped if steps else None,
+        behind,
     )
 
 

@@ -8,6 +8,9 @@ loads set the train in motion. Speeds are exact, and torques include declared lo
 
 If no loads are declared, each output resists its own rotation in turn. An output that no pattern can drive decides
 nothing.
+
+A link that swings to and fro drives the link behind its clutch in steps. No pattern describes this motion: the clutches
+count as overrunning, and the speed of the driven link is undetermined (`SteppedLink`).
 """
 
 from __future__ import annotations
@@ -29,7 +32,7 @@ from geartrain.kinematics.circuits.joint_tree import close_joints, rigid_across_
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate, feasible
 from geartrain.train import Clutch, StateCase, Train
-from geartrain.train.states import OneWayAction
+from geartrain.train.states import OneWayAction, SteppedLink
 
 MOST_CLUTCHES = 12
 """Maximum number of one-way clutches in one state: 2^12 patterns are enumerated."""
@@ -91,8 +94,8 @@ class _Decision:
 
     def case(self) -> StateCase:
         self._refuse()
-        if swinging := self._swinging():
-            return self._refused(*swinging)
+        if self._swinging:
+            return self._steps(self._patterns[()])
         if not self._moving:
             return self._answer(self._contradictory(), {}, ())
         chosen = list(dict.fromkeys(each.holding for ways in self._fitting.values() for each in ways))
@@ -287,7 +290,7 @@ class _Decision:
             names = [name for name in case.engaged if clutches[name].links == links and name not in relieved]
             if len(names) > 1:
                 yield f"{_joined(names)} {'all' if names[2:] else 'both'} hold; how they share the torque is not known"
-        for name, couplings in self._varying.items():
+        for name, couplings in self._varying.items() if not self._swinging else ():
             ids = _joined([each.id for each in couplings])
             yield f"{name} is decided by mean speeds, but {ids} varies within a turn"
         groups: dict[tuple[str, str], dict[int, str]] = {}
@@ -349,15 +352,56 @@ class _Decision:
         found = {name: [each for each in varying if symbols[each.id] in slip] for name, slip in slips.items()}
         return {name: each for name, each in found.items() if each}
 
-    def _swinging(self) -> tuple[str, str, str] | None:
-        """Return what, why and fix if a clutch is driven by a link that swings to and fro; None if there is none."""
-        for name, couplings in self._varying.items():
-            _, first, second, _ = self._clutch(name)
-            if not all(each.ratio for each in couplings):
-                what = f"the speed behind the one-way clutch '{name}' is not a ratio of tooth counts"
-                why = f"'{first}' or '{second}' swings to and fro, and {name} passes on only one sense of this motion"
-                return what, why, f"withdraw it by `free: [{name}]` in a state"
-        return None
+    @cached_property
+    def _swinging(self) -> Sequence[str]:
+        """Clutches that are driven by a link that swings to and fro."""
+        return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
+
+    def _steps(self, pattern: ClutchPattern) -> StateCase:
+        """Return the case in which swinging links drive one link in steps, or a case with the reason why its advance
+        cannot be counted.
+        """
+        setting, clutches = pattern.setting, [self._clutch(name) for name in self.names]
+        assert setting is not None
+        driven = {link for _, *links, _ in clutches for link in links if link in setting.open}
+        ends = [(first, second) if second in driven else (second, first) for _, first, second, _ in clutches]
+        # about the axis of the driven link, which is the second link of the clutch or the first
+        senses = {
+            sense * (1 if end[1] == second else -setting.sense(first) * setting.sense(second))
+            for end, (_, first, second, sense) in zip(ends, clutches, strict=True)
+        }
+        link = min(driven, default="")
+        if obstacle := self._obstacle(setting, driven, senses):
+            names = _joined(self._swinging)
+            what = f"the advance of the link behind {names} cannot be counted"
+            why = f"the driver of {names} swings to and fro, and {obstacle}"
+            withdrawn = f"`free: [{', '.join(self._swinging)}]` in a state"
+            return self._refused(what, why, f"let the clutches drive one link without loads, or write {withdrawn}")
+        note = f"the speed of '{link}' is not determined by ratios: `motion` counts it"
+        answer = self._answer(pattern, {}, (note,))
+        stepped = SteppedLink(link, senses.pop(), tuple(dict.fromkeys(driver for driver, _ in ends)))
+        # an undetermined speed is what the declaration means, unless it names another verdict
+        expect = "free" if answer.expect == "determined" else answer.expect
+        return replace(answer, stepped=stepped, expect=expect)
+
+    def _obstacle(self, setting: LoadCase, driven: set[str], senses: Collection[int]) -> str:
+        """Return why the advance of the driven link cannot be counted; empty if it can."""
+        case, frame = setting.case, self.train.declaration.frame
+        freedoms = {column for form in setting.forms.values() for column in form if column != PRESCRIBED}
+        turning = [link for link, speed in case.inputs.items() if speed]
+        moved = [link for link in driven if setting.bearer(link) != frame]
+        obstacles = {
+            "loads are declared, but only friction may hold the driven link": bool(case.loads or case.solve_for),
+            f"there are several inputs ({_joined(turning)})": len(turning) > 1,
+            "the input determines the speeds of both links of a clutch": not all(
+                driven.intersection(self._clutch(name)[1:3]) for name in self.names
+            ),
+            f"the clutches drive several links ({_joined(sorted(driven))})": len(driven) > 1,
+            "the clutches drive their link in both senses": len(senses) > 1,
+            f"further links are undetermined ({_joined(setting.open)})": len(freedoms) > 1,
+            f"{_joined(moved)} does not turn on the frame": bool(moved),
+        }
+        return next((text for text, applies in obstacles.items() if applies), "")
 
     def _refuse(self) -> None:
         declared, frame = self.train.declaration, self.train.declaration.frame

@@ -118,13 +118,13 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` has a result: all torques have units, a link that can move has inertia, and no
-    coupling moves at once.
+    """Return True if `find_separation` has a result: all torques have units, a link that can move has inertia, no
+    coupling moves at once, and one-way clutches drive no link in steps.
     """
-    declared = train.declaration
-    if any(each.transmission.at_once for each in train.couplings):
+    declared, case = train.declaration, train.kinematics.case(state)
+    if any(each.transmission.at_once for each in train.couplings) or case.stepped is not None:
         return False
-    if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
+    if not declared.has_inertia or not torques_have_units(declared, case):
         return False
     from geartrain.simulation.contacts.link_inertia import find_link_inertias
 

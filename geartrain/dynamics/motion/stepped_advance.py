@@ -1,0 +1,77 @@
+"""Mean advance of a link that one-way clutches drive in steps, from the motion of the links that drive it.
+
+The driven link has the speed max(0, v_1, v_2, ...) of its drivers, because friction holds it while none of them drives
+it. A common period of the drivers is divided at kinks, and where another driver becomes the fastest. In each piece the
+advance is that of the fastest driver, a difference of two positions: for one driver, the sum is its positive variation.
+The error of the sum is of second order in the error of the positions at which the fastest driver changes.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.dynamics.motion.error_composition import common_period, evaluate
+from geartrain.dynamics.motion.extreme_search import MOST_KINKS, smooth_pieces
+from geartrain.dynamics.motion.kink_positions import KinkSearch
+from geartrain.dynamics.motion.run_statistics import mean_speed
+from geartrain.errors import Problem, QuestionError
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_composition import ErrorComposition
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.train.states import SteppedLink
+
+_PARTS = 8  # subdivisions of each smooth piece of the period
+_HALVINGS = 30  # bisections of a part in which the fastest driver changes; the error of the advance is quadratic
+
+
+def mean_advance(problem: MotionProblem, drivers: ErrorComposition, stepped: SteppedLink) -> float:
+    """Return the mean speed of the driven link divided by the speed of the input [1].
+
+    drivers   composition whose outputs are the moving drivers, as returned by `problem.without_steps({})`
+
+    Raise `QuestionError` if a coupling has no dimensions, or if the common period is too long.
+    """
+    search, end = KinkSearch(drivers), float(common_period(drivers.used) or 0)
+    what = f"the advance of '{stepped.link}' cannot be counted"
+    if unknown := [each.id for each in problem.circuits if each.swings and each.id not in problem.periods]:
+        why = f"the speeds of {', '.join(unknown)} within a turn are not known"
+        raise QuestionError(Problem(what, why, "declare the dimensions of these couplings, such as `pin_radius`"))
+    if (search.rate + 1 / search.step) * end > MOST_KINKS:
+        why = f"its drivers repeat their motion after {end:.6g} turns, in which they have too many kinks or cycles"
+        fix = "declare wheels between input and drivers without `tooth_form` (ideal teeth)"
+        raise QuestionError(Problem(what, why, fix))
+    parts = [
+        (low[:, None] + (high - low)[:, None] * (np.arange(_PARTS + 1) / _PARTS)).ravel()
+        for low, high in smooth_pieces([search], 0.0, end, drivers.chunk)
+    ]
+    turns = np.unique(np.concatenate([[0.0], *parts, [end]]))
+    ways = {
+        link: stepped.sense * problem.way * problem.signs.get(link, 1) * problem.signs.get(stepped.link, 1)
+        for link in problem.without_steps({})
+    }
+    way = np.array(list(ways.values()), dtype=float)[:, None]
+    mean = np.array([[mean_speed(link, problem.ratio(link))] for link in ways])
+
+    def motion(turns: Floats) -> tuple[Floats, Indices]:
+        """Return the angles [rad] through which the drivers would turn the driven link in its sense, after a row of
+        zeros for friction, and the index of the row with the maximum speed.
+        """
+        found, rest = evaluate(drivers, turns), np.zeros((1, len(turns)))
+        angles = way * (2 * pi * mean * turns + found.error)
+        return np.concatenate([rest, angles]), np.argmax(np.concatenate([rest, way * (mean + found.rate)]), axis=0)
+
+    angles, fastest = motion(turns)
+    for _ in range(_HALVINGS):
+        at = np.flatnonzero(np.diff(fastest)) + 1
+        middle = (turns[at - 1] + turns[at]) / 2
+        if not len(at):
+            break
+        found = motion(middle)
+        turns, fastest = np.insert(turns, at, middle), np.insert(fastest, at, found[1])
+        angles = np.insert(angles, at, found[0], axis=1)
+    return stepped.sense * problem.way * float(np.diff(angles).max(axis=0).sum()) / (2 * pi * end)

@@ -204,10 +204,8 @@ class GearTrain:
         from geartrain.dynamics.motion.motion_model import Motion
         from geartrain.dynamics.motion.motion_problem import find_motion_problem
 
-        wanted = self.kinematics.seen_links(state, outputs)
         problem = find_motion_problem(self.mechanics, state, without, steps=True)
-        if problem.stepped is not None:
-            wanted = problem.without_steps(wanted, outputs)
+        wanted = problem.without_steps(self.kinematics.seen_links(state, outputs), outputs)
         motion = Motion(problem, wanted, tolerance, fast)
         motion._declaration, motion._state, motion._without = self.declaration, state, tuple(without)
         return motion

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import degrees, tau
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypedDict
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import abridged_text
@@ -40,13 +40,6 @@ class PhaseSets(NamedTuple):
     """Number of sets of random tooth phases."""
     seed: int | None
     """Random seed; None if none was given."""
-
-
-class SteppedAdvances(TypedDict, total=False):
-    """Key that the JSON output has only for a train in which one-way clutches drive a link in steps."""
-
-    advances: Mapping[str, float]
-    """Mean speed of the link divided by the speed of the input in its declared sense [1], by link."""
 
 
 class PartialRun(NamedTuple):
@@ -92,7 +85,7 @@ class MotionFigures(Result):
 
     KEYS = (
         *("name", "state", "input", "turns", "positions", "period", "drivers", "reversing_drivers", "rigid", "outputs"),
-        *("separation", "phases", "partial", Key("", "steps")),
+        *("separation", "phases", "partial", "advances"),
     )
 
     run: MotionRun
@@ -126,11 +119,8 @@ class MotionFigures(Result):
     """Random tooth phases that were evaluated; None unless requested."""
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
-
-    @property
-    def steps(self) -> SteppedAdvances:
-        """Mean speed of a link that one-way clutches drive in steps; empty without such a link."""
-        return {"advances": self.run.motion.advances} if self.run.motion.advances else {}
+    advances: Mapping[str, float]
+    """Mean speed of the link that one-way clutches drive in steps, divided by the speed of the input [1], by name."""
 
 
 @dataclass(frozen=True)
@@ -212,6 +202,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
         separation=separation,
         phases=PhaseSets(len(run.phase_statistics), run.seed) if run.phase_statistics else None,
         partial=PartialRun(run.done, run.samples) if run.done < run.samples else None,
+        advances=motion.advances,
     )
 
 

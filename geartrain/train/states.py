@@ -450,8 +450,8 @@ class SteppedLink(NamedTuple):
     """Name of the link."""
     sense: int
     """Sense in which it moves about its axis, 1 or -1."""
-    drivers: tuple[str, ...]
-    """Links that drive it through the clutches; the frame for a brake."""
+    drivers: Mapping[str, int]
+    """Links that drive it through the clutches, each with the sense about its own axis in which it drives, 1 or -1."""
 
 
 @dataclass(frozen=True, slots=True)

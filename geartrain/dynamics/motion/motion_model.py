@@ -326,16 +326,8 @@ class Motion(Shown):
 
     @cached_property
     def advances(self) -> Mapping[str, float]:
-        """Mean speed, divided by the speed of the input in its declared sense, of the link that one-way clutches drive
-        in steps [1]; empty if there is none.
-
-        The link moves with the fastest of its drivers while this driver overtakes it, and friction holds it otherwise.
-        The mean is over one common period.
-
-        Raises
-        ------
-        QuestionError
-            If a coupling has no dimensions, or the common period of the drivers is too long.
+        """Mean speed over a common period, divided by the speed of the input in its declared sense, of the link that
+        one-way clutches drive in steps [1]; empty if there is none.
         """
         stepped = self._problem.stepped
         if stepped is None:

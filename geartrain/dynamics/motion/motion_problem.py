@@ -69,14 +69,15 @@ class MotionProblem:
 
         Raise `QuestionError` if such an output was requested by name.
         """
-        behind = [name for name, ends in outputs.items() if not self.behind.isdisjoint(ends)]
-        if behind and requested and self.stepped is not None:
-            what = f"the motion of '{behind[0]}' is not determined at every position"
+        kept = {name: ends for name, ends in outputs.items() if self.behind.isdisjoint(ends)}
+        if self.stepped is None or (requested and len(kept) == len(outputs)):
+            return kept
+        if requested:
+            name = min(outputs.keys() - kept.keys())
+            what = f"the motion of '{name}' is not determined at every position"
             why = f"one-way clutches drive '{self.stepped.link}' in steps, and only its mean advance is computed"
-            raise QuestionError(Problem(what, why, f"omit '{behind[0]}'; `geartrain motion FILE` counts the advance"))
-        drivers = self.stepped.drivers if self.stepped is not None else ()
-        kept = {name: ends for name, ends in outputs.items() if name not in behind}
-        return kept or {link: (link, self.frame) for link in drivers if link != self.frame}
+            raise QuestionError(Problem(what, why, f"omit '{name}'; `geartrain motion FILE` counts the advance"))
+        return kept or {link: (link, self.frame) for link in self.stepped.drivers}
 
     @cached_property
     def periods(self) -> Mapping[str, Fraction]:

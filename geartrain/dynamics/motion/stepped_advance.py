@@ -32,46 +32,34 @@ _HALVINGS = 30  # bisections of a part in which the fastest driver changes; the 
 def mean_advance(problem: MotionProblem, drivers: ErrorComposition, stepped: SteppedLink) -> float:
     """Return the mean speed of the driven link divided by the speed of the input [1].
 
-    drivers   composition whose outputs are the moving drivers, as returned by `problem.without_steps({})`
-
-    Raise `QuestionError` if a coupling has no dimensions, or if the common period is too long.
+    drivers   composition whose outputs are the drivers in the order of `stepped`
     """
-    search, end = KinkSearch(drivers), float(common_period(drivers.used) or 0)
-    what = f"the advance of '{stepped.link}' cannot be counted"
-    if unknown := [each.id for each in problem.circuits if each.swings and each.id not in problem.periods]:
-        why = f"the speeds of {', '.join(unknown)} within a turn are not known"
-        raise QuestionError(Problem(what, why, "declare the dimensions of these couplings, such as `pin_radius`"))
-    if (search.rate + 1 / search.step) * end > MOST_KINKS:
-        why = f"its drivers repeat their motion after {end:.6g} turns, in which they have too many kinks or cycles"
-        fix = "declare wheels between input and drivers without `tooth_form` (ideal teeth)"
-        raise QuestionError(Problem(what, why, fix))
-    parts = [
-        (low[:, None] + (high - low)[:, None] * (np.arange(_PARTS + 1) / _PARTS)).ravel()
-        for low, high in smooth_pieces([search], 0.0, end, drivers.chunk)
-    ]
-    turns = np.unique(np.concatenate([[0.0], *parts, [end]]))
-    ways = {
-        link: stepped.sense * problem.way * problem.signs.get(link, 1) * problem.signs.get(stepped.link, 1)
-        for link in problem.without_steps({})
-    }
-    way = np.array(list(ways.values()), dtype=float)[:, None]
-    mean = np.array([[mean_speed(link, problem.ratio(link))] for link in ways])
+    search, period = KinkSearch(drivers), float(common_period(drivers.used) or 0)
+    unknown = [each.id for each in problem.circuits if each.swings and each.id not in problem.periods]
+    if unknown or (search.rate + 1 / search.step) * period > MOST_KINKS:
+        long = f"the drivers have too many kinks in their common period of {period:.6g} turns"
+        why = f"the speeds of {', '.join(unknown)} within a turn are not known" if unknown else long
+        fix = "declare the dimensions of all couplings, such as `pin_radius`, and no `tooth_form` before the drivers"
+        raise QuestionError(Problem(f"the advance of '{stepped.link}' cannot be counted", why, fix))
+    senses = problem.way * np.array([*stepped.drivers.values()], dtype=float)[:, None]
+    means = np.array([[mean_speed(link, problem.ratio(link))] for link in stepped.drivers])
 
     def motion(turns: Floats) -> tuple[Floats, Indices]:
-        """Return the angles [rad] through which the drivers would turn the driven link in its sense, after a row of
-        zeros for friction, and the index of the row with the maximum speed.
-        """
+        """Return angles [rad], with a row of zeros for friction, and the index of the row with the maximum speed."""
         found, rest = evaluate(drivers, turns), np.zeros((1, len(turns)))
-        angles = way * (2 * pi * mean * turns + found.error)
-        return np.concatenate([rest, angles]), np.argmax(np.concatenate([rest, way * (mean + found.rate)]), axis=0)
+        angles = np.concatenate([rest, senses * (2 * pi * means * turns + found.error)])
+        return angles, np.argmax(np.concatenate([rest, senses * (means + found.rate)]), axis=0)
 
+    pieces = smooth_pieces([search], 0.0, period, drivers.chunk)
+    parts = [np.linspace(low, high, _PARTS + 1).ravel() for low, high in pieces]
+    turns = np.unique(np.concatenate([[0.0], *parts, [period]]))
     angles, fastest = motion(turns)
     for _ in range(_HALVINGS):
         at = np.flatnonzero(np.diff(fastest)) + 1
-        middle = (turns[at - 1] + turns[at]) / 2
         if not len(at):
             break
+        middle = (turns[at - 1] + turns[at]) / 2
         found = motion(middle)
         turns, fastest = np.insert(turns, at, middle), np.insert(fastest, at, found[1])
         angles = np.insert(angles, at, found[0], axis=1)
-    return stepped.sense * problem.way * float(np.diff(angles).max(axis=0).sum()) / (2 * pi * end)
+    return stepped.sense * problem.way * float(np.diff(angles).max(axis=0).sum()) / (2 * pi * period)

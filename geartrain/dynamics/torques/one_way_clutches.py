@@ -361,15 +361,16 @@ class _Decision:
         """Return the case in which swinging links drive one link in steps, or a case with the reason why its advance
         cannot be counted.
         """
-        setting, clutches = pattern.setting, [self._clutch(name) for name in self.names]
+        setting, frame = pattern.setting, self.train.declaration.frame
         assert setting is not None
-        driven = {link for _, *links, _ in clutches for link in links if link in setting.open}
-        ends = [(first, second) if second in driven else (second, first) for _, first, second, _ in clutches]
-        # about the axis of the driven link, which is the second link of the clutch or the first
-        senses = {
-            sense * (1 if end[1] == second else -setting.sense(first) * setting.sense(second))
-            for end, (_, first, second, sense) in zip(ends, clutches, strict=True)
-        }
+        driven, drivers, senses = set[str](), dict[str, int](), set[int]()
+        for _, first, second, sense in map(self._clutch, self.names):
+            opposite = setting.sense(first) * setting.sense(second)
+            driven |= {first, second}.intersection(setting.open)
+            # the first link drives the second in the sense of the clutch, and the second drives the first against it
+            driver, way = (first, sense * opposite) if second in driven else (second, -sense)
+            drivers |= {driver: way} if driver != frame else {}
+            senses.add(sense if second in driven else -sense * opposite)
         link = min(driven, default="")
         if obstacle := self._obstacle(setting, driven, senses):
             names = _joined(self._swinging)
@@ -379,7 +380,7 @@ class _Decision:
             return self._refused(what, why, f"let the clutches drive one link without loads, or write {withdrawn}")
         note = f"the speed of '{link}' is not determined by ratios: `motion` counts it"
         answer = self._answer(pattern, {}, (note,))
-        stepped = SteppedLink(link, senses.pop(), tuple(dict.fromkeys(driver for driver, _ in ends)))
+        stepped = SteppedLink(link, senses.pop(), drivers)
         # an undetermined speed is what the declaration means, unless it names another verdict
         expect = "free" if answer.expect == "determined" else answer.expect
         return replace(answer, stepped=stepped, expect=expect)

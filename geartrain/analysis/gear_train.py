@@ -198,8 +198,7 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            If the train does not move, if a pair or output is not declared, or if a requested output depends on a link
-            that one-way clutches drive in steps (see `Motion.advances`).
+            If the train does not move, a pair or output is not declared, or clutches drive a requested output in steps.
         """
         from geartrain.dynamics.motion.motion_model import Motion
         from geartrain.dynamics.motion.motion_problem import find_motion_problem

@@ -397,7 +397,12 @@ def _deviation_heads(deviation: str) -> tuple[str, str]:
 
 
 def _remarks(run: MotionRun) -> Iterator[str]:
-    yield from _steps_of_clutches(run.motion)
+    for link, speed in run.motion.advances.items():
+        yield (
+            f"'{link}' advances by {figure(speed, 11)} turn per turn of '{run.motion._problem.driving_link}' in its "
+            "declared sense, with the fastest of the links that drive it through one-way clutches; otherwise friction "
+            f"holds it. Not computed: the position of {', '.join(sorted(run.motion._problem.behind))} within a step."
+        )
     if run.reversing_drivers:
         composition = run.motion._forward if run.turns >= 0 else run.motion._backward
         names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)
@@ -416,19 +421,6 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             "The run is too long to search every pitch, so extremes are those of the computed positions; a shorter run "
             f"is searched completely. The {run.motion._problem.deviation} p-p is at most {', '.join(limits)}."
         )
-
-
-def _steps_of_clutches(motion: Motion) -> Iterator[str]:
-    """Yield a sentence on the link that one-way clutches drive in steps, and one on the links that are not computed."""
-    for link, speed in motion.advances.items():
-        yield (
-            f"'{link}' advances by {figure(speed, 11)} turn per turn of '{motion._problem.driving_link}' in its "
-            "declared sense, a mean over one common period. It moves with the fastest of the links that drive it "
-            "through one-way clutches, and friction holds it while they are slower or turn back."
-        )
-        others = sorted(motion._problem.behind - {link})
-        also = f" The motion of {', '.join(others)}, which depends on it, is not computed." if others else ""
-        yield f"Not computed: the position of '{link}' within a step, and loads on it.{also}"
 
 
 def _pairs(run: MotionRun, every_output: bool) -> Section:

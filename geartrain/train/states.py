@@ -439,12 +439,7 @@ class OneWayAction(Result):
 
 
 class SteppedLink(NamedTuple):
-    """Link that one-way clutches drive only while a swinging link would overtake it; friction holds it meanwhile.
-
-    See Also
-    --------
-    StateCase : its field `stepped`
-    """
+    """Link that one-way clutches drive only while a swinging link would overtake it; friction holds it otherwise."""
 
     link: str
     """Name of the link."""

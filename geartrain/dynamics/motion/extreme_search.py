@@ -75,7 +75,7 @@ def count_extremes(
     # errors and rates of each output, and their negatives, so that minima are maxima too
     maxima, reversing = np.full(4 * len(tallies), -np.inf), frozenset[str]()
     kept: list[_Candidates] = []
-    for start, end in smooth_pieces(searches, low, high, max(1, sampler.chunk // 3)):
+    for start, end in pieces(searches, low, high, max(1, sampler.chunk // 3)):
         found = evaluate(sampler, np.concatenate([start, (start + end) / 2, end]))
         reversing |= found.reversing_drivers
         values = _signed(found)
@@ -98,9 +98,7 @@ def count_extremes(
     return reversing
 
 
-def smooth_pieces(
-    searches: Sequence[KinkSearch], low: float, high: float, size: int
-) -> Iterator[tuple[Floats, Floats]]:
+def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -> Iterator[tuple[Floats, Floats]]:
     """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, at most `size` at once."""
     narrowest = min(searches, key=lambda each: each.step)
     for steps in narrowest.steps(low, high):

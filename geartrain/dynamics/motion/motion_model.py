@@ -326,9 +326,7 @@ class Motion(Shown):
 
     @cached_property
     def advances(self) -> Mapping[str, float]:
-        """Mean speed over a common period, divided by the speed of the input in its declared sense, of the link that
-        one-way clutches drive in steps [1]; empty if there is none.
-        """
+        """Mean speed, divided by that of the input [1], of the link that one-way clutches drive in steps, by name."""
         stepped = self._problem.stepped
         if stepped is None:
             return {}

@@ -60,24 +60,18 @@ class MotionProblem:
     stepped: SteppedLink | None = None
     """Link that one-way clutches drive in steps, which is at rest in the system; None if there is none."""
     behind: frozenset[str] = frozenset()
-    """Links whose motion depends on the stepped link, including this link; the system does not describe it."""
+    """The stepped link and the links whose motion depends on it."""
 
     def without_steps(
         self, outputs: Mapping[str, tuple[str, str]], requested: Collection[str] = ()
     ) -> dict[str, tuple[str, str]]:
-        """Return the outputs that do not depend on the stepped link; if there are none, the links that drive it.
-
-        Raise `QuestionError` if such an output was requested by name.
-        """
+        """Return the outputs that do not depend on the stepped link; without any, the links that drive it."""
         kept = {name: ends for name, ends in outputs.items() if self.behind.isdisjoint(ends)}
-        if self.stepped is None or (requested and len(kept) == len(outputs)):
-            return kept
-        if requested:
-            name = min(outputs.keys() - kept.keys())
-            what = f"the motion of '{name}' is not determined at every position"
-            why = f"one-way clutches drive '{self.stepped.link}' in steps, and only its mean advance is computed"
-            raise QuestionError(Problem(what, why, f"omit '{name}'; `geartrain motion FILE` counts the advance"))
-        return kept or {link: (link, self.frame) for link in self.stepped.drivers}
+        if requested and (left := outputs.keys() - kept.keys()):
+            what = f"the motion of '{min(left)}' is not determined at every position"
+            why = "one-way clutches drive it in steps, and only the mean advance is computed"
+            raise QuestionError(Problem(what, why, f"omit '{min(left)}'; `geartrain motion FILE` counts the advance"))
+        return kept or {link: (link, self.frame) for link in (self.stepped.drivers if self.stepped else ())}
 
     @cached_property
     def periods(self) -> Mapping[str, Fraction]:

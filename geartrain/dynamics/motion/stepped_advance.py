@@ -3,7 +3,6 @@
 The driven link has the speed max(0, v_1, v_2, ...) of its drivers, because friction holds it while none of them drives
 it. A common period of the drivers is divided at kinks, and where another driver becomes the fastest. In each piece the
 advance is that of the fastest driver, a difference of two positions: for one driver, the sum is its positive variation.
-The error of the sum is of second order in the error of the positions at which the fastest driver changes.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import common_period, evaluate
-from geartrain.dynamics.motion.extreme_search import MOST_KINKS, smooth_pieces
+from geartrain.dynamics.motion.extreme_search import MOST_KINKS, pieces
 from geartrain.dynamics.motion.kink_positions import KinkSearch
 from geartrain.dynamics.motion.run_statistics import mean_speed
 from geartrain.errors import Problem, QuestionError
@@ -50,8 +49,8 @@ def mean_advance(problem: MotionProblem, drivers: ErrorComposition, stepped: Ste
         angles = np.concatenate([rest, senses * (2 * pi * means * turns + found.error)])
         return angles, np.argmax(np.concatenate([rest, senses * (means + found.rate)]), axis=0)
 
-    pieces = smooth_pieces([search], 0.0, period, drivers.chunk)
-    parts = [np.linspace(low, high, _PARTS + 1).ravel() for low, high in pieces]
+    smooth = pieces([search], 0.0, period, drivers.chunk)
+    parts = [np.linspace(low, high, _PARTS + 1).ravel() for low, high in smooth]
     turns = np.unique(np.concatenate([[0.0], *parts, [period]]))
     angles, fastest = motion(turns)
     for _ in range(_HALVINGS):

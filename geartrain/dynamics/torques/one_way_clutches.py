@@ -9,8 +9,7 @@ loads set the train in motion. Speeds are exact, and torques include declared lo
 If no loads are declared, each output resists its own rotation in turn. An output that no pattern can drive decides
 nothing.
 
-A link that swings to and fro drives the link behind its clutch in steps. No pattern describes this motion: the clutches
-count as overrunning, and the speed of the driven link is undetermined (`SteppedLink`).
+If a swinging link drives the link behind a clutch in steps, the clutch counts as overrunning (`SteppedLink`).
 """
 
 from __future__ import annotations
@@ -358,51 +357,34 @@ class _Decision:
         return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
 
     def _steps(self, pattern: ClutchPattern) -> StateCase:
-        """Return the case in which swinging links drive one link in steps, or a case with the reason why its advance
-        cannot be counted.
-        """
-        setting, frame = pattern.setting, self.train.declaration.frame
+        """Return the case in which swinging links drive one link in steps; refused if the steps cannot be counted."""
+        setting, frame, names = pattern.setting, self.train.declaration.frame, _joined(self._swinging)
         assert setting is not None
         driven, drivers, senses = set[str](), dict[str, int](), set[int]()
         for _, first, second, sense in map(self._clutch, self.names):
             opposite = setting.sense(first) * setting.sense(second)
-            driven |= {first, second}.intersection(setting.open)
+            driven.add(_joined([link for link in (first, second) if link in setting.open]))
             # the first link drives the second in the sense of the clutch, and the second drives the first against it
             driver, way = (first, sense * opposite) if second in driven else (second, -sense)
             drivers |= {driver: way} if driver != frame else {}
             senses.add(sense if second in driven else -sense * opposite)
-        link = min(driven, default="")
-        if obstacle := self._obstacle(setting, driven, senses):
-            names = _joined(self._swinging)
-            what = f"the advance of the link behind {names} cannot be counted"
+        (link, *others), freedoms = sorted(driven), {column for form in setting.forms.values() for column in form}
+        obstacles = {
+            "loads are declared, but only friction may hold the driven link": bool(setting.case.loads),
+            "there are several inputs": len(setting.case.inputs) > 1,
+            "not every clutch is between a common and a determined link": bool(others) or link not in setting.open,
+            "the clutches drive their link in both senses": len(senses) > 1,
+            f"further links are undetermined ({_joined(setting.open)})": len(freedoms - {PRESCRIBED}) > 1,
+            f"'{link}' does not turn on the frame": setting.bearer(link) != frame,
+        }
+        if obstacle := next((text for text, applies in obstacles.items() if applies), ""):
             why = f"the driver of {names} swings to and fro, and {obstacle}"
-            withdrawn = f"`free: [{', '.join(self._swinging)}]` in a state"
-            return self._refused(what, why, f"let the clutches drive one link without loads, or write {withdrawn}")
-        note = f"the speed of '{link}' is not determined by ratios: `motion` counts it"
-        answer = self._answer(pattern, {}, (note,))
-        stepped = SteppedLink(link, senses.pop(), drivers)
+            fix = f"let clutches drive one unloaded link, or write `free: [{', '.join(self._swinging)}]` in a state"
+            return self._refused(f"the advance of the link behind {names} cannot be counted", why, fix)
+        answer = self._answer(pattern, {}, (f"the speed of '{link}' is not determined by ratios: `motion` counts it",))
         # an undetermined speed is what the declaration means, unless it names another verdict
         expect = "free" if answer.expect == "determined" else answer.expect
-        return replace(answer, stepped=stepped, expect=expect)
-
-    def _obstacle(self, setting: LoadCase, driven: set[str], senses: Collection[int]) -> str:
-        """Return why the advance of the driven link cannot be counted; empty if it can."""
-        case, frame = setting.case, self.train.declaration.frame
-        freedoms = {column for form in setting.forms.values() for column in form if column != PRESCRIBED}
-        turning = [link for link, speed in case.inputs.items() if speed]
-        moved = [link for link in driven if setting.bearer(link) != frame]
-        obstacles = {
-            "loads are declared, but only friction may hold the driven link": bool(case.loads or case.solve_for),
-            f"there are several inputs ({_joined(turning)})": len(turning) > 1,
-            "the input determines the speeds of both links of a clutch": not all(
-                driven.intersection(self._clutch(name)[1:3]) for name in self.names
-            ),
-            f"the clutches drive several links ({_joined(sorted(driven))})": len(driven) > 1,
-            "the clutches drive their link in both senses": len(senses) > 1,
-            f"further links are undetermined ({_joined(setting.open)})": len(freedoms) > 1,
-            f"{_joined(moved)} does not turn on the frame": bool(moved),
-        }
-        return next((text for text, applies in obstacles.items() if applies), "")
+        return replace(answer, stepped=SteppedLink(link, senses.pop(), drivers), expect=expect)
 
     def _refuse(self) -> None:
         declared, frame = self.train.declaration, self.train.declaration.frame

@@ -42,9 +42,9 @@ def write_template(
     force: Force = False,
 ) -> None:
     """Write a small commented declaration that runs without changes, to KIND.yaml in the current folder or to the file
-    of -o; or write the declaration of the gear unit in a REXS file.
+    of -o. With --from, write the declaration of the gear unit in a REXS file, such as gearbox.rexsj.
 
-    Examples: `geartrain init planetary -o first.yaml`; `geartrain init --from gearbox.rexsj`.
+    Example: `geartrain init planetary -o first.yaml`.
     """
     if (kind is None) == (unit is None):
         what = "neither KIND nor --from is given" if kind is None else "KIND and --from are both given"

@@ -50,8 +50,9 @@ class VaryingCoupling(Result):
     kind: str
     """Kind of the coupling."""
     driver: str
-    """Driving link; `driven` is the driven link."""
+    """Driving link."""
     driven: str
+    """Driven link."""
     ratio: Fraction
     """Exact mean speed of the driven link divided by the speed of the driver, relative to the carrier."""
     swing: float
@@ -61,7 +62,7 @@ class VaryingCoupling(Result):
     at_once: bool
     """True if the driven link jumps; its speed ratio is then the ratio between jumps."""
     formula: str
-    """Driven angle q as a function of the driver's angle S; empty if there is no closed form."""
+    """Driven angle q as a function of the driver's angle S; empty without a closed form."""
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:

@@ -378,13 +378,15 @@ def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     rows = []
     for tally in tallies:
         # a mean speed of 0 cannot be the divisor
-        # rounding of a speed of 0 must not print a sign
-        speeds = "..".join(f"{round(each, 5) + 0.0:.5f}" for each in tally.speeds) + (
-            "" if tally.ratio else " (divided by the input's)"
-        )
+        speeds = _speeds(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
         mean = figure(tally.ratio, 9) + (" mm" if tally.slides else "")
         rows.append((tally.name, mean, *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
+
+
+def _speeds(low: float, high: float) -> str:
+    # rounding of a speed of 0 must not print a sign
+    return f"{round(low, 5) + 0.0:.5f}..{round(high, 5) + 0.0:.5f}"
 
 
 def _deviation_heads(deviation: str) -> tuple[str, str]:
@@ -460,7 +462,7 @@ def _random_phases(run: MotionRun) -> Section:
         sets = [tallies[at] for tallies in run.phase_statistics]
         errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
         lows, highs = zip(*(each.speeds for each in sets), strict=True)
-        rows.append((tally.name, *errors, f"{min(lows):.5f}..{max(highs):.5f}"))
+        rows.append((tally.name, *errors, _speeds(min(lows), max(highs))))
     header = ("output", *_deviation_heads(run.motion._problem.deviation), "speed / mean speed")
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     return Section("Random phases", (text,), (Table(header, rows),))

@@ -67,7 +67,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict, SlidingEfficiency, SpeedRatio, TransmissionError
     from geartrain.teeth.pin_ring import PinRing
     from geartrain.teeth.rubbed_transmission import RubbedTransmission
-    from geartrain.teeth.table import ErrorTable
+    from geartrain.teeth.table import GivenError
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.teeth.triangular import Triangular
     from geartrain.teeth.uniform_stress import UniformStress
@@ -79,9 +79,9 @@ __all__ = [
     "CircularArc",
     "Cycloidal",
     "DokosFriction",
-    "ErrorTable",
     "FrictionLaw",
     "GearMesh",
+    "GivenError",
     "Ideal",
     "Involute",
     "Lantern",

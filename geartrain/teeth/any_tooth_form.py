@@ -23,7 +23,7 @@ TOOTH_FORMS = {
     "triangular": "Triangular",
     "circular_arc": "CircularArc",
     "pin_ring": "PinRing",
-    "table": "ErrorTable",
+    "table": "GivenError",
 }
 """Class name of each tooth form by its name in declarations, which is also the name of its module."""
 

@@ -113,7 +113,7 @@ class Coupling(BaseModel):
     OBLIQUE: ClassVar[bool] = False
     """True if the axes of the two links need not be parallel."""
     NEGLECTED: ClassVar[tuple[str, str] | None] = None
-    """Effect on torques that is not computed, and the reason; None if there is no such effect."""
+    """Effect on torques that is not computed, and the reason; None for kinds without one."""
     HOLDS: ClassVar[bool] = False
     """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
 

@@ -214,7 +214,7 @@ def _listed(raw: object) -> object:
     return [raw] if isinstance(raw, dict | ErrorContribution) else raw
 
 
-class ErrorTable(ToothForm):
+class GivenError(ToothForm):
     """Given transmission error of a gear pair, from a measurement or a calculation, instead of the shape of its teeth.
 
     Errors are added. They refer to the angle of the wheel `driver`. If the other wheel drives, its transmission
@@ -229,7 +229,7 @@ class ErrorTable(ToothForm):
     A pinion of 20 teeth with its centre 0.2 modules off its axis drives a wheel of 60.
 
     >>> from math import degrees
-    >>> runout = ErrorTable(form="table", eccentricity=["0.2", "0"])
+    >>> runout = GivenError(form="table", eccentricity=["0.2", "0"])
     >>> round(degrees(runout.transmission(20, 60).error(0.0)), 10)
     0.1363551848
     """
@@ -241,8 +241,8 @@ class ErrorTable(ToothForm):
     driver: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] = Field(
         1, description="Wheel to whose angle the errors refer, the first or second of the pair"
     )
-    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed), _OneOrSeveral()] = Field(
-        (), description="Transmission error over a period, or a list of errors that are added"
+    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed), _OneOrSeveral()] | None = Field(
+        None, description="Transmission error over a period, or a list of errors that are added; default no error"
     )
     eccentricity: TwoLengths = Field(
         "0",
@@ -275,15 +275,12 @@ class ErrorTable(ToothForm):
     )
 
     @model_validator(mode="after")
-    def _check_values(self) -> ErrorTable:
+    def _check_values(self) -> GivenError:
         if self.efficiency is not None and self.efficiency_table is not None:
             raise bad("efficiency", "efficiency and efficiency_table are both given", "remove one of the two keys")
         if self.efficiency is not None:
             _check_efficiency(self.efficiency.forward)
             _check_efficiency(self.efficiency.backward)
-        if self.function is None and not self.error and not any(each.value for each in self.eccentricity):
-            fix = "for example, give `error: {harmonics: [[1, 0.05 deg]]}`"
-            raise bad("error", "a table has neither `error` nor `eccentricity`", fix)
         for name in ("backlash", "eccentricity"):
             value = getattr(self, name)
             for each in value if isinstance(value, tuple) else (value,):
@@ -301,7 +298,7 @@ class ErrorTable(ToothForm):
         """True if an eccentricity is declared with a unit."""
         return any(each.unit is not None for each in self.eccentricity)
 
-    def thinned(self, backlash: Quantity) -> ErrorTable:
+    def thinned(self, backlash: Quantity) -> GivenError:
         """Return the form itself, because its backlash is an angle."""
         del backlash
         return self
@@ -346,7 +343,7 @@ class ErrorTable(ToothForm):
 
         first, second = (0, 1) if self.driver == 1 else (1, 0)
         own = counts[first], counts[second]
-        parts = [each.function(own) for each in self.error]
+        parts = [each.function(own) for each in self.error or ()]
         if any(offsets):
             angles = [each.si for each in self.eccentricity_angle]
             apart, at = (offsets[first], offsets[second]), (angles[first], angles[second])

@@ -354,8 +354,8 @@ class TransmissionFunction(Shown, ABC):
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return all upward steps of the speed ratio within one pitch, at which the teeth impact; None if the steps are
-        not computed.
+        """Return all upward steps of the speed ratio within one period, at which the teeth impact; None if the steps
+        are not computed.
         """
         return None
 

@@ -401,6 +401,8 @@ def test_a_pointer_at_its_zero_mark_reads_the_first_cell(name: str) -> None:
     read = [each for each in scene.pointers if each.dial is not None and each.speed is not None]
     assert read
     for pointer in read:
+        if (name, pointer.output) == ("equation-clock", "solar"):
+            continue  # the cam turns it away from its mark
         text = next(each for each in shown if each.startswith(f"{pointer.output}: at "))
         assert scene.dials[pointer.dial or 0].scale.reading_text(Fraction(0)) in text
 

@@ -234,7 +234,7 @@ def test_a_clutch_that_depends_on_the_loads_is_refused_until_they_are_declared()
     with pytest.raises(geartrain.DeclarationError) as caught:
         geartrain.load(DIFFERENTIAL)
     (problem,) = caught.value.problems
-    assert problem.what == "whether F and G holds depends on the loads"
+    assert problem.what == "whether F and G hold depends on the loads"
     assert problem.why == "with a load on ring: F holds; with a load on sun: G holds"
     on_ring = geartrain.load(DIFFERENTIAL + "loads: {ring: -1}")
     assert (on_ring.solve()["ring"], actions(on_ring)["F"].torque, actions(on_ring)["G"].slip) == (1, 1, 1)
@@ -483,3 +483,9 @@ def test_a_speed_that_varies_within_a_turn_is_noted() -> None:
     assert train.solve()["h"] == 1
     (note,) = [each for each in notes(train) if "mean speeds" in each]
     assert note == "A is decided by mean speeds, but crank~rocker varies within a turn"
+
+
+def test_more_than_twelve_clutches_in_one_state_are_refused() -> None:
+    clutches = {f"K{at}": {"fixes": "ring", "one_way": "forward"} for at in range(13)}
+    with pytest.raises(geartrain.DeclarationError, match="13 one-way clutches are in force"):
+        geartrain.load(SET).with_changes(clutches={**clutches, "F": None}).solve()

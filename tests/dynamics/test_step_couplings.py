@@ -14,6 +14,7 @@ import pytest
 from commands import call
 
 from geartrain import DeclarationError, GearTrainError, load
+from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.teeth.couplings.step_transmission import GenevaTransmission, StepTransmission
 
 PAIR = """
@@ -285,3 +286,20 @@ def test_solve_and_motion_state_the_share_at_rest(tmp_path: Path) -> None:
     file.write_text(pair("kind: step, teeth: 59, times: 2"), encoding="utf-8")
     assert "moves at once, 2 times a turn of the driver" in call("report", file).stdout
     assert "at once" in call("motion", file, "--turns", "2").stdout
+
+
+def test_a_wheel_of_two_teeth_is_a_finger_only_for_a_large_mate(tmp_path: Path) -> None:
+    file = tmp_path / "two.yaml"
+    text = "links: {frame: {}, a: {wheels: {x: 2}}, w: {wheels: {y: TEETH}}}\n"
+    text += "revolutes: {A: [frame, a], W: [frame, w]}\ngears: [x ~ y]\ninputs: {a: 1}\n"
+    for teeth, remarked in ((20, False), (21, True)):
+        file.write_text(text.replace("TEETH", str(teeth)), encoding="utf-8")
+        assert ("'x' has two teeth" in call("check", file).stdout) == remarked
+
+
+def test_the_lock_keeps_the_driven_link_from_driving() -> None:
+    train = load(pair("kind: geneva, slots: 4", "loads: {w: 0.3 N m}\n"))
+    assert [way.torques.verdict.kind for way in drive_both_ways(train.mechanics, None)] == [
+        "incomplete",
+        "self-locking",
+    ]

@@ -399,6 +399,7 @@ def test_a_law_that_jumps_is_refused_in_time() -> None:
         ("kind: pitch_curve, radii: [1, 2, 3]", "`radii` has 3 values"),
         ("kind: pitch_curve, radii: [10, 10, 10, -1]", "not above 0"),
         ("kind: pitch_curve, radii: [10, 10 mm, 10, 11]", "unit"),
+        ("kind: pitch_curve, radii: [30, 1, 1, 1, 1, 1]", "passes through its own axis"),
         ("kind: law, mean: 0, unit: 1 deg", "needs `harmonics` or `table`; found: neither"),
         ("kind: law, mean: 0, unit: 1 deg, harmonics: {0: 1}", "a constant is `phase`"),
         ("kind: law, mean: 0, unit: 1 deg, table: [1, 2, 3]", "`table` has 3 values"),

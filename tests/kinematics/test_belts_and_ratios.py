@@ -169,6 +169,14 @@ def test_a_belt_is_equal_in_its_long_form_and_under_a_parents_rules(tmp_path: Pa
     assert not load(tmp_path / "removed.yaml").circuits
 
 
+@pytest.mark.parametrize(
+    "text", [SERPENTINE, TWO + "belts: [p ~ q]", SET, SET.replace("-75/50", "{value: -1.5, tolerance: 0.1}")]
+)
+def test_belts_and_ratios_survive_a_change_of_the_train(text: str) -> None:
+    train = load(text)
+    assert train.with_changes({"note": "changed"}).declaration.couplings == train.declaration.couplings
+
+
 def test_format_rewrites_belts_and_keeps_their_comments() -> None:
     short = TWO.lstrip() + "belts: [p ~ q]\n"
     long = with_long_forms(short)

@@ -247,14 +247,8 @@ def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
     speeds = ANSWERS["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
     assert speeds["additionalProperties"]["required"] == ["exact", "value"]
     floats = {"estimate", "true_error", "condition"}
-    assert set(speeds["additionalProperties"]["properties"]) == {
-        "exact",
-        "value",
-        "decimal",
-        "tolerance",
-        "unit",
-        *floats,
-    }
+    own = {"exact", "value", "decimal", "tolerance", "unit"}
+    assert set(speeds["additionalProperties"]["properties"]) == own | floats
     state = ANSWERS["solve"]["properties"]["states"]["items"]
     assert "residual" in state["properties"]
     assert "residual" not in state["required"]

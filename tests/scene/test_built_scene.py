@@ -22,6 +22,8 @@ TOGETHER = {
     "simple-calendar": {"date", "moon"},
     "count-wheel-striking": {"centre"},
     "film-projector": {"maltese"},
+    "elliptical-gears": {"case", "driver", "driven", "oval"},
+    "universal-joint-line": {"chassis", "gearbox", "front_shaft", "front_axle", "rear_shaft", "rear_axle"},
 }
 
 

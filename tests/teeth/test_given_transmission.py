@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from fractions import Fraction
 from math import cos, degrees, pi, radians, sin
@@ -9,21 +10,24 @@ from typing import Any
 
 import numpy as np
 import pytest
+from commands import call
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import jv
 
-from geartrain import GearTrain, GearTrainError
+from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_run import find_spectrum
-from geartrain.teeth.table import ErrorTable
+from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.teeth.table import GivenError
 from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.workshop.export.file_set import notices
 
 EIGHT = [0, 0.03, 0.05, 0.04, 0.01, -0.03, -0.05, -0.04]
 
 
-def table(**keys: Any) -> ErrorTable:
-    return ErrorTable.declared(keys)
+def table(**keys: Any) -> GivenError:
+    return GivenError.declared(keys)
 
 
 def eight(interpolation: str) -> TransmissionFunction:
@@ -251,6 +255,15 @@ def test_turning_back_adds_the_backlash() -> None:
         assert degrees(law.verdict.backlash) == pytest.approx(size)  # type: ignore[attr-defined]
 
 
+@pytest.mark.parametrize("driver", [1, 2])
+def test_a_pair_may_have_only_backlash_and_efficiency(driver: int) -> None:
+    law = table(backlash="0.2 deg", efficiency="0.9").transmission(20, 20, driver)
+    assert (law.error_range(), law.speed_range(), law.pitch_count) == ((0, 0), (1, 1), 1)
+    assert list(law.angle([0.0, 1.0])) == [0, 1]
+    assert law.efficiency_mean() == pytest.approx(0.9)
+    assert np.degrees(law.reversed_motion().error([0.3])) == pytest.approx(0.2)
+
+
 def test_lines_between_points_leap_in_speed() -> None:
     law = table(error={"points": [["0", "0 deg"], ["1/4", "0.1 deg"]], "interpolation": "linear"}).transmission(20, 20)
     steep = radians(0.1) / (pi / 40)
@@ -402,7 +415,6 @@ def test_a_simulation_in_time_follows_the_runout() -> None:
 
 POINT = ["0", "0 deg"]
 REFUSED: list[tuple[dict[str, Any], str]] = [
-    ({}, "neither `error` nor `eccentricity`"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/4", "0 deg"]]}}, "not above that of the point before it"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/2", "0 deg"]]}}, "not above that of the point before it"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["3/2", "0 deg"]]}}, "outside the period"),
@@ -446,3 +458,36 @@ def test_the_drift_of_a_measurement_is_stated_as_a_ratio() -> None:
     keys = {"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1", "0.018 deg"]]}}
     with pytest.raises(GearTrainError, match=r"differ from 20/60 by 0\.001"):
         _ = chain(keys, counts=((20, 60),)).meshes
+
+
+# ------------------------------------------------------------------------------------------------------------ commands
+
+
+def test_nested_parameters_of_a_form_are_yaml_on_the_command_line() -> None:
+    done = call(
+        *("mesh", "20", "60", "--form", "table", "-p", "error={over: driver_turn, harmonics: [[1, 0.4 deg]]}"),
+        *("-p", "efficiency=0.97", "--json", "-o", "-"),
+    )
+    found = json.loads(done.stdout)
+    assert degrees(found["transmission_error"]["peak_to_peak"]) == pytest.approx(0.8)
+    assert (found["efficiency"]["mean"], found["efficiency"]["friction"]) == (pytest.approx(0.97), None)
+    refused = call("mesh", "20", "60", "--form", "table", "-p", "error={harmonics: [[1, 0.4]]}")
+    assert refused.exit_code == 2
+    assert "has no unit" in refused.stderr
+
+
+def test_wheels_of_such_pairs_have_standard_teeth_and_no_stresses() -> None:
+    train = load("mesh-sidebands")
+    work = SolidModel(train, ManufacturingSizes())
+    assert any("standard teeth are cut for a20~b60, c15~d45" in each.what for each in notices(work, ["svg"]))
+    assert {gear.tooth_form.form for gear in work.sized.declaration.gears if gear.tooth_form} == {"ideal"}
+    why = train.strength().neglected
+    assert all("the shape of its teeth is not known" in each.why for each in why if each.what == "strength")
+
+
+def test_equal_planets_and_bevels_may_have_such_pairs() -> None:
+    form = {"form": "table", "error": {"harmonics": [[1, "0.02 deg"]]}}
+    assert load("three-planets").with_changes(tooth_form=form).meshes
+    assert load("bevel-differential").with_changes(tooth_form=form).meshes
+    with pytest.raises(GearTrainError, match="the runout of this pair is not modelled"):
+        _ = load("bevel-differential").with_changes(tooth_form={"form": "table", "eccentricity": "0.1"}).meshes

@@ -132,6 +132,7 @@ def test_a_file_is_written_or_refused_by_name(tmp_path: Path) -> None:
     assert refused.exit_code == 2
     assert "the number of moving inputs is 2" in refused.output
     assert "write MJCF" in refused.output
+    assert "link 'ram' slides" in call("export", "screw-jack", "-o", tmp_path / "jack.xml").output
     noted = call("export", "carman-thorndike-evans-2012", "-o", tmp_path / "pins.xml").output
     assert "is written with its mean ratio" in noted
 

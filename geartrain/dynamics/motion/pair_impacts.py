@@ -41,9 +41,9 @@ class ToothImpact(Shown):
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""
     rate: float
-    """Frequency of tooth engagement [pitches per second]."""
+    """Frequency of the periods of the transmission function [1/s]; a period is a pitch unless an error is given."""
     jumps: tuple[float, ...]
-    """Increases of the driven wheel's speed at the impacts within one pitch [rad/s]."""
+    """Increases of the driven wheel's speed at the impacts within one period [rad/s]."""
 
     @property
     def power(self) -> float:

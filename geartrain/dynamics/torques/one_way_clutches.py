@@ -60,10 +60,13 @@ class ClutchPattern:
 def decide_case(train: Train, state: str | None) -> StateCase:
     """Return the prescriptions of a state with the one-way clutches that hold, and the action of each clutch.
 
-    The case has a problem if the declaration does not decide which clutches hold. Raises `DeclarationError` for a
-    clutch between links on different axes, and for more than `MOST_CLUTCHES` clutches.
+    The case has a problem if the declaration does not decide which clutches hold, for a clutch between links on
+    different axes, and for more than `MOST_CLUTCHES` clutches.
     """
-    return _Decision(TrainMechanics(TrainKinematics(train)), state, train.one_way_clutches(state)).case()
+    try:
+        return _Decision(TrainMechanics(TrainKinematics(train)), state, train.one_way_clutches(state)).case()
+    except DeclarationError as error:
+        return replace(train.case(state, ()), problems=tuple(error.problems))
 
 
 def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
@@ -97,7 +100,7 @@ class _Decision:
             return self._refused(*self._undecided(chosen))
         if not chosen:
             pattern, released = self._released()
-            return self._answer(pattern, {}, (f"{_joined(released)} lets go under this load",) if released else ())
+            return self._answer(pattern, {}, (f"{_joined(released, 'let')} go under this load",) if released else ())
         pattern = next(each for each in self._moving if each.holding == chosen[0])
         deciding = {load: self._torques(pattern, load) for load, ways in self._fitting.items() if ways}
         return self._answer(pattern, deciding, tuple(self._reversed(pattern, deciding)))
@@ -229,8 +232,8 @@ class _Decision:
             released = self._members(pattern, set(backward.verdict.candidates))
             others = [each for each in self._moving if self._fits(each, load, -1)]
             taking = [name for each in others[:1] for name in each.holding if name not in pattern.holding]
-            then = f"{_joined(taking)} holds" if taking else "no engine braking"
-            yield f"driven from {load}, {_joined(released)} lets go: {then}"
+            then = _joined(taking, "hold") if taking else "no engine braking"
+            yield f"driven from {load}, {_joined(released, 'let')} go: {then}"
 
     # ---------------------------------------------------------------------------------------------------------- answer
 
@@ -283,7 +286,7 @@ class _Decision:
             clutches = self.train.declaration.clutches
             names = [name for name in case.engaged if clutches[name].links == links and name not in relieved]
             if len(names) > 1:
-                yield f"{_joined(names)} both hold; how they share the torque is not known"
+                yield f"{_joined(names)} {'all' if names[2:] else 'both'} hold; how they share the torque is not known"
         for name, couplings in self._varying.items():
             ids = _joined([each.id for each in couplings])
             yield f"{name} is decided by mean speeds, but {ids} varies within a turn"
@@ -312,13 +315,17 @@ class _Decision:
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
-            load: " or ".join(_joined(each.holding) or "none" for each in found)
+            load: " or ".join(_joined(each.holding, "hold") or "none holds" for each in found)
             for load, found in self._fitting.items()
             if found
         }
-        why = "; ".join(f"with a load on {load}: {way} holds" for load, way in ways.items())
+        why = "; ".join(f"with a load on {load}: {way}" for load, way in ways.items())
         some = "{" + ", ".join(f"{load}: -1" for load in list(ways)[:1]) + "}"
-        return f"whether {_joined(open_)} holds depends on the loads", why, f"declare `loads`, such as `loads: {some}`"
+        return (
+            f"whether {_joined(open_, 'hold')} depends on the loads",
+            why,
+            f"declare `loads`, such as `loads: {some}`",
+        )
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:
@@ -369,5 +376,7 @@ class _Decision:
                 raise DeclarationError([Problem(what, why, fix, declared.place("clutches", name))])
 
 
-def _joined(names: Sequence[str]) -> str:
-    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
+def _joined(names: Sequence[str], verb: str = "") -> str:
+    """Return names joined by commas and `and`, followed by a verb in the singular or plural; empty without names."""
+    text = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
+    return f"{text} {verb}{'s' if len(names) == 1 else ''}" if verb and names else text

@@ -12,7 +12,7 @@ from fractions import Fraction
 from math import asin, pi, sqrt
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, model_validator
 
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity, bad
@@ -42,9 +42,15 @@ def _read_pulleys(raw: object) -> object:
     return found
 
 
+def _written_pulleys(pulleys: Any) -> Any:
+    """Return pulleys as declared, for serialization."""
+    return {link: str(size) for link, size in pulleys.items()} if isinstance(pulleys, Mapping) else list(pulleys)
+
+
 Pulleys = Annotated[
     Any,
     BeforeValidator(_read_pulleys),
+    PlainSerializer(_written_pulleys),
     WithJsonSchema(
         {
             "anyOf": [

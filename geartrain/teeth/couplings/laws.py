@@ -11,8 +11,10 @@ from fractions import Fraction
 from math import degrees, pi, sqrt, tan
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, ConfigDict, Field, field_validator, model_validator
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
+from geartrain.errors import RangeError
+from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.quantity import (
     Angle,
@@ -215,6 +217,10 @@ class PitchCurvePair(_VaryingPair):
             raise bad("law", "some radii have a unit and others do not", "give all with a unit, or all without")
         if min(radius.base for radius in self.radii) <= 0:
             raise bad("law", "a radius of the pitch curve is not above 0", "give radii above 0")
+        try:
+            _ = self.distance
+        except RangeError as error:
+            raise bad("law", f"{error.problems[0].what}: {error.problems[0].why}", error.problems[0].fix) from None
         return self
 
     @property
@@ -275,7 +281,7 @@ class TabledLaw(_VaryingPair):
     kind: Literal["law"] = Field(description="Driven angle by a mean ratio and a periodic deviation from it")
     mean_ratio: Figure = Field(alias="mean", description="Exact mean speed of the driven link over that of the driver")
     unit: Angle = Field(description="Angle of the driven link for a deviation of 1")
-    harmonics: dict[int, Harmonic] | None = Field(
+    harmonics: Annotated[dict[int, Harmonic], AfterValidator(FrozenDict)] | None = Field(
         None,
         description="Deviation by harmonics: order k in `per` turns -> amplitude A, or [A, angle], for a term "
         "A sin(k S + angle)",

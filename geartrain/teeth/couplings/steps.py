@@ -34,8 +34,8 @@ def _moves(raw: object) -> object:
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 
-def _at_least_0(moves: Sequence[int]) -> Sequence[int]:
-    if not any(moves) or min(moves) < 0:
+def _any_move(moves: Sequence[int]) -> Sequence[int]:
+    if not any(moves):
         raise bad("step", "the driven link never moves", "give `moves` of 0 or more, and at least one above 0")
     return moves
 
@@ -43,7 +43,7 @@ def _at_least_0(moves: Sequence[int]) -> Sequence[int]:
 _Moves = Annotated[
     tuple[Annotated[int, Field(ge=0)], ...],
     BeforeValidator(_moves),
-    AfterValidator(_at_least_0),
+    AfterValidator(_any_move),
     WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "array", "items": {"type": "integer"}}]}),
 ]
 

@@ -7,13 +7,12 @@ equality constraint: of two joints, or of more joints on a fixed tendon. Masses 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.exact import as_float
 from geartrain.numerics.vectors import Vector, minus
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ def to_urdf(work: SolidModel) -> str:
 
     Raises `GearTrainError` if the speeds are not determined, or do not follow from one input.
     """
-    case, bodies = work.train.declaration.case(work.scene.state), work.scene.bodies
+    case, bodies = work.train.declaration.case(work.scene.state), _bodies(work)
     moving = [link for link, speed in case.inputs.items() if speed]
     rates = _rates(work)
     if len(moving) != 1 or not rates.get(moving[0]):
@@ -52,22 +51,20 @@ def to_urdf(work: SolidModel) -> str:
         SubElement(joint, "origin", xyz=_metres(body, bodies[body.parent]), rpy="0 0 0")
         SubElement(joint, "axis", xyz=_numbers(body.direction))
         if rate and body.id != moving[0]:
-            SubElement(joint, "mimic", joint=moving[0], multiplier=_number(rate / rates[moving[0]]), offset="0")
+            SubElement(joint, "mimic", joint=moving[0], multiplier=str(float(rate / rates[moving[0]])), offset="0")
     return _text(root)
 
 
 def to_mjcf(work: SolidModel) -> str:
     """Return the train in one state as MJCF, in which every row of its Willis system is an equality constraint."""
-    bodies = work.scene.bodies
+    bodies = _bodies(work)
     root = Element("mujoco", model=work.train.name)
     SubElement(root, "compiler", angle="radian")
     SubElement(root, "option", gravity="0 0 0", integrator="implicitfast")  # stable with stiff drives
-    world = SubElement(root, "worldbody")
-    nodes = {body.id: world for body in bodies if body.parent is None}
+    nodes = {body.id: SubElement(root, "worldbody") for body in bodies if body.parent is None}
     waiting = [body for body in bodies if body.parent is not None]
     while waiting:
-        body = next(each for each in waiting if bodies[each.parent or 0].id in nodes)
-        waiting.remove(body)
+        body = waiting.pop(next(at for at, each in enumerate(waiting) if bodies[each.parent or 0].id in nodes))
         parent = bodies[body.parent or 0]
         node = nodes[body.id] = SubElement(nodes[parent.id], "body", name=body.id, pos=_metres(body, parent))
         SubElement(node, "inertial", pos="0 0 0", mass=_MASS, diaginertia=" ".join([_INERTIA] * 3))
@@ -79,12 +76,12 @@ def to_mjcf(work: SolidModel) -> str:
             SubElement(equality, "joint", name=label, joint1=first, polycoef="0 0 0 0 0")
         elif len(others) == 1:
             ((second, b),) = others
-            ratio = f"0 {_number(-b / a)} 0 0 0"
+            ratio = f"0 {float(-b / a)} 0 0 0"
             SubElement(equality, "joint", name=label, joint1=first, joint2=second, polycoef=ratio)
         else:
             tendon = SubElement(tendons, "fixed", name=label)
             for joint, each in terms.items():
-                SubElement(tendon, "joint", joint=joint, coef=_number(each / a))
+                SubElement(tendon, "joint", joint=joint, coef=str(float(each / a)))
             SubElement(equality, "tendon", name=label, tendon1=label, polycoef="0 0 0 0 0")
     root.extend(each for each in (tendons, equality) if len(each))
     actuators = SubElement(root, "actuator")
@@ -99,6 +96,14 @@ def mean_ratios(work: SolidModel) -> Iterator[Problem]:
     for circuit in work.train.circuits:
         if circuit.swings:
             yield Problem(f"coupling '{circuit.id}' is written with its mean ratio", why, fix)
+
+
+def _bodies(work: SolidModel) -> Sequence[SceneBody]:
+    """Return the links as bodies. Raises `GearTrainError` if one slides, because only joints that turn are written."""
+    for link in sorted(work.train.declaration.sliding):
+        why = "only joints that turn are written, and its travel is a length for each turn"
+        raise GearTrainError(Problem(f"link '{link}' slides", why, "choose another format, such as .glb", "-o"))
+    return work.scene.bodies
 
 
 def _rates(work: SolidModel) -> dict[str, Fraction]:
@@ -136,10 +141,6 @@ def _metres(body: SceneBody, parent: SceneBody) -> str:
 
 def _numbers(values: Vector | tuple[float, ...]) -> str:
     return " ".join(f"{each + 0.0:.12g}" for each in values)
-
-
-def _number(value: Fraction) -> str:
-    return repr(as_float(value))
 
 
 def _text(root: Element) -> str:

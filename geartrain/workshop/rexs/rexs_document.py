@@ -7,7 +7,7 @@ specification of REXS 1.4, "Interface structure" and "JSON as an alternative fil
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -17,9 +17,17 @@ from zipfile import BadZipFile, ZipFile
 
 from geartrain.errors import GearTrainError, Problem
 
+_UNREADABLE = (ValueError, ElementTree.ParseError, BadZipFile, RecursionError)
 Model = dict[str, Any]
 """Model as in a JSON file: metadata, `relations`, `components`, and perhaps `load_spectrum`."""
 
+_ROLES: Mapping[str, Sequence[str]] = {
+    **{"assembly": ("assembly", "part"), "side": ("assembly", "inner_part", "outer_part")},
+    **{"stage": ("stage", "gear_1", "gear_2"), "flank": ("gear", "left")},
+    **dict.fromkeys(("central_shaft", "planet_shaft"), ("planetary_stage", "shaft")),
+    **dict.fromkeys(("planet_pin", "planet_carrier_shaft"), ("planetary_stage", "shaft")),
+}
+"""Roles of the relations that are read."""
 _EXPORT = "export the gear unit again as REXS 1.0 to 1.4, in JSON (.rexsj) or XML (.rexs)"
 
 
@@ -67,7 +75,7 @@ class RexsDocument:
 
     def parts(self, assembly: int, kind: str) -> list[int]:
         """Return the components of one type that are assembled into a component."""
-        found = (roles["part"] for roles in self.related("assembly") if roles.get("assembly") == assembly)
+        found = (roles["part"] for roles in self.related("assembly") if roles["assembly"] == assembly)
         return [part for part in found if self.components[part].type == kind]
 
     def of_type(self, *kinds: str) -> list[RexsComponent]:
@@ -136,7 +144,7 @@ def read_document(path: Path) -> RexsDocument:
         text = _unpacked(data).decode("utf-8-sig").lstrip()
         model = _from_xml(text) if text.startswith("<") else json.loads(text)["model"]
         return _document(model, place)
-    except (ValueError, KeyError, TypeError, AttributeError, ElementTree.ParseError, BadZipFile) as error:
+    except (LookupError, TypeError, AttributeError, ArithmeticError, *_UNREADABLE) as error:
         raise GearTrainError(Problem("this is not a REXS model", _reason(error), _EXPORT, place)) from None
 
 
@@ -195,11 +203,13 @@ def _document(model: Model, place: str) -> RexsDocument:
         if number in components:
             raise ValueError(f"two components have the id {number}")
         name = str(part.get("name") or "")
-        components[number] = RexsComponent(number, part["type"], name, _values(part))
+        components[number] = RexsComponent(number, str(part["type"]), name, _values(part))
     relations = tuple(
-        (each["type"], {ref["role"]: int(ref["id"]) for ref in each["refs"]}) for each in model["relations"]
+        (str(each["type"]), {str(ref["role"]): int(ref["id"]) for ref in each["refs"]}) for each in model["relations"]
     )
     for kind, roles in relations:
+        if missing := [role for role in _ROLES.get(kind, ()) if role not in roles]:
+            raise ValueError(f"a relation '{kind}' has no role '{missing[0]}'")
         for role, number in roles.items():
             if number not in components:
                 raise ValueError(f"the role '{role}' of a relation '{kind}' refers to the missing component {number}")
@@ -215,6 +225,6 @@ def _values(part: Model) -> dict[str, RexsValue]:
     found = {}
     for given in part["attributes"]:
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)
-        unit = given.get("unit") or ""
-        found[given["id"]] = RexsValue(value, "" if unit == "none" else unit)
+        unit = str(given.get("unit") or "")
+        found[str(given["id"])] = RexsValue(value, "" if unit == "none" else unit)
     return found

@@ -58,6 +58,7 @@ def omitted_parts(work: SolidModel) -> Iterator[Problem]:
         (pairs, "gear pair", "REXS has stages of spur wheels on parallel axes, of bevels, and of a worm and its wheel"),
         (sorted(forms), "tooth form", "REXS has flanks of involute gears only"),
         (loads, "load without a unit on link", "a torque in REXS is in N m"),
+        (sorted(declared.sliding), "motion of sliding link", "a shaft in REXS only turns"),
         (shifted, "profile shift of ring", "the sign of the shift of internal gears differs between programs"),
     ):
         if names:
@@ -313,12 +314,13 @@ class _Unit:
         return found if found.verdict else None
 
     def loads(self, at: int) -> Mapping[str, float]:
-        """Return the external torques of a state [N m] by link, without the torques of brakes."""
+        """Return the external torques of a state [N m] by link, without the torques of brakes and forces on slides."""
         found = self.torques[at]
-        held = {link for links in self.engagement for link in links}
+        apart = {link for links in self.engagement for link in links} | self.declared.sliding
         computed = {} if found is None else found.external
-        declared = {link: load.si for link, load in self.cases[at].loads.items() if load.unit or not load.value}
-        return {link: float(torque) for link, torque in computed.items() if link not in held} | declared
+        given = self.cases[at].loads.items()
+        declared = {x: load.si for x, load in given if (load.unit or not load.value) and x not in self.declared.sliding}
+        return {link: float(torque) for link, torque in computed.items() if link not in apart} | declared
 
     def running(self, at: int) -> list[Model]:
         """Return the data of one load case: the gear in force, speeds [1/min], and torques [N m]."""
@@ -345,13 +347,13 @@ class _Unit:
         return {"id": part["id"], "type": part["type"], "name": part["name"], "attributes": attributes}
 
     def per_minute(self, case: StateCase, answer: Answer) -> Mapping[str, Fraction]:
-        """Return the speeds of links in turns per minute; those of the inputs if the train is not solved.
+        """Return the speeds of turning links in turns per minute; those of the inputs if the train is not solved.
 
         Speeds that are not per time are taken as turns per minute.
         """
         factor = Fraction(1) if self.declared.unit_speed is None else 60 * self.declared.unit_speed
         speeds = answer.speeds if answer.verdict else case.inputs
-        return {link: Fraction(speed) * factor for link, speed in speeds.items()}
+        return {link: Fraction(speed) * factor for link, speed in speeds.items() if link not in self.declared.sliding}
 
 
 def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Iterator[dict[str, Any]]:

@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from itertools import pairwise
-from math import atan2, tau
+from math import atan2, isfinite, nan, tau
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -35,6 +35,7 @@ _READ = {
 }
 """Types of components from which the declaration is made."""
 _DIGITS = 9  # decimals of positions [mm] and directions
+_MOST_GEARS = 1000  # no unit has more
 _NEAR = 1e-6  # relative tolerance of positions and directions, which are rounded in files
 _FRAME = 0  # id of the casing among links; components of a file have other ids
 
@@ -150,7 +151,7 @@ class _GearUnit:
         return [*dict.fromkeys(shaft for shaft in found if shaft not in pins), *pins]
 
     def _of_stage(self, relation: str, stage: int) -> Iterator[Mapping[str, int]]:
-        return (roles for roles in self.document.related(relation) if roles.get("planetary_stage") == stage)
+        return (roles for roles in self.document.related(relation) if roles["planetary_stage"] == stage)
 
     @cached_property
     def bodies(self) -> DisjointSets[int]:
@@ -174,9 +175,7 @@ class _GearUnit:
     @property
     def _sides(self) -> Iterator[tuple[str, Mapping[str, int]]]:
         """Connections of two components: type of the connecting component, and the relation."""
-        for roles in self.document.related("side"):
-            if {"assembly", "inner_part", "outer_part"} <= roles.keys():
-                yield self.parts[roles["assembly"]].type, roles
+        return ((self.parts[roles["assembly"]].type, roles) for roles in self.document.related("side"))
 
     def link_of(self, part: int) -> int:
         """Return the link to which a shaft, gear, side plate or casing belongs; a missing one is the part itself."""
@@ -274,7 +273,7 @@ class _GearUnit:
         found = {
             roles["part"]: roles["assembly"]
             for roles in self.document.related("assembly")
-            if roles.get("part") in gears and self.parts[roles["assembly"]].type == "shaft"
+            if roles["part"] in gears and self.parts[roles["assembly"]].type == "shaft"
         }
         for gear in gears - found.keys():
             why, fix = "only gears that are parts of a shaft are read", "relate it to a shaft by `assembly`"
@@ -322,8 +321,8 @@ class _GearUnit:
         return {**pair, "tooth_form": {**form, **shift}}
 
     def _flank(self, gear: int) -> Mapping[str, RexsValue]:
-        flanks = (roles for roles in self.document.related("flank") if roles.get("gear") == gear)
-        return next((self.parts[roles["left"]].attributes for roles in flanks if "left" in roles), {})
+        flanks = (roles for roles in self.document.related("flank") if roles["gear"] == gear)
+        return next((self.parts[roles["left"]].attributes for roles in flanks), {})
 
     def _link(self, link: int) -> dict[str, Any]:
         gears = [gear for gear in self.mount if self.link_of(gear) == self.bodies.find(link)]
@@ -397,7 +396,7 @@ class _GearUnit:
     @property
     def gears(self) -> int:
         """Number of gears (shifting states) of the unit."""
-        return max(1, int(_number(self.unit.attributes.get("number_of_gears")) or 1))
+        return int(min(max(1, _number(self.unit.attributes.get("number_of_gears")) or 1), _MOST_GEARS))
 
     def _gear_index(self, case: LoadCase) -> int:
         """Return the index of the gear in force in a load case."""
@@ -477,16 +476,18 @@ def _clean(name: str) -> str:
 
 
 def _number(given: RexsValue | None) -> float | None:
-    """Return a number, or None if it is not given."""
+    """Return a finite number, or None if it is not given."""
     try:
-        return None if given is None or given.value is None or given.value == "" else float(given.value)
-    except (TypeError, ValueError):
+        number = float(given.value if given is not None else nan)
+    except (TypeError, ValueError, OverflowError):
         return None
+    return number if isfinite(number) else None
 
 
 def _vector(given: RexsValue | None) -> Vector | None:
-    values = given.value if given is not None else None
-    return tuple(float(each) for each in values) if isinstance(values, list) and len(values) == 3 else None  # type: ignore[return-value]
+    values = given.value if given is not None and isinstance(given.value, list) else []
+    numbers = [number for each in values if (number := _number(RexsValue(each))) is not None]
+    return (numbers[0], numbers[1], numbers[2]) if len(numbers) == len(values) == 3 else None
 
 
 def _is_true(given: RexsValue | None) -> bool:

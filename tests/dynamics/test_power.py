@@ -148,7 +148,10 @@ def lossy(name: str) -> GearTrain:
         {"id": gear.name, "pair": list(gear.pair), "efficiency": f"0.9{1 + at % 9}"}
         for at, gear in enumerate(declared.gears)
     ]
-    data["links"] = {link: {"bearing": "1/100"} for link in declared.links if link != declared.frame}
+    # a force on a slide has a unit, and then all torques have one
+    unit = " N m" if declared.sliding else ""
+    turning = (link for link in declared.links if link != declared.frame and link not in declared.sliding)
+    data["links"] = {link: {"bearing": f"1/100{unit}"} for link in turning}
     loads = {state: load_of(train, state) for state in states(train)}
     if train.states:
         data["states"] = {state: {"loads": given} for state, given in loads.items()}
@@ -163,7 +166,9 @@ def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
         return {}
     link = drives.forward.way.load
     speed = Fraction(train.solve(state).speeds[link])
-    return {link: str(-1 if speed > 0 else 1)} if speed else {}
+    declared = train.declaration
+    unit = " N" if link in declared.sliding else " N m" if declared.sliding else ""
+    return {link: f"{-1 if speed > 0 else 1}{unit}"} if speed else {}
 
 
 @pytest.mark.parametrize("name", catalogue.every_train())

@@ -30,6 +30,7 @@ from geartrain.report import (
     describe_train,
     to_markdown,
 )
+from geartrain.train import Train
 
 RING = """
 extends: planetary-24-18-60
@@ -148,8 +149,7 @@ def lossy(name: str) -> GearTrain:
         {"id": gear.name, "pair": list(gear.pair), "efficiency": f"0.9{1 + at % 9}"}
         for at, gear in enumerate(declared.gears)
     ]
-    # a force on a slide has a unit, and then all torques have one
-    unit = " N m" if declared.sliding else ""
+    unit = torque_unit(declared)
     turning = (link for link in declared.links if link != declared.frame and link not in declared.sliding)
     data["links"] = {link: {"bearing": f"1/100{unit}"} for link in turning}
     loads = {state: load_of(train, state) for state in states(train)}
@@ -160,6 +160,12 @@ def lossy(name: str) -> GearTrain:
     return load(json.dumps(data, indent=1))
 
 
+def torque_unit(declared: Train) -> str:
+    """A force on a slide, or a declared load, may have a unit, and then all torques have one."""
+    loads = (load for case in declared.cases for load in case.loads.values())
+    return " N m" if declared.sliding or any(load.unit for load in loads) else ""
+
+
 def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
     drives = torque_figures(train, state).drives
     if drives is None:
@@ -167,7 +173,7 @@ def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
     link = drives.forward.way.load
     speed = Fraction(train.solve(state).speeds[link])
     declared = train.declaration
-    unit = " N" if link in declared.sliding else " N m" if declared.sliding else ""
+    unit = " N" if link in declared.sliding else torque_unit(declared)
     return {link: f"{-1 if speed > 0 else 1}{unit}"} if speed else {}
 
 

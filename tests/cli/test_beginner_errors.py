@@ -22,7 +22,7 @@ MISTAKES = r"""
 # a unit that is misspelt: |links:|unit: {per: 12 hrs}\nlinks:|
 error: my.yaml:1: '12 hrs' is not a unit
   why: `per` is a time, a length, or a period listed by `geartrain periods`
-  fix: for example, write `unit: {per: 12 h}`; units: m, cm, mm, um, in, ft, km, mile, s, min, h, d
+  fix: for example, write `unit: {per: 12 h}`; units: s, min, h, d, m, cm, mm, um, in, ft, km, mile
 
 # a unit without `per`: |links:|unit: 12 h\nlinks:|
 error: my.yaml:1: `unit` is not a mapping of keys to values

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import degrees, isfinite, pi
-from typing import TYPE_CHECKING, Protocol, TypeGuard, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -61,11 +61,6 @@ class TransmissionProtocol(Protocol):
 
     def speed(self, S: Floats) -> ArrayLike:
         """Return the speed ratio dq/dS at driver angles S [rad], of the shape of S, above 0."""
-
-
-def has_transmission_members(given: object) -> TypeGuard[TransmissionProtocol]:
-    """Return True if an object has the members of `TransmissionProtocol`."""
-    return not isinstance(given, str | Mapping | list | tuple) and isinstance(given, TransmissionProtocol)
 
 
 class GivenTransmission(PeriodicTransmission, ToothTransmission):
@@ -137,7 +132,7 @@ class GivenTransmission(PeriodicTransmission, ToothTransmission):
         if self._efficiencies_of is None:
             return ContactRubbing(none, none, none)
         at = self._own_angle(S)
-        a, b = (each(at) for each in self._efficiencies_of[:: -1 if self.inverse else 1])
+        a, b = (np.asarray(each(at), dtype=float) for each in self._efficiencies_of[:: -1 if self.inverse else 1])
         a = np.where(b < a, np.minimum(a, _LOSSLESS), a)
         lossy = a * b < 1
         into = np.divide(1 + a * b - 2 * b, 1 - a * b, where=lossy, out=np.zeros(S.shape))
@@ -222,11 +217,10 @@ def given_mesh(wheels: MeshingWheels, form: NamedForm, transmission: GivenTransm
     Raises `GearTrainError` if the speed ratio is not above 0 everywhere, or if friction is declared on the pair.
     """
     if getattr(wheels.gear, "friction", None) is not None:
-        what, why = (
-            "friction is declared together with a given transmission error",
-            "no sliding speed of teeth is known",
+        what = "friction is declared together with a given transmission error"
+        raise refused(
+            what, "no sliding speed of teeth is known", "remove `friction`, and give the `efficiency` of the tooth form"
         )
-        raise refused(what, why, "remove `friction`, and give the `efficiency` of the tooth form")
     forward = transmission.reversed if transmission.inverse else transmission
     low = forward.speed_range()[0]
     if not low > 0:
@@ -254,51 +248,43 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
     kind, ratio = type(given).__name__, Fraction(own, other)
     if given.ratio not in (ratio, float(ratio)):
         what = f"the ratio of '{kind}' is {given.ratio}, but this pair has {ratio}"
-        raise refused(
-            what, "the mean ratio follows from the tooth counts", f"return the ratio Fraction({own}, {other})"
-        )
+        why = "the mean ratio follows from the tooth counts"
+        raise refused(what, why, f"return the ratio Fraction({own}, {other})")
     pitches = given.period * own / (2 * pi)
     if not isfinite(pitches) or round(pitches) < 1 or abs(pitches - round(pitches)) > _SAME * pitches:
         what = f"the period of '{kind}' is {pitches:.9g} pitches of the driver"
         why = "a transmission function repeats after a whole number of pitches"
         raise refused(what, why, f"return a multiple of 2 pi / {own}, such as 2 pi for a revolution of the driver")
-    period = 2 * pi * round(pitches) / own
+    period, pitch = 2 * pi * round(pitches) / own, 2 * pi / other
 
-    def read(method: str) -> Callable[[Floats], Floats]:
-        def values(S: Floats) -> Floats:
-            found = np.asarray(getattr(given, method)(S), dtype=float)
-            if found.shape != S.shape or not np.isfinite(found).all():
-                what = f"`{method}` of '{kind}' does not return a finite number for each angle"
-                why = f"for angles of shape {S.shape} it returns shape {found.shape}"
-                raise refused(what, why, "return an array of finite numbers with the shape of the angles")
-            return found
+    def values(method: str, S: Floats) -> Floats:
+        found = np.asarray(getattr(given, method)(S), dtype=float)
+        if found.shape != S.shape or not np.isfinite(found).all():
+            what = f"`{method}` of '{kind}' does not return a finite number for each angle"
+            why = f"for angles of shape {S.shape} it returns shape {found.shape}"
+            raise refused(what, why, "return an array of finite numbers with the shape of the angles")
+        return found
 
-        return values
-
-    error, speed = read("error"), read("speed")
     # between the positions at which kinks are likely
     S = (np.arange(_TRIED) + 0.6180339887) / _TRIED * period
-    pitch = 2 * pi / other
-    for name, values, scale in (("error", error, pitch), ("speed", speed, float(ratio))):
-        apart = np.abs(values(S + period) - values(S)).max()
+    for method, scale in (("error", pitch), ("speed", float(ratio))):
+        apart = np.abs(values(method, S + period) - values(method, S)).max()
         if apart > _SAME * scale:
-            what = f"`{name}` of '{kind}' changes by {apart:.6g} after one period"
-            raise refused(
-                what, "a transmission error repeats after its period", "return the error, not the total angle"
-            )
+            what = f"`{method}` of '{kind}' changes by {apart:.6g} after one period"
+            why = "a transmission error repeats after its period"
+            raise refused(what, why, "return the error, not the total angle")
     kinks: Sequence[float] = getattr(given, "kinks", list)()
     try:
-        found, drift = periodic_integral(lambda S: speed(S) - float(ratio), period, kinks)
+        found, drift = periodic_integral(lambda S: values("speed", S) - float(ratio), period, kinks)
     except RangeError as problem:
         what = f"the speed ratio of '{kind}' is not smooth: {problem.problems[0].what}"
-        fix = "return the angles of its kinks from a method `kinks()`"
-        raise refused(what, "its extremes are computed between its kinks", fix) from None
-    lag = error(S) - found(S)
+        why = "its extremes are computed between its kinks"
+        raise refused(what, why, "return the angles of its kinks from a method `kinks()`") from None
+    lag = values("error", S) - found(S)
     if (apart := max(float(np.ptp(lag)), abs(drift) * period)) > _SAME * pitch:
         what = f"`speed` of '{kind}' is not the ratio plus the slope of `error`"
-        raise refused(
-            what, f"its integral differs from the error by {apart:.6g} rad", "return dq/dS = ratio + d error/dS"
-        )
+        why = f"its integral differs from the error by {apart:.6g} rad"
+        raise refused(what, why, "return dq/dS = ratio + d error/dS")
     return PeriodicSum([found, HarmonicSeries((), period, float(lag.mean()))], period)
 
 
@@ -308,17 +294,13 @@ def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """
     method = getattr(given, "efficiency", None)
-    try:
-        values = None if method is None else np.asarray(method(np.linspace(0.0, given.period, _TRIED)), dtype=float)
-    except RangeError:  # the sliding of its teeth is not known
+    if method is None:
         return None
-    if method is None or values is None or (values == 1).all():
+    try:
+        values = np.asarray(method(np.linspace(0.0, given.period, _TRIED)), dtype=float)
+    except RangeError:  # the sliding of its teeth is not known
         return None
     if values.shape != (_TRIED,) or not ((values > 0) & (values <= 1)).all():
         what = f"an efficiency of '{type(given).__name__}' is out of range"
         raise refused(what, "it must be above 0 and at most 1", "return one efficiency for each angle")
-
-    def efficiency(S: Floats) -> Floats:
-        return np.asarray(method(S), dtype=float)
-
-    return efficiency, efficiency
+    return None if (values == 1).all() else (method, method)

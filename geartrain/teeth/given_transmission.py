@@ -100,7 +100,7 @@ class GivenTransmission(PeriodicTransmission, ToothTransmission):
         inverse = driver != refers_to
         self._backlash = backlash * (other / own if inverse else 1)
         lag = self._backlash if direction < 0 else 0.0
-        super().__init__(Fraction(own, other), function, inverse, direction=direction, lag=lag)
+        super().__init__(Fraction(own, other), function, inverse=inverse, direction=direction, lag=lag)
         self.driver, self.pitch_count = driver, round(function.period * own / (2 * pi))
         # the coefficient 1 scales the friction terms of `rubbing`, which state the efficiencies
         self.friction = 0.0 if efficiencies is None else 1.0

@@ -34,15 +34,15 @@ class PeriodicTransmission(TransmissionFunction):
     Parameters
     ----------
     mean : Fraction
-        Mean speed ratio of the function, without sign.
+        Mean speed ratio m of the function, without sign.
     deviation : PeriodicFunction
-        Deviation [rad of the other side] as a function of the angle [rad] of the side to which it refers.
-    inverse : bool
-        True if the other side drives.
+        Deviation d [rad of the other side] as a function of the angle [rad] of the side to which it refers.
     phase : float
         Angle in the deviation at S = 0 [rad].
     way : {1, -1}
         -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S).
+    inverse : bool
+        True if the other side drives.
     direction : {1, -1}
         Direction of rotation.
     lag : float
@@ -53,9 +53,9 @@ class PeriodicTransmission(TransmissionFunction):
         self,
         mean: Fraction,
         deviation: PeriodicFunction,
-        inverse: bool = False,
         phase: float = 0.0,
         way: int = 1,
+        inverse: bool = False,
         direction: int = 1,
         lag: float = 0.0,
     ) -> None:
@@ -160,22 +160,7 @@ class PeriodicTransmission(TransmissionFunction):
 
 
 class TableTransmission(PeriodicTransmission, LosslessTransmission):
-    """Transmission function q = m S + d(S + phase) of a coupling with a periodic deviation d from uniform motion.
-
-    Parameters
-    ----------
-    ratio : Fraction
-        Mean speed ratio m, without sign.
-    deviation : PeriodicFunction
-        Deviation d [rad of the driven side] as a function of the driver's angle [rad].
-    phase : float, optional
-        Angle of the driver at S = 0 [rad], default 0.
-    way : int, optional
-        -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S). Default 1.
-    """
-
-    def __init__(self, ratio: Fraction, deviation: PeriodicFunction, phase: float = 0.0, way: int = 1) -> None:
-        super().__init__(ratio, deviation, phase=phase, way=way)
+    """Transmission function of a coupling with a periodic deviation from uniform motion."""
 
     def mirrored(self) -> TableTransmission:
         """Return the function for a driver whose forward sense is reversed."""

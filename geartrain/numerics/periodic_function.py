@@ -15,9 +15,10 @@ from math import inf, isfinite, perm, pi, sqrt
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
+from numpy.polynomial.polynomial import polyint
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.polynomial_pieces import COUNT, PolynomialPiece, fitted
+from geartrain.numerics.polynomial_pieces import PolynomialPiece, fitted
 from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
@@ -30,7 +31,6 @@ Interpolation = Literal["pchip", "cubic", "linear", "steps"]
 
 _FEWEST_POINTS = {"pchip": 3, "cubic": 4, "linear": 2, "steps": 2}
 _PER_WAVE = 32  # samples of the shortest wave
-_PER_INTERVAL = 9  # samples of each smooth interval, in which a point's interpolant is a cubic
 _INSET = 16 * float(np.finfo(float).eps)  # periods: distance of the samples from breakpoints, several rounding errors
 _FINE = 1e-9  # of a bracket: the value at a stationary point is exact to the square of its error
 _MOST_SAMPLES = 5_000_000
@@ -53,6 +53,8 @@ class PeriodicFunction(ABC):
     period: float
     breakpoints: Floats
     resolution: float = inf
+    per_interval: int = 9
+    """Minimum number of samples of an interval between breakpoints."""
 
     @property
     def waves(self) -> float:
@@ -72,7 +74,7 @@ class PeriodicFunction(ABC):
         """Ascending positions over one period, beside every breakpoint and between, at most `resolution` apart."""
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
-        counts = _PER_INTERVAL + np.ceil(widths / self.resolution).astype(np.int64)
+        counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)
         if counts.sum() > _MOST_SAMPLES:
             what = f"a periodic function with {len(starts)} breakpoints in one period is too long"
             why = f"its extremes need {counts.sum()} samples, and at most {_MOST_SAMPLES} are computed"
@@ -83,7 +85,9 @@ class PeriodicFunction(ABC):
         return found
 
     def extremes(self, order: int = 0) -> tuple[float, float]:
-        """Return the minimum and the maximum of the derivative of an order from 0 (the function) to 2 over a period."""
+        """Return the minimum and the maximum of the derivative of an order from 0 (the function) to 2 over a period;
+        positions with the value NaN are ignored.
+        """
         x = self._samples
         slopes = self.derivative(x, order + 1)
         turns = np.flatnonzero(slopes[:-1] * slopes[1:] < 0)
@@ -97,7 +101,7 @@ class PeriodicFunction(ABC):
             _FINE * float((high - low).min(initial=inf)),
         )
         values = self.derivative(np.append(x, at), order)
-        return float(values.min()), float(values.max())
+        return float(np.nanmin(values)), float(np.nanmax(values))
 
     def minimum_at(self, order: int = 0) -> float:
         """Return the approximate position in [0, period) of the minimum of the derivative of an order from 0 to 2."""
@@ -138,7 +142,7 @@ class PeriodicPieces(PeriodicFunction):
         # positions are compared with differences of starts, so that each start is in the piece that it begins
         self._starts = starts - starts[0]
         self._origins = self._starts if origins is None else origins - starts[0]
-        self._first = starts[0]
+        self._first, self.per_interval = starts[0], max(self.per_interval, len(coefficients) + 2)
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
         """Return the derivative of an order from 0 (the function) to 3 at any positions."""
@@ -147,7 +151,7 @@ class PeriodicPieces(PeriodicFunction):
         u = u - self._origins[piece]
         found = np.zeros(u.shape)
         for power, row in zip(range(len(self._coefficients) - 1, order - 1, -1), self._coefficients, strict=False):
-            found = found * u + perm(power, order) * row[piece]
+            found = found * u + perm(power, order) * row.take(piece)
         return found
 
 
@@ -256,15 +260,14 @@ def periodic_integral(
     pieces = [piece for ends in pairwise([*edges, edges[0] + period]) for piece in between(*ends)]
     starts, ends = np.array([(piece.start, piece.end) for piece in pieces]).T
     half = (ends - starts) / 2
-    powers = np.arange(1, COUNT + 1)[:, None]
-    rising = np.array([piece.coefficients[:, 0] for piece in pieces]).T / powers * half
-    rises = rising.sum(axis=0) - (-1.0) ** powers[:, 0] @ rising
+    rising = polyint(np.array([piece.coefficients[:, 0] for piece in pieces]).T, lbnd=-1) * half
+    rises = rising.sum(axis=0)
     mean = float(rises.sum()) / period
-    constants = np.cumsum(rises) - rising.sum(axis=0) - mean * (starts + half - starts[0])
-    coefficients = np.vstack([(rising / half**powers)[::-1], constants])
-    coefficients[-2] -= mean
+    rising[0] += np.cumsum(rises) - rises - mean * (starts + half - starts[0])
+    rising[1] -= mean * half
+    coefficients = (rising / half ** np.arange(len(rising))[:, None])[::-1]
     found = PeriodicPieces(starts, coefficients, period, starts + half)
-    found.breakpoints, found.resolution = cuts, float(half.min()) / _PER_INTERVAL
+    found.breakpoints, found.resolution = cuts, float(half.min()) / found.per_interval
     return found, mean
 
 

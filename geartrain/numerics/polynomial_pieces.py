@@ -1,4 +1,4 @@
-"""Smooth curves as piecewise polynomials of one degree: fitting, evaluation, extremes and moments, vectorised.
+"""Smooth curves as piecewise polynomials of one degree: fitting and evaluation, vectorised.
 
 A piece is a polynomial in u, which increases from -1 to 1 along the piece. Coefficients have shape (COUNT, pieces), by
 ascending powers of u.
@@ -30,8 +30,6 @@ _BETWEEN = -np.cos(np.pi * (np.arange(COUNT - 1) + 0.5) / (COUNT - 1))
 # Chebyshev polynomials as powers, for Horner's rule: coefficients of T_k grow by a factor of 2.4 per degree, and those
 # of a converged series fall by about 10, so that cancellation is harmless
 POWERS = np.array([np.pad(cheb.cheb2poly(row[: at + 1]), (0, COUNT - 1 - at)) for at, row in enumerate(np.eye(COUNT))])
-
-_GAUSS = np.polynomial.legendre.leggauss(20)  # exact to degree 39; squares of pieces have degree 30
 
 
 class PolynomialPiece(NamedTuple):
@@ -100,29 +98,6 @@ def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
         found *= u
         found += row[0] if single else row.take(piece)
     return found
-
-
-def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
-    """Return mean and standard deviation of a piecewise polynomial by Gauss quadrature; `halves` contains half the
-    length of each piece.
-    """
-    nodes, weights = _GAUSS
-    values = poly.polyval(nodes, coefficients)
-    share = halves / halves.sum() / 2
-    mean = float(share @ values @ weights)
-    # two passes: the mean of squares minus the square of the mean would cancel
-    return mean, float(np.sqrt(share @ (values - mean) ** 2 @ weights))
-
-
-def extremes(coefficients: Floats) -> tuple[float, float]:
-    """Return minimum and maximum of a piecewise polynomial; pieces that contain NaN are ignored."""
-    held = coefficients[:, ~np.isnan(coefficients[0])]
-    # other points than the stationary points in [-1, 1] do no harm
-    turns = (np.clip(poly.polyroots(poly.polyder(column)).real, -1, 1) for column in held.T)
-    values = np.concatenate(
-        [ends(held).ravel(), *(poly.polyval(u, column) for u, column in zip(turns, held.T, strict=True))]
-    )
-    return float(values.min()), float(values.max())
 
 
 def ends(coefficients: Floats) -> Floats:

@@ -15,7 +15,7 @@ import numpy as np
 
 from geartrain.errors import RangeError
 from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicFunction, PeriodicSum, periodic_integral
-from geartrain.teeth.couplings.table_transmission import PeriodicTransmission
+from geartrain.teeth.couplings.table_transmission import DeviationTransmission
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.pair_results import PairVerdict, SlidingEfficiency
 from geartrain.teeth.tooth_form import refused
@@ -63,7 +63,7 @@ class TransmissionProtocol(Protocol):
         """Return the speed ratio dq/dS at driver angles S [rad], of the shape of S, above 0."""
 
 
-class GivenTransmission(PeriodicTransmission, ToothTransmission):
+class GivenTransmission(DeviationTransmission, ToothTransmission):
     """Transmission function of a gear pair from a given error, with either wheel driving.
 
     Parameters

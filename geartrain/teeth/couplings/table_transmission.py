@@ -28,7 +28,7 @@ _CLOSE = 4e-16  # periods: distance at which the search for the driving angle en
 _SLIGHT = 1e-9  # of the range of a quantity: smaller jumps are rounding error
 
 
-class PeriodicTransmission(TransmissionFunction):
+class DeviationTransmission(TransmissionFunction):
     """Transmission function with a periodic deviation from uniform motion, or its inverse function.
 
     Parameters
@@ -129,8 +129,9 @@ class PeriodicTransmission(TransmissionFunction):
     def kinks(self) -> list[float]:
         """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous."""
         at = self._breakpoints
-        found: Floats = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
-        return found.tolist()
+        driver = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
+        found: list[float] = driver.tolist()
+        return found
 
     def _jumps(self, order: int) -> Floats:
         """Return the jumps of a derivative of the deviation at its breakpoints, 0 if they are rounding error."""
@@ -159,7 +160,7 @@ class PeriodicTransmission(TransmissionFunction):
         return max(0.0, -low if self.way > 0 else high)
 
 
-class TableTransmission(PeriodicTransmission, LosslessTransmission):
+class TableTransmission(DeviationTransmission, LosslessTransmission):
     """Transmission function of a coupling with a periodic deviation from uniform motion."""
 
     def mirrored(self) -> TableTransmission:

@@ -80,12 +80,12 @@ class _GenevaDeviation(PeriodicFunction):
         u = x - self.period * np.rint(x / self.period)
         # at rest the angle is the angle at the end of the step
         w = self.rho * np.exp(1j * np.clip(u, -self.alpha, self.alpha))
+        side = copysign(1, self.rho)
+        if order == 0:
+            return np.asarray(side * np.arctan2(w.imag, 1 - w.real) - self.mean * u)
         share = w / (1 - w)
-        angles = (-np.log(1 - w), 1j * share, -share / (1 - w), -1j * share * (1 + w) / (1 - w) ** 2)
-        found = copysign(1, self.rho) * angles[order].imag
-        if order:
-            found = np.where(np.abs(u) < self.alpha, found, 0.0)
-        return np.asarray(found - (self.mean * u, self.mean, 0, 0)[order])
+        slope = (1j * share, -share / (1 - w), -1j * share * (1 + w) / (1 - w) ** 2)[order - 1].imag
+        return np.where(np.abs(u) < self.alpha, side * slope, 0.0) - (self.mean if order == 1 else 0.0)
 
 
 class StepTransmission(TableTransmission):

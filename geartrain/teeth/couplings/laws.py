@@ -247,10 +247,10 @@ class PitchCurvePair(_VaryingPair):
     @property
     def transmission(self) -> TableTransmission:
         """Transmission function by quadrature of the ratio r/(C - r)."""
-        from geartrain.teeth.couplings.pitch_curves import PitchCurveDeviation
+        from geartrain.teeth.couplings.pitch_curves import mate_deviation
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 
-        deviation = PitchCurveDeviation(self._values, self.distance, 2 * pi / self.lobes[0])
+        deviation, _ = mate_deviation(self._values, self.distance, 2 * pi / self.lobes[0])
         return TableTransmission(-self.mean, deviation, self.start)
 
     @property

@@ -24,23 +24,24 @@ Model = dict[str, Any]
 Attributes = Mapping[str, Any]
 """Values of attributes by name."""
 
-_LENGTHS = ("normal_module", "axial_module", "face_width", "center_distance", "u_coordinate_on_shaft")
-_ANGLES = ("helix_angle_reference_diameter", "normal_pressure_angle", "pitch_angle")
-_TORQUES = ("torque_around_u_axis", *(f"torque_acting_on_{side}_component_u" for side in ("inner", "outer")))
-_FLAGS = ("defines_speed", "defines_torque", "transmits_torque", "is_driving_gear")
-_ATTRIBUTES: Mapping[str, tuple[str, str]] = {
-    **dict.fromkeys(("u_axis_vector", "support_vector", "w_axis_vector"), ("floating_point_array", "mm")),
-    **dict.fromkeys(_LENGTHS, ("floating_point", "mm")),
-    **dict.fromkeys(_ANGLES, ("floating_point", "deg")),
-    **dict.fromkeys(_TORQUES, ("floating_point", "N m")),
-    **dict.fromkeys(_FLAGS, ("boolean", "")),
-    **dict.fromkeys(("number_of_teeth", "number_of_gears", "gear_shift_index"), ("integer", "")),
-    **{"rotational_speed": ("floating_point", "1 / min"), "power": ("floating_point", "kW")},
-    "addendum_modification_coefficient": ("floating_point", ""),
-    "reference_component_for_position": ("reference_component", ""),
-    "is_engaged": ("boolean_array", ""),
+_NAMES = {
+    ("floating_point_array", "mm"): "u_axis_vector support_vector w_axis_vector",
+    ("floating_point", "mm"): "normal_module axial_module face_width center_distance u_coordinate_on_shaft",
+    ("floating_point", "deg"): "helix_angle_reference_diameter normal_pressure_angle pitch_angle",
+    ("floating_point", "N m"): "torque_around_u_axis "
+    "torque_acting_on_inner_component_u torque_acting_on_outer_component_u",
+    ("floating_point", "1 / min"): "rotational_speed",
+    ("floating_point", "kW"): "power",
+    ("floating_point", ""): "addendum_modification_coefficient",
+    ("integer", ""): "number_of_teeth number_of_gears gear_shift_index",
+    ("boolean", ""): "defines_speed defines_torque transmits_torque is_driving_gear",
+    ("boolean_array", ""): "is_engaged",
+    ("reference_component", ""): "reference_component_for_position",
 }
+_ATTRIBUTES = {name: kind for kind, names in _NAMES.items() for name in names.split()}
 """Type and unit of the attributes that are written or read."""
+_OTHER_UNITS = {"deg": ("°", "rad"), "1 / min": ("rad / s",)}
+"""Units that are read as well, in older files and of other programs."""
 _ROLES: Mapping[str, Sequence[str]] = {
     **{"assembly": ("assembly", "part"), "side": ("assembly", "inner_part", "outer_part")},
     **{"stage": ("stage", "gear_1", "gear_2"), "flank": ("gear", "left")},
@@ -76,7 +77,7 @@ class RexsDocument:
     cases: Sequence[Mapping[int, Attributes]]
     """Attributes of components in each load case, by id of the component."""
     units: Mapping[str, str]
-    """Unit of each attribute as written in the file; empty for `none`."""
+    """Unit of each attribute as written in the file; empty for numbers and flags."""
 
     def parts(self, assembly: int, kind: str) -> list[int]:
         """Return the components of one type that are assembled into a component."""
@@ -114,21 +115,22 @@ def to_xml(model: Model) -> str:
     return f'\ufeff<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
 
-def _element(tag: str, model: Model) -> ElementTree.Element:
-    """Return an object of a JSON file as an XML element; only the lists of the model have an element of their own."""
+def _element(tag: str, content: Any) -> ElementTree.Element:
+    """Return a part of a JSON file as an XML element."""
     node = ElementTree.Element(tag)
-    for key, value in model.items():
+    if not isinstance(content, dict):
+        node.text = _scalar(content)
+        return node
+    for key, value in content.items():
         if isinstance(value, dict):
             node.append(_element(key, value))
-        elif tag == "attribute" and key not in ("id", "unit"):
-            target = ElementTree.SubElement(node, "array") if isinstance(value, list) else node
-            for each in value if isinstance(value, list) else ():
-                ElementTree.SubElement(target, "c").text = _scalar(each)
-            if target is node:
-                node.text = _scalar(value)
         elif isinstance(value, list):
-            target = ElementTree.SubElement(node, key) if tag == "model" else node
-            target.extend(_element(key[:-1], each) for each in value)
+            name, item = ("array", "c") if tag == "attribute" else (key, key[:-1])
+            # other lists have no element of their own
+            inside = ElementTree.SubElement(node, name) if tag in ("model", "attribute") else node
+            inside.extend(_element(item, each) for each in value)
+        elif tag == "attribute" and key not in ("id", "unit"):
+            node.text = _scalar(value)
         else:
             node.set(key, _scalar(value))
     return node
@@ -236,9 +238,10 @@ def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)
         if name not in _ATTRIBUTES or value in (None, ""):
             continue
-        if unit and units.setdefault(name, unit) != unit:
-            raise ValueError(f"`{name}` has the units '{units[name]}' and '{unit}'")
-        kind = _ATTRIBUTES[name][0]
+        kind, expected = _ATTRIBUTES[name]
+        known = units.setdefault(name, unit or expected)
+        if unit not in ("", known) or known not in (expected, *_OTHER_UNITS.get(expected, ())):
+            raise ValueError(f"`{name}` of component {part['id']} has the unit '{unit}', not '{expected}'")
         is_list = kind.endswith("_array")
         try:
             if is_list != isinstance(value, list):

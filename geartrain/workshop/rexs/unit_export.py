@@ -7,6 +7,7 @@ spur wheels on its axes is a planetary stage. A state of the train is a gear of 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
 from math import degrees
@@ -21,10 +22,9 @@ from geartrain.workshop.rexs.rexs_document import Attributes, Model, to_json, to
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.torque_results import Torques
-    from geartrain.kinematics.answer import Answer
-    from geartrain.scene.layout import WheelPlace
+    from geartrain.scene.layout import AxisPlace, WheelPlace
     from geartrain.scene.solids.solid_assembly import SolidModel
-    from geartrain.train import GearPair, StateCase, Wheel
+    from geartrain.train import GearPair, Wheel
 
 VERSION = "1.4"
 _ANGLE = 20.0  # deg, if no tooth form is declared
@@ -82,8 +82,8 @@ class _Unit:
         from importlib.metadata import version
 
         gears = len(self.cases) if self.work.train.states else None
-        first, pose = gears and 1 + self.first, _pose((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-        self.unit = self.add("gear_unit", self.declared.name, number_of_gears=gears, gear_shift_index=first, **pose)
+        first = gears and 1 + self.first
+        self.unit = self.add("gear_unit", self.declared.name, number_of_gears=gears, gear_shift_index=first, **_pose())
         self.numbers["unit", ""] = self.unit
         self.casing = self.add("gear_casing", self.declared.frame, self.unit)
         for link in self.declared.links:
@@ -136,9 +136,8 @@ class _Unit:
         if link == self.declared.frame and not wheels:
             return
         axis = self.work.layout.axes.get(self.tree.axis(link) or "")
-        pose = _pose(axis.point, axis.direction) if axis else _pose((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
         drives = any(link in case.inputs for case in self.cases)
-        number = self.add("shaft", link, self.unit, defines_speed=drives, **pose)
+        number = self.add("shaft", link, self.unit, defines_speed=drives, **_pose(axis))
         self.numbers["link", link] = number
         if link == self.declared.frame:
             self.join("coupling", f"{link} in casing", number, self.casing)
@@ -154,13 +153,11 @@ class _Unit:
     def gear(self, name: str, wheel: Wheel, shaft: int) -> None:
         place = self.work.layout.wheels[name]
         axis = self.work.layout.axes.get(place.axis)
-        along = axis.direction if axis else (0.0, 0.0, 1.0)
-        kind = self.kind(name)
-        sizes = {**_sizes(kind, place, wheel), **_pose(place.centre, along)}
-        above = dot(minus(place.centre, axis.point), along) if axis else None
-        number = self.numbers["wheel", name] = self.add(
-            kind, name, shaft, number_of_teeth=wheel.count or None, **sizes, u_coordinate_on_shaft=above
-        )
+        kind, pose = self.kind(name), _pose(axis, place.centre)
+        above = dot(minus(place.centre, axis.point), axis.direction) if axis else None
+        sizes = {**_sizes(kind, place, wheel), **pose, "u_coordinate_on_shaft": above}
+        number = self.add(kind, name, shaft, number_of_teeth=wheel.count or None, **sizes)
+        self.numbers["wheel", name] = number
         teeth: Attributes = {}
         if kind in ("cylindrical_gear", "ring_gear"):
             angle, shift = self.teeth(name)
@@ -212,10 +209,10 @@ class _Unit:
         whole = self.numbers.get(carrier, self.unit) if kind == "cylindrical_stage" else self.unit
         distance = self.work.layout.axis_distance(first, second)
         number = self.add(kind, gear.name, whole, center_distance=distance)
-        gears = [self.numbers["wheel", wheel] for wheel in (first, second)]
-        self.relate("stage", stage=number, gear_1=gears[0], gear_2=gears[1])
+        one, two = (self.numbers["wheel", wheel] for wheel in (first, second))
+        self.relate("stage", stage=number, gear_1=one, gear_2=two)
         driver = self.work.train.mechanics.drivers(self.cases[self.first].state)[gear.name]
-        for wheel, each in zip((first, second), gears, strict=True):
+        for wheel, each in ((first, one), (second, two)):
             drives = driver.wheel == wheel if driver.known else None
             data = self.add(f"{kind}_gear_data", is_driving_gear=drives)
             self.relate("stage_gear_data", stage=number, gear=each, stage_gear_data=data)
@@ -247,8 +244,7 @@ class _Unit:
 
     def pin(self, label: str, stage: int, body: int, plate: int, planets: Sequence[str]) -> None:
         """Add the pin of one axis on a carrier, with the planets that turn on it."""
-        axis = self.work.layout.axes[label]
-        pin = self.add("shaft", f"pin {label}", self.unit, body, **_pose(axis.point, axis.direction))
+        pin = self.add("shaft", f"pin {label}", self.unit, body, **_pose(self.work.layout.axes[label]))
         self.relate("planet_pin", planetary_stage=stage, shaft=pin)
         self.join("coupling", f"pin {label} in side plate", pin, plate)
         for link in planets:
@@ -287,24 +283,19 @@ class _Unit:
             self.numbers["clutch", name] = self.join(kind, name, ends[0], outer, is_engaged=states)
 
     @cached_property
-    def torques(self) -> list[Torques | None]:
-        """Torques in each state; None without loads in N m, or if the torques are not determined."""
-        return [self._torques(case) for case in self.cases]
-
-    def _torques(self, case: StateCase) -> Torques | None:
-        if not case.loads or any(load.unit is None and load.value for load in case.loads.values()):
-            return None
-        try:
-            found = self.work.train.torques(case.state)
-        except GearTrainError:
-            return None
-        return found if found.verdict else None
+    def torques(self) -> Mapping[int, Torques]:
+        """Torques of each state, by its index; without states without loads in N m, or with undetermined torques."""
+        found = {}
+        for at, case in enumerate(self.cases):
+            if case.loads and all(load.unit or not load.value for load in case.loads.values()):
+                with suppress(GearTrainError):
+                    found[at] = self.work.train.torques(case.state)
+        return {at: torques for at, torques in found.items() if torques.verdict}
 
     def loads(self, at: int) -> Mapping[str, float]:
         """Return the external torques of a state [N m] by link, without the torques of brakes and forces on slides."""
-        found = self.torques[at]
         apart = {link for links in self.engagement for link in links} | self.declared.sliding
-        computed = {} if found is None else found.external
+        computed = self.torques[at].external if at in self.torques else {}
         given = self.cases[at].loads.items()
         declared = {x: load.si for x, load in given if (load.unit or not load.value) and x not in self.declared.sliding}
         return {link: float(torque) for link, torque in computed.items() if link not in apart} | declared
@@ -312,14 +303,17 @@ class _Unit:
     def running(self, at: int) -> list[Model]:
         """Return the data of one load case: the gear in force, speeds [1/min], and torques [N m]."""
         case, found = self.cases[at], []
-        for link, speed in self.per_minute(case, self.work.train.solve(case.state, method="exact")).items():
-            if ("link", link) in self.numbers and (rpm := as_float(speed)) is not None:
-                changes = len({link in each.inputs for each in self.cases}) > 1
-                drives = link in case.inputs if changes else None
+        answer = self.work.train.solve(case.state, method="exact")
+        # speeds that are not per time are taken as turns per minute
+        factor = Fraction(1) if self.declared.unit_speed is None else 60 * self.declared.unit_speed
+        for link, speed in (answer.speeds if answer.verdict else case.inputs).items():
+            rpm = None if link in self.declared.sliding else as_float(Fraction(speed) * factor)
+            if ("link", link) in self.numbers and rpm is not None:
+                drives = link in case.inputs
                 found.append(self.data("link", link, rotational_speed=rpm, defines_speed=drives))
         for link, torque in self.loads(at).items():
             found.append(self.data("load", link, torque_around_u_axis=torque))
-        for held in () if (torques := self.torques[at]) is None else torques.held:
+        for held in self.torques[at].held if at in self.torques else ():
             if ("clutch", name := self.clutch_name(held.links)) in self.numbers and held.torques is not None:
                 reactions = zip(_REACTIONS, map(float, held.torques), strict=False)
                 found.append(self.data("clutch", name, **dict(reactions)))
@@ -331,15 +325,6 @@ class _Unit:
         part = self.components[self.numbers[kind, name] - 1]
         return {"id": part["id"], "type": part["type"], "name": part["name"], "attributes": written(attributes)}
 
-    def per_minute(self, case: StateCase, answer: Answer) -> Mapping[str, Fraction]:
-        """Return the speeds of turning links in turns per minute; those of the inputs if the train is not solved.
-
-        Speeds that are not per time are taken as turns per minute.
-        """
-        factor = Fraction(1) if self.declared.unit_speed is None else 60 * self.declared.unit_speed
-        speeds = answer.speeds if answer.verdict else case.inputs
-        return {link: Fraction(speed) * factor for link, speed in speeds.items() if link not in self.declared.sliding}
-
 
 def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Attributes:
     if kind == "bevel_gear":
@@ -350,7 +335,8 @@ def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Attributes:
     return {**sizes, "face_width": place.thickness}
 
 
-def _pose(point: Vector, along: Vector) -> Attributes:
+def _pose(axis: AxisPlace | None = None, point: Vector | None = None) -> Attributes:
     """Return the attributes of the position of a component: u along its axis, w perpendicular to it."""
-    vectors = {"u_axis_vector": along, "support_vector": point, "w_axis_vector": basis(along)[0]}
+    along, origin = (axis.direction, axis.point) if axis else ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+    vectors = {"u_axis_vector": along, "support_vector": point or origin, "w_axis_vector": basis(along)[0]}
     return {name: [*map(float, each)] for name, each in vectors.items()} | {"reference_component_for_position": 1}

@@ -11,13 +11,13 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from itertools import combinations, pairwise
-from math import atan2, tau
+from math import tau
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.graphs import DisjointSets
-from geartrain.numerics.vectors import Vector, cross, dot, minus, size
+from geartrain.numerics.vectors import Vector, azimuth, beside, cross, dot, minus, size
 from geartrain.train.declaration_files import read_declaration, write_declaration
 from geartrain.workshop.rexs.rexs_document import Attributes, RexsComponent, RexsDocument, read_document
 
@@ -34,6 +34,8 @@ _READ = {
     *_COUPLINGS,
 }
 """Types of components from which the declaration is made."""
+_HELIX = "helix_angle_reference_diameter"
+_SHIFT = "addendum_modification_coefficient"
 _DIGITS = 9  # decimals of positions [mm] and directions
 _MOST_GEARS = 1000  # no unit has more
 _NEAR = 1e-6  # relative tolerance of positions and directions, which are rounded in files
@@ -59,17 +61,16 @@ def declaration_of(path: Path) -> tuple[str, list[str]]:
 
 
 class _Pose(NamedTuple):
-    """Local coordinate system of a component in that of the gear unit: origin [mm] and unit vectors."""
+    """Axis of a component in the coordinate system of the gear unit: origin [mm] and unit vector."""
 
     origin: Vector
     u: Vector
-    w: Vector
 
     def is_coaxial(self, other: _Pose) -> bool:
         """Return True if the u-axes of both lie on one line."""
-        across = minus(other.origin, self.origin)
+        distance = size(cross(self.u, minus(other.origin, self.origin)))
         scale = 1.0 + size(self.origin) + size(other.origin)
-        return size(cross(self.u, other.u)) < _NEAR and size(cross(self.u, across)) < _NEAR * scale
+        return size(cross(self.u, other.u)) < _NEAR and distance < _NEAR * scale
 
 
 class _GearUnit:
@@ -192,10 +193,8 @@ class _GearUnit:
     @cached_property
     def tops(self) -> dict[int, int]:
         """Carrier of each planet."""
-        planets = self.relations["planet_shaft"]
-        return {
-            self.link_of(shaft): self.link_of(each[0]) for stage, shaft in planets if (each := self.carriers[stage])
-        }
+        pairs = ((shaft, self.carriers.get(stage, ())[:1]) for stage, shaft in self.relations["planet_shaft"])
+        return {self.link_of(shaft): self.link_of(carrier) for shaft, first in pairs for carrier in first}
 
     def top(self, link: int) -> int:
         """Return the link that carries the axis of a link."""
@@ -215,7 +214,7 @@ class _GearUnit:
     def _coaxial(self) -> Iterator[tuple[int, int]]:
         """Yield pairs of coaxial shafts: by stage, by coupling, and by position."""
         for stage, shaft in self.relations["central_shaft"]:
-            yield from ((carrier, shaft) for carrier in self.carriers[stage][:1])
+            yield from ((carrier, shaft) for carrier in self.carriers.get(stage, ())[:1])
         for coupling, inner, outer in self.relations["side"]:
             if self.parts[coupling].type in _COUPLINGS:
                 yield inner, outer
@@ -229,10 +228,10 @@ class _GearUnit:
         found: dict[int, _Pose] = {}
         for part in (*self.links, *self.shafts, *self.mount):
             given = self.parts[part].attributes
-            vectors = [given.get(name, ()) for name in ("support_vector", "u_axis_vector", "w_axis_vector")]
-            base = self.parts.get(int(given.get("reference_component_for_position", self.unit.id)), self.unit)
+            vectors = [given.get(name, ()) for name in ("support_vector", "u_axis_vector")]
             # a position may be given relative to another component
-            if base.type == "gear_unit" and all(len(vector) == 3 for vector in vectors):
+            base = given.get("reference_component_for_position", self.unit.id)
+            if base == self.unit.id and all(len(vector) == 3 for vector in vectors):
                 found.setdefault(self.link_of(part), _Pose(*map(tuple, vectors)))
         return found
 
@@ -281,34 +280,34 @@ class _GearUnit:
         if count < 1 or count % 1:
             why, fix = "speeds follow from tooth counts", "give the attribute `number_of_teeth`, a whole number above 0"
             self._problem(part, "gear has no tooth count", why, fix)
-        angle = given.get("helix_angle_reference_diameter", 0)
+        angle = given.get(_HELIX, 0)
         # the hand of a ring is that of its mate; programs give its angle different signs
         hand = "" if ring or not angle else "right" if angle > 0 else "left"
-        turned = given | {"helix_angle_reference_diameter": abs(angle) or None}
-        names = {"helix_angle": "helix_angle_reference_diameter", "module": "normal_module", "face_width": "face_width"}
-        sizes = {key: self._quantity(turned, name) for key, name in names.items()}
+        turned = {**given, _HELIX: abs(angle) or None}
+        names = {"helix_angle": _HELIX, "module": "normal_module", "face_width": "face_width"}
+        sizes = {key: self._quantity(name, turned.get(name)) for key, name in names.items()}
         return {"teeth": max(int(count), 1), **_if_any(internal=ring, hand=hand, **sizes)}
 
-    def _quantity(self, given: Attributes, name: str) -> str:
-        """Return an attribute with its unit as written in declarations; empty if it is not given."""
+    def _quantity(self, name: str, value: float | None) -> str:
+        """Return the value of an attribute with its unit as written in declarations; empty for None."""
         unit = self.document.units.get(name, "")
-        return "" if given.get(name) is None else f"{_text(given[name])} {_UNITS.get(unit, unit)}".strip()
+        return "" if value is None else f"{_text(value)} {_UNITS.get(unit, unit)}".strip()
 
     def _gear(self, mesh: tuple[int, int]) -> dict[str, Any]:
         """Return the declaration of a pair, with involute teeth if its flanks give pressure angle and profile shift."""
         pair = {"pair": [self.name(gear) for gear in mesh]}
-        left = dict(self.relations["flank"])  # type: ignore[arg-type]
+        left = {roles[0]: roles[1] for roles in self.relations["flank"]}
         flanks = [self.parts[left[gear]].attributes if gear in left else {} for gear in mesh]
-        shift = "addendum_modification_coefficient"
-        if not {"normal_pressure_angle", shift} <= flanks[0].keys():
+        angle, shift = (flanks[0].get(name) for name in ("normal_pressure_angle", _SHIFT))
+        if angle is None or shift is None:
             return pair
-        shifts = [flank.get(shift, 0.0) for flank in flanks]
+        shifts = [shift, flanks[1].get(_SHIFT, 0.0)]
         for at, gear in enumerate(mesh):
             if self.parts[gear].type == "ring_gear" and shifts[at]:
                 ring = f"Profile shift of ring '{self.name(gear)}'"
                 self.notes.append(f"{ring} is not read: its sign differs between programs.")
                 shifts[at] = 0.0
-        form = {"form": "involute", "pressure_angle": self._quantity(flanks[0], "normal_pressure_angle")}
+        form = {"form": "involute", "pressure_angle": self._quantity("normal_pressure_angle", angle)}
         shown = [_text(round(shift, _DIGITS)) for shift in shifts] if any(shifts) else []
         return {**pair, "tooth_form": {**form, **_if_any(shift=shown)}}
 
@@ -330,9 +329,8 @@ class _GearUnit:
         for mesh in self.meshes:
             for own, other in (mesh, mesh[::-1]):
                 given = self.parts[own].attributes
-                sizes = (
-                    given.get(x, 0) for x in ("number_of_teeth", "normal_module", "helix_angle_reference_diameter")
-                )
+                names = ("number_of_teeth", "normal_module", _HELIX)
+                sizes = (given.get(name, 0) for name in names)
                 # a planet that meshes with another planet has a mate of its own
                 meshes[self.link_of(own)].append((*sizes, other, own if self.link_of(other) in self.tops else 0))
         groups: dict[tuple[Any, ...], list[int]] = defaultdict(list)
@@ -350,9 +348,9 @@ class _GearUnit:
         centre, poses = self.poses.get(self.top(group[0])), [self.poses.get(link) for link in group]
         if centre is None or None in poses:
             return True
-        right, up = centre.w, cross(centre.u, centre.w)
-        arms = [minus(pose.origin, centre.origin) for pose in poses if pose is not None]
-        angles = sorted(atan2(dot(arm, up), dot(arm, right)) for arm in arms)
+        origin, axis = centre
+        arms = [minus(pose.origin, origin) for pose in poses if pose is not None]
+        angles = sorted(azimuth(arm, axis, beside(axis)) for arm in arms)
         return all(abs(b - a - tau / len(group)) < 1e-4 for a, b in pairwise(angles))
 
     # --------------------------------------------------------------------------------------------------------- running
@@ -376,7 +374,8 @@ class _GearUnit:
         # links with an external load that are not inputs
         driven = {name for state in states for name in state.get("inputs", ())}
         loaded = {self.link_of(shaft) for shaft in self.shafts if self.document.parts(shaft, "external_load")}
-        outputs = {self.name(link): {} for link in links if link in loaded and self.name(link) not in driven}
+        names = [self.name(link) for link in links if link in loaded]
+        outputs: dict[str, Any] = {name: {} for name in names if name not in driven}
         found = _if_any(**held, clutches=clutches, outputs=outputs)
         if len(states) == 1:
             return {**found, **states[0]}
@@ -413,8 +412,7 @@ class _GearUnit:
                 continue
             speed = given.get("rotational_speed")
             if given.get("defines_speed") and speed is not None:
-                turning = {"rotational_speed": self.sense(link) * speed}
-                inputs[self.name(link)] = self._quantity(turning, "rotational_speed")
+                inputs[self.name(link)] = self._quantity("rotational_speed", self.sense(link) * speed)
             for load in self.document.parts(shaft, "external_load"):
                 torque = self._torque(self._given(load, case), speed)
                 if torque is not None:

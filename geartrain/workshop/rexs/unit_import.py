@@ -10,7 +10,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import chain, combinations, pairwise
 from math import tau
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -83,7 +83,7 @@ class _GearUnit:
         self.unit = self._first("gear_unit", "")
         self.casing = self._first("gear_casing", "casing")
         self.shafts = document.of_type("shaft")
-        self.carriers = {stage: self._carrier_shafts(stage) for stage in document.of_type("planetary_stage")}
+        self.carriers = {stage: self._carrier(stage) for stage in document.of_type("planetary_stage")}
         self._names: dict[int, str] = {}
         self._taken = {("shaft", _clean(self.casing.name))}
 
@@ -152,12 +152,15 @@ class _GearUnit:
 
     # -------------------------------------------------------------------------------------------------- links and axes
 
-    def _carrier_shafts(self, stage: int) -> list[int]:
-        """Return the shafts of the carrier of a stage, its pins last."""
+    def _carrier(self, stage: int) -> list[int]:
+        """Return the shafts, pins and side plates of the carrier of a stage; empty if it has no shaft."""
         shafts, pins = (self._of_stage(stage, relation) for relation in ("planet_carrier_shaft", "planet_pin"))
+        plates = []
         for carrier in self.document.parts(stage, "planet_carrier"):
             shafts += self.document.parts(carrier, "shaft")
-        return [*dict.fromkeys(shaft for shaft in shafts if shaft not in pins), *pins]
+            plates += self.document.parts(carrier, "side_plate")
+        found = [*dict.fromkeys(shaft for shaft in shafts if shaft not in pins), *pins]
+        return [*found, *plates] if found else []
 
     def _of_stage(self, stage: int, relation: str) -> list[int]:
         return [shaft for whole, shaft in self.relations[relation] if whole == stage]
@@ -168,11 +171,8 @@ class _GearUnit:
         bodies: DisjointSets[int] = DisjointSets()
         for casing in self.document.of_type("gear_casing"):
             bodies.join(_FRAME, casing)
-        for stage, shafts in self.carriers.items():
-            carriers = self.document.parts(stage, "planet_carrier")
-            plates = [plate for each in carriers for plate in self.document.parts(each, "side_plate")]
-            for first, second in pairwise([*shafts, *plates]):
-                bodies.join(first, second)
+        for first, second in chain.from_iterable(map(pairwise, self.carriers.values())):
+            bodies.join(first, second)
         for coupling, *ends in self.relations["side"]:
             # a shaft with the name of the casing is a part of it
             names = {_clean(self.parts[end].name) for end in ends}

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import MeasuredLength, above_zero, bad, millimetres
+from geartrain.numerics.roots import root
 from geartrain.teeth.couplings.travel import TravelCoupling
-from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth.transmission import LosslessTransmission
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_BISECTIONS = 60  # of a quarter turn, to rounding error
 _SAMPLES = 4096  # the mean over equidistant samples is exact to rounding error unless the rod is as short as the crank
 
 
@@ -54,7 +54,7 @@ class CrankSlider(TravelCoupling):
         return CrankSliderTransmission(float(millimetres(self.radius)), float(millimetres(self.rod)))
 
 
-class CrankSliderTransmission(TransmissionFunction):
+class CrankSliderTransmission(LosslessTransmission):
     """Transmission function of a crank that moves a slide through a rod.
 
     The driven angle is 2 pi times the travel of the slide from its outer dead centre in mm. Friction is not modelled.
@@ -100,19 +100,9 @@ class CrankSliderTransmission(TransmissionFunction):
         # l^2 - r^2 sin^2 S as a sum, which does not cancel for short rods
         return np.asarray(np.sqrt((self.l - self.r) * (self.l + self.r) + (self.r * np.cos(S)) ** 2))
 
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency, which is 1."""
-        import numpy as np
-
-        return np.ones_like(np.asarray(S, dtype=float))
-
     def peak(self) -> float:
-        """Return the crank angle of maximum speed between the dead centres [rad], by bisection."""
-        low, high = 0.0, pi / 2
-        for _ in range(_BISECTIONS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if self._acceleration(middle) < 0 else (low, middle)
-        return low
+        """Return the crank angle of maximum speed between the dead centres [rad]."""
+        return root(self._acceleration, 0.0, pi / 2, self._acceleration(0.0), self._acceleration(pi / 2))
 
     def _acceleration(self, S: float) -> float:
         """Return the second derivative of the position with respect to the crank angle [mm]."""

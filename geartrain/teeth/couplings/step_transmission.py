@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import accumulate, pairwise
-from math import acos, pi, sin, sqrt, tan
+from math import pi, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.numerics.periodic_function import PeriodicPieces
+from geartrain.numerics.roots import root
+from geartrain.teeth.couplings.series_transmission import SeriesTransmission
 from geartrain.teeth.couplings.table_transmission import TableTransmission
 from geartrain.teeth.transmission import LosslessTransmission
 
@@ -51,11 +53,12 @@ class GenevaTransmission(LosslessTransmission):
     def __init__(self, slots: int, pins: int = 1, internal: bool = False) -> None:
         self.slots, self.pins, self.internal = slots, pins, internal
         self.ratio, self.period = Fraction(pins, slots), 2 * pi / pins
-        self.rho = (-1 if internal else 1) * sin(pi / slots)
-        """Pin radius divided by the distance of the axes, negative for an internal drive."""
-        self.alpha = pi / 2 + (1 if internal else -1) * pi / slots
+        side, phase = (1, pi) if internal else (-1, 0.0)
+        self.step = SeriesTransmission(Fraction(0), -side, 1, sin(pi / slots), phase=phase)
+        """Function of the driven angle while a pin is in its slot."""
+        self.alpha = pi / 2 + side * pi / slots
         """Driver angle from the middle of a step to its end [rad]."""
-        self.dwell = 1 - pins * (Fraction(1, 2) + Fraction(1 if internal else -1, slots))
+        self.dwell = 1 - pins * (Fraction(1, 2) + Fraction(side, slots))
 
     def _from_middle(self, S: ArrayLike) -> Floats:
         """Return driver angles modulo the period, between plus and minus half a period [rad]."""
@@ -66,27 +69,22 @@ class GenevaTransmission(LosslessTransmission):
         """Return the transmission error [rad of the driven side] at driver angles S [rad]."""
         u = self._from_middle(S)
         # at rest the angle is the angle at the end of the step
-        v = np.clip(u, -self.alpha, self.alpha)
-        angle = np.arctan2(abs(self.rho) * np.sin(v), 1 - self.rho * np.cos(v))
-        return np.asarray(angle - float(self.ratio) * u)
+        return np.asarray(self.step.error(np.clip(u, -self.alpha, self.alpha)) - float(self.ratio) * u)
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at driver angles S [rad], which is 0 at rest."""
         u = self._from_middle(S)
-        cos = np.cos(u)
-        speed = abs(self.rho) * (cos - self.rho) / (1 - 2 * self.rho * cos + self.rho**2)
-        return np.where(np.abs(u) < self.alpha, speed, 0.0)
+        return np.where(np.abs(u) < self.alpha, self.step.speed(u), 0.0)
 
     def speed_range(self) -> tuple[float, float]:
         """Return 0 and the maximum speed ratio, in the middle of a step."""
         # pins that follow each other without a rest still have a speed of 0 between two steps
-        return 0.0, abs(self.rho) / (1 - self.rho)
+        return 0.0, self.step.speed_range()[1]
 
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum transmission error [rad], at the driver angles of mean speed."""
-        m, square = float(self.ratio), self.rho**2
-        side = -1 if self.internal else 1
-        S = acos((m * (1 + square) + side * square) / (abs(self.rho) * (1 + 2 * side * m)))
+        mean = float(self.ratio)
+        S = root(lambda S: float(self.speed(S)) - mean, 0.0, self.alpha, self.speed_range()[1] - mean, -mean)
         most = float(self.error(S))
         return -most, most
 
@@ -107,11 +105,7 @@ class GenevaTransmission(LosslessTransmission):
 
     def steepest_fall(self) -> float:
         """Return the maximum rate at which the speed ratio decreases [1/rad]."""
-        if self.internal:
-            return tan(pi / self.slots)  # at the end of the step
-        square = self.rho**2
-        cos = (sqrt((1 + square) ** 2 + 32 * square) - (1 + square)) / (4 * self.rho)
-        return self.rho * (1 - square) * sqrt(1 - cos**2) / (1 - 2 * self.rho * cos + square) ** 2
+        return abs(float(self.step.speed_slope(self.alpha))) if self.internal else self.step.steepest_fall()
 
 
 class StepTransmission(TableTransmission):

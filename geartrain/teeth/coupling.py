@@ -7,7 +7,6 @@ about m also has a `TransmissionFunction`.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from importlib import import_module
@@ -131,9 +130,10 @@ class Coupling(BaseModel):
     note: str | None = Field(None, description="Remark for the reader")
 
     @property
-    @abstractmethod
     def ends(self) -> tuple[str, ...]:
         """Links that the coupling joins, or wheels where it is declared by wheels; the driving link comes first."""
+        values = [getattr(self, key) for key in self.ENDS]
+        return tuple(values) if len(values) > 1 else tuple(values[0])
 
     @property
     def name(self) -> str:

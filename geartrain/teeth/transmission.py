@@ -212,9 +212,14 @@ class TransmissionFunction(Shown, ABC):
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and maximum transmission error over a period [rad of the driven side]."""
 
-    @abstractmethod
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side]."""
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side], by
+        quadrature.
+        """
+        S, weights = self.graded_nodes(lambda S: self.error(S) ** 2)
+        error = self.error(S)
+        mean = float(weights @ error)
+        return mean, float(weights @ (error - mean) ** 2) ** 0.5
 
     def efficiency_mean(self) -> float:
         """Return the mean efficiency over driver angles at constant driver torque; NaN if friction locks the pair."""

@@ -92,11 +92,6 @@ class Belt(Coupling):
         return self
 
     @property
-    def ends(self) -> tuple[str, ...]:
-        """Links with a diameter, or wheels, in the order of the declaration."""
-        return tuple(self.around)
-
-    @property
     def by_teeth(self) -> bool:
         """True if the pulleys are wheels with teeth, False if they are links with diameters."""
         return not isinstance(self.around, Mapping)

@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_SAMPLES = 4096  # the mean over equidistant samples is exact to rounding error unless the rod is as short as the crank
-
-
 class CrankSlider(TravelCoupling):
     """Crank that moves a slide to and fro through a rod; the line of the slide passes through the crank's axis."""
 
@@ -118,13 +115,6 @@ class CrankSliderTransmission(LosslessTransmission):
     def error_range(self) -> tuple[float, float]:
         """Return the travels of the slide at both dead centres [rad; 2 pi is 1 mm]."""
         return -2 * self.period * self.r, 0.0
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean travel of the slide and the rms deviation from it [rad; 2 pi is 1 mm]."""
-        import numpy as np
-
-        positions = self.error(np.arange(_SAMPLES) * (self.period / _SAMPLES))
-        return float(positions.mean()), float(positions.std())
 
     def steepest_fall(self) -> float:
         """Return the maximum rate at which the speed ratio decreases [1/rad], at the outer dead centre."""

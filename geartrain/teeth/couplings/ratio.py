@@ -64,7 +64,7 @@ class Ratio(Coupling):
     kind: Literal["ratio"] = Field(
         "ratio", description="Pair or planetary set of which only the ratio is known; this key may be omitted"
     )
-    pair: tuple[str, str] = Field(description="First and second link of the ratio")
+    pair: tuple[str, str] = Field(description="First link, which counts as driving, and second link")
     ratio: DeclaredRatio = Field(
         description="Speed of the first link divided by that of the second, relative to the carrier, with its sign: an "
         "exact number, or `{value, tolerance}`"
@@ -88,11 +88,6 @@ class Ratio(Coupling):
             what = f"'{self.carrier}' is the carrier and one of the pair"
             raise bad("ratio", what, "name the third link of the set as `carrier`, or omit it")
         return self
-
-    @property
-    def ends(self) -> tuple[str, str]:
-        """First link, which counts as driving, and second link."""
-        return self.pair
 
     @property
     def mean(self) -> Fraction:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import accumulate, pairwise
-from math import pi, sin, sqrt
+from math import pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -87,13 +87,6 @@ class GenevaTransmission(LosslessTransmission):
         S = root(lambda S: float(self.speed(S)) - mean, 0.0, self.alpha, self.speed_range()[1] - mean, -mean)
         most = float(self.error(S))
         return -most, most
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error, which is 0 by symmetry, and its rms value [rad], by Gauss-Legendre
-        quadrature over the smooth pieces.
-        """
-        S, weights = self.graded_nodes(lambda S: self.error(S) ** 2)
-        return 0.0, sqrt(float(weights @ self.error(S) ** 2))
 
     def kinks(self) -> list[float]:
         """Return the driver angles at which a step begins and ends [rad], where the acceleration jumps."""

@@ -100,11 +100,9 @@ _TURNING_ONLY = {
 def _links(train: Train) -> Iterator[Problem]:
     for link in (link for link in train.links if link in train.sliding):
         part, place = train.links[link], train.place("links", link)
-        for key, fix in _TURNING_ONLY.items():
-            if getattr(part, key) is not None:
-                yield Problem(
-                    f"'{link}' slides and has no `{key}`", f"`{key}` belongs to a link that turns", fix, place
-                )
+        for key in (key for key in _TURNING_ONLY if getattr(part, key) is not None):
+            what, why = f"'{link}' slides and has no `{key}`", f"`{key}` belongs to a link that turns"
+            yield Problem(what, why, _TURNING_ONLY[key], place)
         if part.copies > 1:
             what, why = f"{part.copies} copies of '{link}', which slides", "copies are spaced about an axis"
             yield Problem(what, why, "declare them one by one", place)

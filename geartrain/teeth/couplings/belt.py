@@ -119,15 +119,6 @@ class Belt(Coupling):
                 why = "a belt or chain goes around the outside of a wheel with external teeth"
                 yield f"belt '{self.name}' goes around the {shape} '{name}'", why, "declare a wheel for the belt"
 
-    def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
-        """Return the links of the pulleys, in the order of the declaration."""
-        return tuple(wheels[name][0] for name in self.ends) if self.by_teeth else self.ends
-
-    def references(self) -> Iterator[tuple[str, str, tuple[str | int, ...]]]:
-        """Yield the wheels, or the links, that the belt goes around, with their paths."""
-        kind = "wheel" if self.by_teeth else "link"
-        yield from ((kind, name, ("around", at if self.by_teeth else name)) for at, name in enumerate(self.ends))
-
     @property
     def lengths(self) -> Iterator[Quantity]:
         """Pitch diameters of the pulleys."""

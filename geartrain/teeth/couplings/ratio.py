@@ -11,38 +11,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    GetJsonSchemaHandler,
-    model_serializer,
-    model_validator,
-)
+from pydantic import BaseModel, BeforeValidator, Field, model_validator
 
 from geartrain.numerics.quantity import Figure, above_zero, bad
+from geartrain.teeth.contact_coefficients import NumberOrKeys
 from geartrain.teeth.coupling import Coupling, CouplingRow, ratio_row
 
 
-class ApproximateRatio(BaseModel):
+class ApproximateRatio(NumberOrKeys):
     """Ratio with its tolerance, if it is not known exactly. A bare number is an exact ratio."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     value: Figure = Field(description="Ratio used in calculations")
     tolerance: Annotated[Figure, above_zero("give a tolerance above 0, or only the ratio")] | None = Field(
         None, description="Maximum deviation of the true ratio from `value`; default none, for an exact ratio"
     )
-
-    @model_serializer(mode="wrap")
-    def _declared(self, handler: Any) -> Any:
-        """Return the ratio as declared: a bare number if it is exact."""
-        return str(self.value) if self.tolerance is None else handler(self)
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return {"anyOf": [{"type": ["number", "string"]}, handler(schema)]}
 
 
 def _ratio(raw: object) -> object:

@@ -11,13 +11,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
-from math import atan2, degrees, pi, sqrt
+from math import degrees, pi
 from typing import NamedTuple
 
 from geartrain.errors import DeclarationError, GearTrainError, Problem, RangeError
 from geartrain.kinematics.circuits.joint_tree import Axes, Tree
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.vectors import ExactVector, Vector, cross, dot
+from geartrain.numerics.vectors import cross, dot, size
 from geartrain.teeth.coupling import COUPLINGS, Coupling, CouplingRow
 from geartrain.train import Train, Wheel
 
@@ -421,25 +421,15 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     It is the sum of both pitch cone angles: the angle between the directions from the apex to the two wheels, which
     follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
     """
-    axes = Axes(train, tree)
-    if axes.plain:
-        return None
-    labels = _labels(tree, circuit.carrier, circuit.i, circuit.j)
-    u, v = (_floats(axes.direction(label)) for label in labels)
-    across = cross(u, v)
-    size = sqrt(dot(across, across))
-    if not size:
+    axes, labels = Axes(train, tree), _labels(tree, circuit.carrier, circuit.i, circuit.j)
+    if axes.are_parallel(labels):
         return None
     if passing_distance(axes, labels):
-        raise RangeError(
-            Problem(
-                "the axes of the pair do not intersect",
-                "axes of bevel and contrate wheels must intersect",
-                "correct the positions of the axes",
-            )
-        )
+        what, why = "the axes of the pair do not intersect", "axes of bevel and contrate wheels must intersect"
+        raise RangeError(Problem(what, why, "correct the positions of the axes"))
+    angle, _ = axes.crossing(*labels)
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
-    return atan2(size, facing * dot(u, v))  # acos would lose half the digits near 0 and pi
+    return angle if facing > 0 else pi - angle
 
 
 def bevels_on_one_side(
@@ -475,11 +465,8 @@ def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:
         return None
-    across = cross(*(_floats(axes.direction(label)) for label in labels))
+    upright = cross(*(axes.direction(label) for label in labels))
+    across = float(upright[0]), float(upright[1]), float(upright[2])
     apart = there[0].si - here[0].si, there[1].si - here[1].si, there[2].si - here[2].si
-    offset, reach = abs(dot(apart, across)) / sqrt(dot(across, across)), sqrt(dot(apart, apart))
-    return offset if offset > _MEET * reach else 0.0
-
-
-def _floats(vector: ExactVector) -> Vector:
-    return float(vector[0]), float(vector[1]), float(vector[2])
+    offset = abs(dot(apart, across)) / size(across)
+    return offset if offset > _MEET * size(apart) else 0.0

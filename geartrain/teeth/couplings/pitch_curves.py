@@ -41,10 +41,8 @@ class PitchCurveDeviation(PeriodicFunction):
         self.breakpoints = np.array([piece.start for piece in pieces])
         self._halves = np.diff(self.breakpoints, append=period) / 2
         ratio = np.array([piece.coefficients[:, 0] for piece in pieces]).T
-        # antiderivative on each piece, 0 at its start
-        powers = np.arange(1, len(ratio) + 1)[:, None]
-        rising = np.concatenate([np.zeros((1, len(pieces))), ratio / powers]) * self._halves
-        rising[0] = -(np.where(powers % 2, -1.0, 1.0) * rising[1:]).sum(axis=0)
+        # antiderivative on each piece, continued from piece to piece
+        rising = np.polynomial.polynomial.polyint(ratio, lbnd=-1) * self._halves
         passed = np.cumsum(rising.sum(axis=0))
         rising[0, 1:] += passed[:-1]
         self._angle = rising

@@ -11,12 +11,11 @@ All other kinds move the driven link by whole teeth, at once or evenly over an a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from geartrain.numerics.exact import plural
 from geartrain.numerics.plain_values import Boolean
@@ -35,16 +34,9 @@ def _moves(raw: object) -> object:
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 
-def _any_move(moves: Sequence[int]) -> Sequence[int]:
-    if not any(moves):
-        raise bad("step", "the driven link never moves", "give `moves` of 0 or more, and at least one above 0")
-    return moves
-
-
 _Moves = Annotated[
     tuple[Annotated[int, Field(ge=0)], ...],
     BeforeValidator(_moves),
-    AfterValidator(_any_move),
     WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "array", "items": {"type": "integer"}}]}),
 ]
 
@@ -144,6 +136,8 @@ class Step(SteppingCoupling):
 
     @model_validator(mode="after")
     def _check_moves(self) -> Step:
+        if not any(self.moves):
+            raise bad("step", "the driven link never moves", "give `moves` of 0 or more, and at least one above 0")
         if max(self.moves) > self.teeth:
             what = f"{max(self.moves)} teeth in one engagement are more than the {self.teeth} teeth of the wheel"
             raise bad("step", what, f"give `moves` of at most {self.teeth}")

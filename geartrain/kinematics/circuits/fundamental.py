@@ -19,7 +19,7 @@ from geartrain.kinematics.circuits.joint_tree import Axes, Tree
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.vectors import cross, dot, size
 from geartrain.teeth.coupling import COUPLINGS, Coupling, CouplingRow
-from geartrain.train import Train, Wheel
+from geartrain.train import Train
 
 
 class Circuit(NamedTuple):
@@ -156,7 +156,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             problems.append(_no_carrier(train, tree, gear.name, i, j, ("gears", at)))
             continue
         if wheel_i.count is None or wheel_j.count is None:
-            problems.append(_no_count(train, gear.pair, (wheel_i, wheel_j)))
+            problems += _no_count(train, gear.pair)
             continue
         straight = wheel_i.helix_angle is None and wheel_j.helix_angle is None
         if (
@@ -197,9 +197,8 @@ class _DeclaredCoupling(NamedTuple):
         """Return the circuits of the coupling, which have one carrier, or the problems that prevent them."""
         train, tree, name = self.train, self.axes.tree, self.coupling.name
         wheels = [name for kind, name, _ in self.coupling.references() if kind == "wheel"]
-        declared = [train.wheels[wheel][1] for wheel in wheels]
-        if any(wheel.count is None for wheel in declared):
-            return (_no_count(train, wheels, declared),)
+        if missing := _no_count(train, wheels):
+            return missing
         found = [self._circuit(row) for row in self.coupling.rows(train.wheels)]
         circuits = [each for each in found if isinstance(each, Circuit)]
         if len(circuits) < len(found):
@@ -401,14 +400,12 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 
-def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Problem:
-    name = next(name for name, wheel in zip(pair, wheels, strict=True) if wheel.count is None)
-    return Problem(
-        f"wheel '{name}' has no tooth count yet",
-        "only `search` is declared, and speeds need a definite count",
-        "add a `value` next to `search`",
-        train.place("links", train.wheels[name][0], "wheels", name),
-    )
+def _no_count(train: Train, wheels: Sequence[str]) -> list[Problem]:
+    """Return the problem of the first wheel without a tooth count; empty if all have one."""
+    what, why = "wheel '{}' has no tooth count yet", "only `search` is declared, and speeds need a definite count"
+    missing = [name for name in wheels if train.wheels[name][1].count is None][:1]
+    places = (train.place("links", train.wheels[name][0], "wheels", name) for name in missing)
+    return [Problem(what.format(*missing), why, "add a `value` next to `search`", place) for place in places]
 
 
 _SAME_ANGLE = 1e-3  # rad: tolerance of the angle of a joint, because written directions are rounded

@@ -157,5 +157,4 @@ def belt_length(diameters: tuple[float, float], distance: float, crossed: bool =
     first, second = diameters
     half = (first + second if crossed else second - first) / 2
     straight, alpha = 2 * sqrt((distance - half) * (distance + half)), asin(half / distance)
-    wrapped = (pi / 2 + alpha) * (first + second) if crossed else pi / 2 * (first + second) + alpha * (second - first)
-    return straight + wrapped
+    return straight + pi / 2 * (first + second) + 2 * alpha * half

@@ -38,6 +38,11 @@ _FEWEST, _MOST = 4, 10_000  # points of a smooth table
 _MOST_LOBES = _MOST_ORDER = 100
 
 
+JointAngle = Annotated[
+    Angle,
+    not_below_zero("give an angle from 0 to below 90 deg"),
+    below_right_angle("give an angle below 90 deg: a joint at 90 deg does not turn"),
+]
 Lobes = Annotated[int, Field(ge=1, le=_MOST_LOBES)]
 
 
@@ -72,14 +77,7 @@ class UniversalJoint(_VaryingPair):
     NEGLECTED = "side loads of joints", "forces and bending moments on the shafts of a joint are not computed"
 
     kind: Literal["universal_joint"] = Field(description="Universal joint: mean ratio 1, periods of half a turn")
-    angle: (
-        Annotated[
-            Angle,
-            not_below_zero("give an angle from 0 to below 90 deg"),
-            below_right_angle("give an angle below 90 deg: a joint at 90 deg does not turn"),
-        ]
-        | None
-    ) = Field(None, description="Angle between the shafts; default from `axes`")
+    angle: JointAngle | None = Field(None, description="Angle between the shafts; default from `axes`")
     phase: Angle | None = Field(
         None, description="Angle of the driver's fork from the plane of both shafts at the start; default 0"
     )

@@ -51,7 +51,6 @@ class GenevaTransmission(LosslessTransmission):
     """
 
     def __init__(self, slots: int, pins: int = 1, internal: bool = False) -> None:
-        self.slots, self.pins, self.internal = slots, pins, internal
         self.ratio, self.period = Fraction(pins, slots), 2 * pi / pins
         side, phase = (1, pi) if internal else (-1, 0.0)
         self.step = SeriesTransmission(Fraction(0), -side, 1, sin(pi / slots), phase=phase)
@@ -98,7 +97,8 @@ class GenevaTransmission(LosslessTransmission):
 
     def steepest_fall(self) -> float:
         """Return the maximum rate at which the speed ratio decreases [1/rad]."""
-        return abs(float(self.step.speed_slope(self.alpha))) if self.internal else self.step.steepest_fall()
+        # the speed of an internal drive decreases most at the end of a step
+        return self.step.steepest_fall() if self.alpha < pi / 2 else abs(float(self.step.speed_slope(self.alpha)))
 
 
 class StepTransmission(TableTransmission):

@@ -61,10 +61,32 @@ class TransmissionProtocol(Protocol):
     """Period [rad of the driver], a whole number of pitches of the driver."""
 
     def error(self, S: Floats) -> ArrayLike:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad], of the shape of S."""
+        """Return the transmission error at driver angles S.
+
+        Parameters
+        ----------
+        S : ndarray
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        array_like
+            Transmission error [rad of the driven wheel], of the shape of S.
+        """
 
     def speed(self, S: Floats) -> ArrayLike:
-        """Return the speed ratio dq/dS at driver angles S [rad], of the shape of S, above 0."""
+        """Return the speed ratio dq/dS at driver angles S.
+
+        Parameters
+        ----------
+        S : ndarray
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        array_like
+            Speed ratio, above 0, of the shape of S.
+        """
 
 
 def has_transmission_members(given: object) -> TypeGuard[TransmissionProtocol]:

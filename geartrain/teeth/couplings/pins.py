@@ -15,13 +15,20 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.quantity import Length, bad, not_below_zero
+from geartrain.numerics.quantity import Length, bad, checked
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, DeclaredRestitution
 from geartrain.teeth.coupling import Coupling
 from geartrain.teeth.tooth_form import check_above_0
 
 if TYPE_CHECKING:
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, PinTransmission
+
+
+_CLEARANCE = checked(
+    lambda given: given.value >= 0,
+    "a clearance of {text} is negative",
+    "give 0 or more: a slot is as wide as its pin or wider",
+)
 
 
 class PinCoupling(Coupling):
@@ -35,8 +42,8 @@ class PinCoupling(Coupling):
     slot: str = Field(description="Link that has the slot")
     pin_radius: Length | None = Field(None, description="Distance of the pin from the axis of its own link")
     offset: Length | None = Field(None, description="Distance between the axes of the two links")
-    clearance: Annotated[Length, not_below_zero("a slot is as wide as its pin or wider: give 0 or more")] | None = (
-        Field(None, description="Width of the slot minus the diameter of the pin; default 0")
+    clearance: Annotated[Length, _CLEARANCE] | None = Field(
+        None, description="Width of the slot minus the diameter of the pin; default 0"
     )
     friction: DeclaredCoulombFriction | None = Field(
         None,

@@ -29,7 +29,7 @@ def whole_from(low: int, high: int, noun: str) -> BeforeValidator:
         if number is not None:
             return number
         context = {"shown": str(raw)[:30], "noun": noun, "fix": f"give a whole number from {low} to {high:,}"}
-        raise PydanticCustomError("number", "'{shown}' is not a valid number of {noun}", context)
+        raise PydanticCustomError("number", "{shown} is not a valid number of {noun}", context)
 
     return BeforeValidator(read)
 

@@ -10,13 +10,15 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from math import inf, isfinite, pi, sqrt
+from itertools import pairwise
+from math import inf, isfinite, perm, pi, sqrt
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
+from numpy.polynomial.polynomial import polyint
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.polynomial_pieces import fitted
+from geartrain.numerics.polynomial_pieces import PolynomialPiece, fitted
 from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
@@ -29,7 +31,6 @@ Interpolation = Literal["pchip", "cubic", "linear", "steps"]
 
 _FEWEST_POINTS = {"pchip": 3, "cubic": 4, "linear": 2, "steps": 2}
 _PER_WAVE = 32  # samples of the shortest wave
-_PER_INTERVAL = 9  # samples of each smooth interval, in which a point's interpolant is a cubic
 _INSET = 16 * float(np.finfo(float).eps)  # periods: distance of the samples from breakpoints, several rounding errors
 _FINE = 1e-9  # of a bracket: the value at a stationary point is exact to the square of its error
 _MOST_SAMPLES = 5_000_000
@@ -52,6 +53,8 @@ class PeriodicFunction(ABC):
     period: float
     breakpoints: Floats
     resolution: float = inf
+    per_interval: int = 9
+    """Minimum number of samples of an interval between breakpoints."""
 
     @property
     def waves(self) -> float:
@@ -71,7 +74,7 @@ class PeriodicFunction(ABC):
         """Ascending positions over one period, beside every breakpoint and between, at most `resolution` apart."""
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
-        counts = _PER_INTERVAL + np.ceil(widths / self.resolution).astype(np.int64)
+        counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)
         if counts.sum() > _MOST_SAMPLES:
             what = f"a periodic function with {len(starts)} breakpoints in one period is too long"
             why = f"its extremes need {counts.sum()} samples, and at most {_MOST_SAMPLES} are computed"
@@ -82,7 +85,9 @@ class PeriodicFunction(ABC):
         return found
 
     def extremes(self, order: int = 0) -> tuple[float, float]:
-        """Return the minimum and the maximum of the derivative of an order from 0 (the function) to 2 over a period."""
+        """Return the minimum and the maximum of the derivative of an order from 0 (the function) to 2 over a period;
+        positions with the value NaN are ignored.
+        """
         x = self._samples
         slopes = self.derivative(x, order + 1)
         turns = np.flatnonzero(slopes[:-1] * slopes[1:] < 0)
@@ -96,7 +101,7 @@ class PeriodicFunction(ABC):
             _FINE * float((high - low).min(initial=inf)),
         )
         values = self.derivative(np.append(x, at), order)
-        return float(values.min()), float(values.max())
+        return float(np.nanmin(values)), float(np.nanmax(values))
 
     def minimum_at(self, order: int = 0) -> float:
         """Return the approximate position in [0, period) of the minimum of the derivative of an order from 0 to 2."""
@@ -118,33 +123,35 @@ class PeriodicFunction(ABC):
 
 
 class PeriodicPieces(PeriodicFunction):
-    """Periodic function with a cubic polynomial on each piece.
+    """Periodic function with a polynomial on each piece.
 
     Parameters
     ----------
-    breakpoints : ndarray, (pieces,)
+    starts : ndarray, (pieces,)
         Ascending positions at which the pieces begin.
-    coefficients : ndarray, (4, pieces)
-        Coefficients of the powers of the distance from the start of the piece, from the highest power.
+    coefficients : ndarray, (n, pieces)
+        Coefficients of the powers of the distance from the origin of the piece, from the highest power.
     period : float
-        Period, at least the difference of the last and the first breakpoint.
+        Period, at least the difference of the last and the first start.
+    origins : ndarray, (pieces,), optional
+        Origin of each piece; default its start.
     """
 
-    def __init__(self, breakpoints: Floats, coefficients: Floats, period: float) -> None:
-        self.breakpoints, self._coefficients, self.period = breakpoints, coefficients, period
+    def __init__(self, starts: Floats, coefficients: Floats, period: float, origins: Floats | None = None) -> None:
+        self.breakpoints, self._coefficients, self.period = starts, coefficients, period
+        # positions are compared with differences of starts, so that each start is in the piece that it begins
+        self._starts = starts - starts[0]
+        self._origins = self._starts if origins is None else origins - starts[0]
+        self._first, self.per_interval = starts[0], max(self.per_interval, len(coefficients) + 2)
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
         """Return the derivative of an order from 0 (the function) to 3 at any positions."""
-        first = self.breakpoints[0]
-        u = np.mod(np.asarray(x, dtype=float) - first, self.period)
-        # the comparison is with the differences, so that each point is in the piece that it begins
-        starts = self.breakpoints - first
-        piece = np.searchsorted(starts, u, side="right") - 1
-        u = u - starts[piece]
+        u = np.mod(np.asarray(x, dtype=float) - self._first, self.period)
+        piece = np.searchsorted(self._starts, u, side="right") - 1
+        u = u - self._origins[piece]
         found = np.zeros(u.shape)
-        for power in range(3, order - 1, -1):
-            factor = [1, power, power * (power - 1), power * (power - 1) * (power - 2)][order]
-            found = found * u + factor * self._coefficients[3 - power][piece]
+        for power, row in zip(range(len(self._coefficients) - 1, order - 1, -1), self._coefficients, strict=False):
+            found = found * u + perm(power, order) * row.take(piece)
         return found
 
 
@@ -224,14 +231,15 @@ def check_points(
             raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
 
 
-class FittedFunction(PeriodicFunction):
-    """Periodic function given by its value and its slope; the higher derivatives are those of polynomials fitted to
-    the slope.
+def periodic_integral(
+    slope: Callable[[Floats], Floats], period: float, breakpoints: Sequence[float] | Floats = ()
+) -> tuple[PeriodicPieces, float]:
+    """Return the integral of a periodic slope less its mean, 0 at the first breakpoint or at 0, and the mean slope.
 
     Parameters
     ----------
-    value, slope : callable
-        Functions of positions of shape (n,), which return arrays of that shape.
+    slope : callable
+        Function of positions of shape (n,), which returns an array of that shape.
     period : float
         Period.
     breakpoints : sequence of float
@@ -242,49 +250,25 @@ class FittedFunction(PeriodicFunction):
     RangeError
         If the slope is not smooth between the breakpoints.
     """
+    cuts, inset = np.unique(np.mod(np.array(breakpoints, dtype=float), period)), _INSET * period
+    edges = cuts.tolist() or [0.0]
 
-    def __init__(
-        self,
-        value: Callable[[Floats], Floats],
-        slope: Callable[[Floats], Floats],
-        period: float,
-        breakpoints: Sequence[float] = (),
-    ) -> None:
-        self._functions, self.period = (value, slope), period
-        self.breakpoints = np.unique(np.mod(np.array(breakpoints, dtype=float), period))
-        starts, inset = self.breakpoints if len(self.breakpoints) else np.zeros(1), _INSET * period
-        ends = np.append(starts[1:], starts[0] + period)
-        pieces = [
-            piece
-            for start, end in zip(starts, ends, strict=True)
-            for piece in fitted(lambda x: slope(x)[None], start + inset, end - inset)
-        ]
-        self._starts = np.array([piece.start for piece in pieces])
-        self._halves = np.array([(piece.end - piece.start) / 2 for piece in pieces])
-        self._coefficients = np.hstack([piece.coefficients for piece in pieces])
-        self.resolution = float(self._halves.min()) / _PER_INTERVAL
+    def between(low: float, high: float) -> list[PolynomialPiece]:
+        # shrunk a little about the middle, so that the slope is not evaluated beyond a breakpoint
+        return fitted(lambda x: slope(x + inset * (low + high - 2 * x) / (high - low))[None], low, high)
 
-    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
-        at = np.asarray(x, dtype=float)
-        if order < 2:
-            return np.asarray(self._functions[order](at.ravel()), dtype=float).reshape(at.shape)
-        at = np.mod(at - self._starts[0], self.period) + self._starts[0]
-        piece = np.clip(np.searchsorted(self._starts, at, side="right") - 1, 0, None)
-        half = self._halves[piece]
-        u, found = (at - self._starts[piece]) / half - 1, np.zeros(at.shape)
-        for row in np.polynomial.polynomial.polyder(self._coefficients, order - 1)[::-1]:
-            found = found * u + row[piece]
-        return np.asarray(found / half ** (order - 1))
-
-    def mismatch(self) -> float:
-        """Return the maximum difference between a change of the value and the integral of the slope, which is 0 up to
-        rounding if the functions agree.
-        """
-        x, (nodes, weights) = self._samples, _GAUSS
-        half = np.diff(x) / 2
-        rises = half * (self.derivative(x[:-1, None] + half[:, None] * (1 + nodes)) @ weights)
-        return float(np.abs(np.diff(self(x)) - rises).max())
+    pieces = [piece for ends in pairwise([*edges, edges[0] + period]) for piece in between(*ends)]
+    starts, ends = np.array([(piece.start, piece.end) for piece in pieces]).T
+    half = (ends - starts) / 2
+    rising = polyint(np.array([piece.coefficients[:, 0] for piece in pieces]).T, lbnd=-1) * half
+    rises = rising.sum(axis=0)
+    mean = float(rises.sum()) / period
+    rising[0] += np.cumsum(rises) - rises - mean * (starts + half - starts[0])
+    rising[1] -= mean * half
+    coefficients = (rising / half ** np.arange(len(rising))[:, None])[::-1]
+    found = PeriodicPieces(starts, coefficients, period, starts + half)
+    found.breakpoints, found.resolution = cuts, float(half.min()) / found.per_interval
+    return found, mean
 
 
 class HarmonicSeries(PeriodicFunction):

@@ -1,4 +1,4 @@
-"""Smooth curves as piecewise polynomials of one degree: fitting, evaluation, extremes and moments, vectorised.
+"""Smooth curves as piecewise polynomials of one degree: fitting and evaluation, vectorised.
 
 A piece is a polynomial in u, which increases from -1 to 1 along the piece. Coefficients have shape (COUNT, pieces), by
 ascending powers of u.
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev as cheb
+from numpy.polynomial import polynomial as poly
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.chebyshev import points
@@ -22,7 +23,6 @@ COUNT = 16  # coefficients of a piece
 FINE = 2e-15  # relative size of negligible coefficients
 _NOISE = 1e-10  # relative size below which coefficients may be noise, if bisection does not reduce them
 _DEEPEST = 40  # bisections: a piece is then 1e-12 of the curve
-_NEWTON = 4  # steps from an estimate within 1/256: the error in u is then rounding
 _TAIL = 3  # last coefficients, by which convergence is judged
 _NODES, _SERIES = points(COUNT)
 # points between the nodes, where the error is largest
@@ -30,8 +30,6 @@ _BETWEEN = -np.cos(np.pi * (np.arange(COUNT - 1) + 0.5) / (COUNT - 1))
 # Chebyshev polynomials as powers, for Horner's rule: coefficients of T_k grow by a factor of 2.4 per degree, and those
 # of a converged series fall by about 10, so that cancellation is harmless
 POWERS = np.array([np.pad(cheb.cheb2poly(row[: at + 1]), (0, COUNT - 1 - at)) for at, row in enumerate(np.eye(COUNT))])
-
-_GAUSS = np.polynomial.legendre.leggauss(20)  # exact to degree 39; squares of pieces have degree 30
 
 
 class PolynomialPiece(NamedTuple):
@@ -74,7 +72,7 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
         values = np.asarray(curve(t), dtype=float).T
         series = _SERIES @ values[:COUNT]
         coefficients = POWERS.T @ series
-        error = np.abs(np.polynomial.polynomial.polyval(_BETWEEN, coefficients).T - values[COUNT:]).max(axis=0)
+        error = np.abs(poly.polyval(_BETWEEN, coefficients).T - values[COUNT:]).max(axis=0)
         size = np.maximum(np.abs(values).max(axis=0), 0.1)  # angles are accurate to the rounding of a tenth of a radian
         tail = float((np.abs(series[-_TAIL:]).max(axis=0) / size).max())
     return PolynomialPiece(start, end, coefficients, error), tail
@@ -102,48 +100,8 @@ def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
     return found
 
 
-def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
-    """Return mean and standard deviation of a piecewise polynomial by Gauss quadrature; `halves` contains half the
-    length of each piece.
-    """
-    nodes, weights = _GAUSS
-    values = np.polynomial.polynomial.polyval(nodes, coefficients)
-    share = halves / halves.sum() / 2
-    mean = float(share @ values @ weights)
-    # two passes: the mean of squares minus the square of the mean would cancel
-    return mean, float(np.sqrt(share @ (values - mean) ** 2 @ weights))
-
-
-def extremes(coefficients: Floats) -> tuple[float, float]:
-    """Return minimum and maximum of a piecewise polynomial; pieces that contain NaN are ignored."""
-    held = coefficients[:, ~np.isnan(coefficients[0])]
-    values = np.concatenate([ends(held).ravel(), *(_polynomial(column, _turns(column)) for column in held.T)])
-    return float(values.min()), float(values.max())
-
-
-def _polynomial(column: Floats, u: Floats) -> Floats:
-    return np.asarray(np.polynomial.polynomial.polyval(u, column))
-
-
 def ends(coefficients: Floats) -> Floats:
     """Return the values at both ends of the pieces, shape (2, pieces)."""
     # all powers of u are 1 or -1 there, so that sums are sufficient
     signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
     return np.stack([signs @ coefficients, coefficients.sum(axis=0)])
-
-
-def _turns(column: Floats) -> Floats:
-    """Return the stationary points u of a polynomial, by Newton's method from the sign changes of its slope."""
-    slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
-    bend = np.asarray(np.polynomial.polynomial.polyder(slope), dtype=np.float64)
-    u = np.linspace(-1, 1, 257)
-    at = _polynomial(slope, u)
-    # a slope may also be 0 at a sample itself
-    here = np.flatnonzero(np.sign(at[:-1]) * np.sign(at[1:]) <= 0)
-    low, high = u[here], u[here + 1]
-    found: Floats = (low + high) / 2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        for _ in range(_NEWTON):
-            step = found - _polynomial(slope, found) / _polynomial(bend, found)
-            found = np.where((step >= low) & (step <= high), step, found)
-    return np.concatenate([found, u[at == 0]])

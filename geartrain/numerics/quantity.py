@@ -167,9 +167,11 @@ def nearest_unit(unit: str, dimension: str) -> str:
 
 
 def units_of(dimension: str) -> str:
-    """Return all units of a dimension, or of several dimensions joined by `or`, as a string with commas."""
+    """Return all units of a dimension, or of several dimensions joined by `or` in their order, as a string with
+    commas.
+    """
     known = [*UNITS.items(), *IRRATIONAL.items()]
-    return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
+    return ", ".join(unit for wanted in dimension.split(" or ") for unit, (kind, _) in known if kind == wanted)
 
 
 def base_unit(dimension: str) -> str:
@@ -449,7 +451,8 @@ class Quantity:
         quantity = cls(Figure.parse(match[1]).value, unit, text)
         if quantity.dimension not in dimension.split(" or "):
             found = _with_article(quantity.dimension or "number")
-            wanted = " or ".join(map(_with_article, dimension.split(" or ")))
+            *others, last = map(_with_article, dimension.split(" or "))
+            wanted = f"{', '.join(others)} or {last}" if others else last
             what = f"'{text}' is {found}, but {wanted} is required"
             raise bad("unit", what, f"use one of: {units_of(dimension)}")
         return _in_range(quantity, dimension)

@@ -20,14 +20,12 @@ if TYPE_CHECKING:
 def coupling_sections(train: GearTrain) -> Iterator[Section]:
     """Yield a section on the sizes of the couplings of a train and on what is not modelled; nothing for kinds without
     remarks."""
-    declared = train.declaration
-    shown = [each for each in declared.couplings if each.about or each.UNKNOWN]
-    if not shown:
-        return
-    lengths = dict(_belt_lengths(train)) if any(each.kind == "belt" for each in shown) else {}
-    rows = [(each.name, each.kind, each.about, lengths.get(each.name, ""), each.UNKNOWN) for each in shown]
-    table = filled_table(("coupling", "kind", "sizes", "length", "not modelled"), rows, 3)
-    yield Section("Couplings", (), (replace(table, rows=cut(table.rows)),))
+    shown = [each for each in train.declaration.couplings if each.about or each.UNKNOWN]
+    if shown:
+        lengths = dict(_belt_lengths(train)) if any(each.kind == "belt" for each in shown) else {}
+        rows = [(each.name, each.kind, each.about, lengths.get(each.name, ""), each.UNKNOWN) for each in shown]
+        table = filled_table(("coupling", "kind", "sizes", "length", "not modelled"), rows, 3)
+        yield Section("Couplings", (), (replace(table, rows=cut(table.rows)),))
 
 
 def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
@@ -83,27 +81,13 @@ def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:
     return Section("Couplings with variable ratio", (text, *formulas, *where), (Table(header, rows),))
 
 
-def varying_couplings(train: GearTrain) -> tuple[VaryingCoupling, ...]:
-    """Return the couplings of a train with a variable ratio, without pins in slots."""
-    found = []
+def varying_couplings(train: GearTrain) -> Iterator[VaryingCoupling]:
+    """Yield the couplings of a train with a variable ratio, without pins in slots."""
     pins = {pin.coupling.name for pin in train.mechanics.pins}
-    for joint in train.mechanics.couplings:
-        coupling, transmission = joint.coupling, joint.transmission
-        if coupling.name not in pins:
-            driver, driven = coupling.links(train.declaration.wheels)
-            low, high = transmission.error_range()
-            speeds, formula = transmission.speed_range(), coupling.formula
-            found.append(
-                VaryingCoupling(
-                    coupling.name,
-                    coupling.kind,
-                    driver,
-                    driven,
-                    coupling.mean,
-                    high - low,
-                    speeds,
-                    transmission.at_once,
-                    formula,
-                )
+    for each, law in ((joint.coupling, joint.transmission) for joint in train.mechanics.couplings):
+        if each.name not in pins:
+            driver, driven = each.links(train.declaration.wheels)
+            (low, high), speeds = law.error_range(), law.speed_range()
+            yield VaryingCoupling(
+                each.name, each.kind, driver, driven, each.mean, high - low, speeds, law.at_once, each.formula
             )
-    return tuple(found)

@@ -214,7 +214,7 @@ def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
     return {
         "teeth": driven_pairs(train),
         "pins": driven_pins(train),
-        "couplings": varying_couplings(train),
+        "couplings": tuple(varying_couplings(train)),
         "motion": tuple(collect_motions(train)),
     }
 

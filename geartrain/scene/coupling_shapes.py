@@ -1,4 +1,4 @@
-"""Shapes of couplings other than pins: belts on pulleys, non-circular wheels, cams, Geneva drives, stars, racks,
+"""Shapes of couplings other than pins: belts on pulleys, boxes, non-circular wheels, cams, Geneva drives, stars, racks,
 screws, drums and universal joints.
 
 Each shape is a flat or turned part of one body in the zero pose, in which all angles are 0. The outlines of wheels that
@@ -158,6 +158,19 @@ def millimetres_of(length: Quantity | None, default: float) -> float:
 # ---------------------------------------------------------------------------------------------------- belts and pulleys
 
 
+def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
+    """Yield a box on the carrier for a coupling that is known by its ratio, and the ends of the two shafts."""
+    place = places[0]
+    half = 8.0 + 0.2 * place.apart
+    box = [(-half, -half), (place.apart + half, -half), (place.apart + half, half), (-half, half)]
+    yield place.flat(place.circuit.carrier, "box", place.driver_at, place.towards, box, height=2 * half)
+    for link, at, low, high in (
+        (place.circuit.j, place.driver_at, -2 * half, 0.0),
+        (place.circuit.i, place.driven_at, 0.0, 2 * half),
+    ):
+        yield place.turned(link, "shaft", at, 0.2 * half, low, high)
+
+
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier."""
     first = places[0]
@@ -271,7 +284,9 @@ def _cam(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
         if transmission.speed_range()[0] > 0 and (1 / transmission.ratio).denominator == 1:
             yield from _rolling(places)
         return
-    arm, roller, base = 0.8 * C, 0.05 * C, acos(0.5)
+    # an arm that swings far is short, so that its cam is not much wider than the distance of the axes
+    swing = float(np.ptp(transmission.error_range()))
+    arm, roller, base = (0.8 if swing < pi / 3 else 0.35) * C, 0.05 * C, acos(0.5)
     S = np.arange(_STEPS) * (2 * pi / _STEPS)
     angle = pi - base + transmission.error(S)
     x, y = C + arm * np.cos(angle), arm * np.sin(angle)
@@ -479,6 +494,7 @@ def _fork(
 
 _SHAPES: Mapping[str, Callable[[Sequence[_CouplingPlace]], Iterator[ScenePart]]] = {
     "belt": _belt,
+    "ratio": _box,
     "elliptical": _rolling,
     "pitch_curve": _rolling,
     "law": _cam,
@@ -490,4 +506,4 @@ _SHAPES: Mapping[str, Callable[[Sequence[_CouplingPlace]], Iterator[ScenePart]]]
     "crank_slider": _slider,
     "universal_joint": _universal,
 }
-"""Function that yields the shapes of each kind of coupling; a coupling by its ratio has no shape."""
+"""Function that yields the shapes of each kind of coupling."""

@@ -23,13 +23,27 @@ from pydantic import (
 from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, parse_friction
 
 
-class CoulombFriction(BaseModel):
+class NumberOrKeys(BaseModel):
+    """Base class of parts that may be declared by a bare number instead of their keys."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    @model_serializer(mode="wrap")
+    def _declared(self, handler: Any) -> Any:
+        """Return the part as declared: a bare number if only one key is given."""
+        given = [value for _, value in self if value is not None]
+        return str(given[0]) if len(given) == 1 else handler(self)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"anyOf": [{"type": ["number", "string"]}, handler(schema)]}
+
+
+class CoulombFriction(NumberOrKeys):
     """Coulomb friction: friction force divided by normal force, independent of the sliding speed.
 
     A bare number is the coefficient `sliding`.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     sliding: Friction = Field(description="Coefficient of sliding friction")
     static: Friction | None = Field(
@@ -49,15 +63,6 @@ class CoulombFriction(BaseModel):
             what = f"the static coefficient of friction {self.static.text} is below the sliding one {self.sliding.text}"
             raise bad("friction", what, "give a `static` friction of `sliding` or more, or omit `static`")
         return self
-
-    @model_serializer(mode="wrap")
-    def _declared(self, handler: Any) -> Any:
-        """Return the coefficient as declared: a bare number if only `sliding` is given."""
-        return str(self.sliding) if self.static is None and self.deviation is None else handler(self)
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return {"anyOf": [{"type": ["number", "string"]}, handler(schema)]}
 
 
 def _sliding(raw: object) -> object:
@@ -91,13 +96,11 @@ def _at_most_one(efficiency: Quantity) -> Quantity:
 Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
 
 
-class Efficiencies(BaseModel):
+class Efficiencies(NumberOrKeys):
     """Basic efficiency of a pair (carrier fixed) for each driving side: a number up to 1, or a percentage.
 
     A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     forward: Efficiency = Field(
         description="Efficiency with the first wheel driving, at most 1; 0 or less means self-locking"
@@ -112,11 +115,6 @@ class Efficiencies(BaseModel):
             what = f"an efficiency of {self.forward.text} transmits no power in either direction"
             raise bad("efficiency", what, "give an efficiency above 0 and at most 1, such as 0.98 or 98 %")
         return self
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Return the schema of the keys, and of a single value for both directions."""
-        return {"anyOf": [{"type": ["number", "string"]}, handler(schema)]}
 
 
 def _efficiency(raw: object) -> object:

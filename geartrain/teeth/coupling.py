@@ -7,7 +7,6 @@ about m also has a `TransmissionFunction`.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from importlib import import_module
@@ -131,9 +130,15 @@ class Coupling(BaseModel):
     note: str | None = Field(None, description="Remark for the reader")
 
     @property
-    @abstractmethod
     def ends(self) -> tuple[str, ...]:
         """Links that the coupling joins, or wheels where it is declared by wheels; the driving link comes first."""
+        values = [getattr(self, key) for key in self.ENDS]
+        return tuple(values) if len(values) > 1 else tuple(values[0])
+
+    @property
+    def by_teeth(self) -> bool:
+        """True if the coupling is declared by wheels, False if it is declared by links."""
+        return False
 
     @property
     def name(self) -> str:
@@ -212,8 +217,7 @@ class Coupling(BaseModel):
 
         wheels   wheel -> its link and its declaration, for a coupling declared by wheels
         """
-        del wheels
-        return self.ends
+        return tuple(wheels[name][0] for name in self.ends) if self.by_teeth else self.ends
 
     def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:
         """Return the rows that the coupling adds to the Willis system.
@@ -225,13 +229,14 @@ class Coupling(BaseModel):
 
     def references(self) -> Iterator[tuple[str, str, tuple[str | int, ...]]]:
         """Yield the kind (link or wheel), name and path of each part of the train that the coupling names."""
+        kind = "wheel" if self.by_teeth else "link"
         for key in self.ENDS:
             value = getattr(self, key)
             if isinstance(value, str):
-                yield "link", value, (key,)
+                yield kind, value, (key,)
             else:
-                yield from (("link", each, (key, each if isinstance(value, Mapping) else at))
-                            for at, each in enumerate(value))  # fmt: skip
+                places = value if isinstance(value, Mapping) else range(len(value))
+                yield from ((kind, each, (key, place)) for each, place in zip(value, places, strict=True))
 
     @property
     def torques(self) -> Iterator[Quantity]:

@@ -14,7 +14,7 @@ ring as wheel 2, r_2, D and q have the other sign.
 
 from __future__ import annotations
 
-from math import cos, gcd, pi, tan
+from math import cos, lcm, pi, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -86,13 +86,9 @@ class EccentricWheels(NamedTuple):
             what = f"an eccentricity of {sum(self.offsets):.6g} modules is too large"
             why = f"the base circles come {-gap:.6g} modules too close at some angle, where the involutes end"
             raise refused(what, why, "give a smaller `eccentricity`, or a larger `pressure_angle`")
-        common = gcd(z1, z2)
-        # revolutions of the driver and of the driven wheel in one period
-        turns = (1, 0) if not self.offsets[1] else (z2 // common, z1 // common)
-        if not self.offsets[0] and self.offsets[1]:
-            turns = (0, 1)
-        period = 2 * pi * (turns[0] or turns[1] * z2 / z1)
-        count = _PER_TURN * max(turns)
+        turned = [z for z, offset in zip(self.counts, self.offsets, strict=True) if offset]
+        pitches = lcm(*turned)
+        period, count = 2 * pi * pitches / z1, _PER_TURN * (pitches // min(turned))
         while True:
             S = period * np.arange(count) / count
             lines = np.fft.rfft(self.errors_at(S)) / count

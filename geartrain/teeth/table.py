@@ -4,31 +4,41 @@ from __future__ import annotations
 
 from itertools import count
 from math import lcm, pi
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, cast
 from weakref import WeakValueDictionary
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import core_schema
 
-from geartrain.numerics.quantity import Angle, Dimension, Figure, Quantity, Share, bad, below_right_angle
+from geartrain.numerics.quantity import (
+    Angle,
+    Dimension,
+    Figure,
+    Quantity,
+    Share,
+    bad,
+    below_right_angle,
+    checked,
+    not_below_zero,
+)
 from geartrain.teeth.contact_coefficients import DeclaredEfficiency
 from geartrain.teeth.tooth_form import (
     ShaftAngle,
     ToothForm,
     TwoAngles,
     TwoLengths,
+    check_one_of,
     in_modules,
     number_of_wheel,
     refused,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
-    from geartrain.numerics.arrays import Floats
     from geartrain.numerics.periodic_function import PeriodicFunction, PeriodicTable
-    from geartrain.teeth.given_transmission import GivenMesh, GivenTransmission, TransmissionProtocol
+    from geartrain.teeth.given_transmission import Efficiencies, GivenMesh, GivenTransmission, TransmissionProtocol
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.transmission import TransmissionFunction
 
@@ -37,12 +47,6 @@ _NEAR = 0.5  # of the mean driven angle: a larger error at the end of a period i
 Period = Literal["driver_pitch", "driver_turn", "driven_turn", "cycle"]
 Interpolation = Literal["pchip", "cubic", "linear"]
 Position = Annotated[Quantity, Dimension("angle", plain=True)]
-
-
-def pitches_in(period: Period, counts: tuple[int, int]) -> int:
-    """Return the number of pitches in a period of a pair; `counts` are the tooth counts of driver and driven wheel."""
-    z1, z2 = counts
-    return {"driver_pitch": 1, "driver_turn": z1, "driven_turn": z2, "cycle": lcm(z1, z2)}[period]
 
 
 class PeriodicPoints(BaseModel):
@@ -63,7 +67,9 @@ class PeriodicPoints(BaseModel):
 
     def period(self, counts: tuple[int, int]) -> float:
         """Return the period as an angle of the driver [rad]; `counts` are the counts of driver and driven wheel."""
-        return 2 * pi * pitches_in(self.over, counts) / counts[0]
+        z1, z2 = counts
+        pitches = {"driver_pitch": 1, "driver_turn": z1, "driven_turn": z2, "cycle": lcm(z1, z2)}[self.over]
+        return 2 * pi * pitches / z1
 
     def table(self, points: Sequence[tuple[Quantity, float]], counts: tuple[int, int]) -> PeriodicTable:
         """Return the function through points: angle of the driver, or fraction of the period, and value.
@@ -94,16 +100,13 @@ class PeriodicPoints(BaseModel):
         raise refused(what, why, fix)
 
 
-class _PhaseIsOptional:
-    def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        made = handler(schema)
-        return {**made, "items": {**made["items"], "minItems": 2}}
+def _with_phase(term: object) -> object:
+    return [*term, "0"] if isinstance(term, list | tuple) and len(term) == 2 else term
 
 
-class _OneOrSeveral:
-    def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        made = handler(schema)
-        return {"anyOf": [made["items"], made]}
+Harmonic = Annotated[
+    tuple[Figure, Angle, Angle], BeforeValidator(_with_phase), Field(json_schema_extra={"minItems": 2})
+]
 
 
 class ErrorContribution(PeriodicPoints):
@@ -114,21 +117,11 @@ class ErrorContribution(PeriodicPoints):
         description="Points [angle, error]: angle of the driver from 0, or fraction of the period; error of the driven "
         "wheel, positive ahead. The end of the period is its start",
     )
-    harmonics: Annotated[tuple[tuple[Figure, Angle, Angle], ...], _PhaseIsOptional()] | None = Field(
+    harmonics: tuple[Harmonic, ...] | None = Field(
         None,
         description="Harmonics [n, amplitude, phase] of the period: amplitude sin(n x + phase), where x is 360 deg "
         "after one period",
     )
-
-    @model_validator(mode="before")
-    @classmethod
-    def _with_phases(cls, given: object) -> object:
-        """Add the phase 0 to harmonics without a phase."""
-        if isinstance(given, dict) and isinstance(given.get("harmonics"), list | tuple):
-            each = given["harmonics"]
-            full = [[*term, "0"] if isinstance(term, list | tuple) and len(term) == 2 else term for term in each]
-            return {**given, "harmonics": full}
-        return given
 
     @model_validator(mode="after")
     def _has_one_kind(self) -> ErrorContribution:
@@ -147,28 +140,24 @@ class ErrorContribution(PeriodicPoints):
         return HarmonicSeries(terms, self.period(counts))
 
 
+_POSITIVE = not_below_zero("give 0 or more")
+_POSSIBLE = checked(
+    lambda given: 0 < given.base <= 1,
+    "an efficiency of {text} is out of range",
+    "give an efficiency above 0 and at most 1, such as 0.96 or 96 %",
+)
+
+
 class EfficiencyTable(PeriodicPoints):
     """Efficiency of a gear pair over a period as declared, equal for both driving wheels."""
 
-    points: tuple[tuple[Position, Share], ...] = Field(
+    points: tuple[tuple[Position, Annotated[Share, _POSSIBLE]], ...] = Field(
         description="Points [angle, efficiency]: angle of the driver from 0, or fraction of the period"
     )
-
-    @model_validator(mode="after")
-    def _check_values(self) -> EfficiencyTable:
-        for _, efficiency in self.points:
-            _check_efficiency(efficiency)
-        return self
 
     def function(self, counts: tuple[int, int]) -> PeriodicFunction:
         """Return the efficiency as a function of the driver angle [rad]."""
         return self.table([(at, float(efficiency.base)) for at, efficiency in self.points], counts)
-
-
-def _check_efficiency(efficiency: Quantity) -> None:
-    if not 0 < efficiency.base <= 1:
-        what = f"an efficiency of {efficiency.text} is out of range"
-        raise bad("efficiency", what, "give an efficiency above 0 and at most 1, such as 0.96 or 96 %")
 
 
 class LiveFunction:
@@ -184,25 +173,20 @@ class LiveFunction:
         self.name = f"{type(function).__name__} object {next(self._numbers)}"
         self._living[self.name] = self
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         return self.name
-
-    __repr__ = __str__
 
     @classmethod
     def read(cls, raw: object) -> LiveFunction:
         """Return a function given as an object of Python, or by its name in plain data."""
-        from geartrain.teeth.given_transmission import has_transmission_members
+        from geartrain.teeth.given_transmission import TransmissionProtocol
 
-        if isinstance(raw, str) and raw in cls._living:
-            return cls._living[raw]
-        if isinstance(raw, LiveFunction):
-            return raw
-        if not has_transmission_members(raw):
-            what = f"'{str(raw)[:60]}' is not a transmission function of this Python session"
-            fix = "attach an object with `ratio`, `period`, `error` and `speed` by `GearTrain.with_tooth_form`"
-            raise bad("function", what, fix)
-        return cls(raw)
+        found = cls._living.get(raw, raw) if isinstance(raw, str) else raw
+        if isinstance(found, LiveFunction | TransmissionProtocol):
+            return found if isinstance(found, LiveFunction) else cls(found)
+        what = f"'{str(raw)[:60]}' is not a transmission function of this Python session"
+        fix = "attach an object with `ratio`, `period`, `error` and `speed` by `GearTrain.with_tooth_form`"
+        raise bad("function", what, fix)
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> core_schema.CoreSchema:
@@ -212,6 +196,9 @@ class LiveFunction:
 
 def _listed(raw: object) -> object:
     return [raw] if isinstance(raw, dict | ErrorContribution) else raw
+
+
+_ONE_OR_SEVERAL = BeforeValidator(_listed, json_schema_input_type=ErrorContribution | tuple[ErrorContribution, ...])
 
 
 class GivenError(ToothForm):
@@ -241,7 +228,7 @@ class GivenError(ToothForm):
     driver: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] = Field(
         1, description="Wheel to whose angle the errors refer, the first or second of the pair"
     )
-    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed), _OneOrSeveral()] | None = Field(
+    error: Annotated[tuple[ErrorContribution, ...], _ONE_OR_SEVERAL] | None = Field(
         None, description="Transmission error over a period, or a list of errors that are added; default no error"
     )
     eccentricity: TwoLengths = Field(
@@ -265,7 +252,7 @@ class GivenError(ToothForm):
     efficiency_table: EfficiencyTable | None = Field(
         None, description="Efficiency over a period, instead of `efficiency`"
     )
-    backlash: Angle = Field(
+    backlash: Annotated[Angle, _POSITIVE] = Field(
         "0",
         validate_default=True,
         description="Angle by which the driven wheel is ahead while the driver turns back",
@@ -276,16 +263,11 @@ class GivenError(ToothForm):
 
     @model_validator(mode="after")
     def _check_values(self) -> GivenError:
-        if self.efficiency is not None and self.efficiency_table is not None:
-            raise bad("efficiency", "efficiency and efficiency_table are both given", "remove one of the two keys")
-        if self.efficiency is not None:
-            _check_efficiency(self.efficiency.forward)
-            _check_efficiency(self.efficiency.backward)
-        for name in ("backlash", "eccentricity"):
-            value = getattr(self, name)
-            for each in value if isinstance(value, tuple) else (value,):
-                if each.value < 0:
-                    raise bad(name, f"a {name} of {each.text} is negative", "give 0 or more")
+        check_one_of(self, "efficiency", "efficiency", "efficiency_table")
+        for each in (self.efficiency.forward, self.efficiency.backward) if self.efficiency is not None else ():
+            cast(Any, _POSSIBLE.func)(each)
+        for each in self.eccentricity:
+            cast(Any, _POSITIVE.func)(each)
         return self
 
     @property
@@ -357,9 +339,7 @@ class GivenError(ToothForm):
         function = PeriodicSum(parts, period)
         return GivenTransmission(function, counts, self.driver, self.backlash.si, efficiencies, self.driver)
 
-    def _efficiencies(
-        self, counts: tuple[int, int]
-    ) -> tuple[Callable[[Floats], Floats], Callable[[Floats], Floats]] | None:
+    def _efficiencies(self, counts: tuple[int, int]) -> Efficiencies | None:
         """Return the efficiencies with the wheel `driver` and with the other wheel driving; None without losses."""
         from geartrain.numerics.periodic_function import HarmonicSeries
         from geartrain.teeth.given_transmission import checked_efficiency

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise
-from math import degrees, inf, nan
+from math import degrees, inf, nan, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import Problem, RangeError
@@ -212,9 +212,15 @@ class TransmissionFunction(Shown, ABC):
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and maximum transmission error over a period [rad of the driven side]."""
 
-    @abstractmethod
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side]."""
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side], by
+        quadrature.
+        """
+        S, weights = self.graded_nodes(self.speed)
+        error = self.error(S)
+        mean = float(weights @ error)
+        # two passes: the mean of squares minus the square of the mean would cancel
+        return mean, sqrt(float(weights @ (error - mean) ** 2))
 
     def efficiency_mean(self) -> float:
         """Return the mean efficiency over driver angles at constant driver torque; NaN if friction locks the pair."""

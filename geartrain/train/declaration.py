@@ -419,9 +419,10 @@ class Train(Declared):
             clutch = self.clutches[name]
             if clutch.fixes is not None:
                 fixed.append(clutch.fixes)
-            if clutch.locks is not None:
-                locks.append(clutch.locks)
             links = clutch.links
+            # clutches of opposite senses may lock the same two links
+            if clutch.locks is not None and links not in clutches:
+                locks.append(clutch.locks)
             clutches[links] = f"{clutches[links]} and {name}" if links in clutches else name
             senses[links] = senses.get(links, frozenset()) | clutch.senses
         outputs = dict(self.outputs)
@@ -438,7 +439,7 @@ class Train(Declared):
             inputs={link: self._speed(speed) for link, speed in inputs.items()},
             # without duplicates: a brake may fix a link that is fixed in every state
             fixed=tuple(dict.fromkeys(fixed)),
-            locks=tuple(dict.fromkeys(locks)),
+            locks=tuple(locks),
             outputs=outputs,
             loc=loc,
             engaged=engaged,

@@ -23,6 +23,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.plain_values import whole_number
 from geartrain.numerics.results import summary_line, values_summary
 from geartrain.teeth.any_tooth_form import form_names, tooth_form
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
@@ -104,19 +105,6 @@ def _replacement_problem(error: Mapping[str, Any]) -> Problem:
     return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"the given value is {str(error['input'])[:60]!r}", fix)
 
 
-def whole_number(raw: object, low: int, high: int) -> int | None:
-    """Return an integer from `low` to `high`, inclusive, given as an integer or as its digits; None for any other
-    value.
-    """
-    try:
-        # True is an int in Python; converting thousands of digits would take minutes
-        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else low - 1
-    except ValueError:
-        return None
-    # `int` also accepts digits of other scripts, which are refused
-    return number if low <= number <= high and str(raw).isascii() else None
-
-
 def read_count(raw: object) -> int:
     """Read a tooth count: an integer from 1 to 10^12."""
     number = whole_number(raw, 1, MOST_TEETH)
@@ -126,17 +114,6 @@ def read_count(raw: object) -> int:
     digits = re.fullmatch(r"(\d{1,12}) *[a-zA-Z]+", shown)
     fix = f"write the number only: {digits[1]}" if digits else "write a whole number from 1 to 10^12, such as 20"
     raise PydanticCustomError("teeth", "'{shown}' is not a tooth count", {"shown": shown, "fix": fix})
-
-
-def _boolean(raw: object) -> bool:
-    """Read true or false as in YAML 1.2, where `yes` and `no` are ordinary text."""
-    if isinstance(raw, bool):
-        return raw
-    if isinstance(raw, str) and raw.lower() in ("true", "false"):
-        return raw.lower() == "true"
-    raise PydanticCustomError(
-        "boolean", "'{raw}' is neither true nor false", {"raw": str(raw), "fix": "write true or false"}
-    )
 
 
 def side(raw: object) -> object:
@@ -181,7 +158,6 @@ Part = TypeVar("Part")
 ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
 """Immutable mapping of names to parts."""
 Count = Annotated[int, BeforeValidator(read_count)]
-Boolean = Annotated[bool, BeforeValidator(_boolean)]
 Nothing = BeforeValidator(_empty_for_nothing)
 
 

@@ -20,6 +20,7 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
+from geartrain.numerics.plain_values import Boolean
 from geartrain.numerics.quantity import (
     Angle,
     Density,
@@ -43,7 +44,6 @@ from geartrain.numerics.vectors import Vector, unit
 from geartrain.teeth.contact_coefficients import DeclaredEfficiency, DeclaredRestitution
 from geartrain.train.fields import (
     AlsoShort,
-    Boolean,
     ByName,
     Count,
     Declared,

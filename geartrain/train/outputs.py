@@ -12,8 +12,9 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.plain_values import Boolean, whole_number
 from geartrain.numerics.quantity import Amount, Figure, RelativeError, Span, above_zero, bad, checked
-from geartrain.train.fields import AlsoShort, Boolean, Declared, Id, exactly_one, short_for, whole_number
+from geartrain.train.fields import AlsoShort, Declared, Id, exactly_one, short_for
 from geartrain.train.printed_period import PrintedPeriod, is_printed_period
 
 _SIGNS = "Aries Taurus Gemini Cancer Leo Virgo Libra Scorpio Sagittarius Capricorn Aquarius Pisces"

@@ -7,24 +7,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from geartrain.numerics.plain_values import Boolean, whole_from
 from geartrain.numerics.quantity import Figure, MeasuredLength, Quantity, Share, above_zero
-from geartrain.train.fields import Boolean, Count, Declared, Id, whole_number
+from geartrain.train.fields import Count, Declared, Id
 
 MOST_ADDED = 1000
 NEW_ARBOR = "new"
 """Value of `of` in an output if the arbor of its pointer does not survive."""
-
-
-def _read_part_number(raw: object) -> object:
-    """Read a whole number from 0 to 1000."""
-    number = whole_number(raw, 0, MOST_ADDED)
-    if number is not None:
-        return number
-    fix = f"give a whole number from 0 to {MOST_ADDED}"
-    raise PydanticCustomError("number", "{shown} is not a valid number of parts", {"shown": str(raw)[:30], "fix": fix})
 
 
 def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
@@ -34,7 +26,7 @@ def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
     return bounds
 
 
-PartNumber = Annotated[int, BeforeValidator(_read_part_number)]
+PartNumber = Annotated[int, whole_from(0, MOST_ADDED, "parts")]
 Factor = Annotated[Figure, above_zero("give a factor above 0, such as 10")]
 Spread = Annotated[Share, above_zero("give a spread above 0, such as 4 %")]
 Distance = Annotated[MeasuredLength, above_zero("give a length above 0, such as 0.5 mm")]

@@ -16,7 +16,6 @@ from geartrain.train.periods import period_table, suggested_period
 from geartrain.train.printed_period import PrintedPeriod, year_seconds
 from geartrain.train.reconstruction import NEW_ARBOR
 from geartrain.train.sliding_links import sliding_problems
-from geartrain.train.states import Drive
 
 # ----------------------------------------------------------------------------------------------------- unit consistency
 
@@ -56,7 +55,8 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
     ]
     found += [(("links", name, "bearing"), part.bearing.sliding) for name, part in train.links.items() if part.bearing]
     found += [(("couplings", at), each) for at, coupling in enumerate(train.couplings) for each in coupling.torques]
-    found += [(loc, torque) for loc, drive in declared_drives(train) for torque in drive.torques]
+    drives = [((*loc, "drive"), part.drive) for loc, part in train.cases_declared if part.drive is not None]
+    found += [(loc, torque) for loc, drive in drives for torque in drive.torques]
     named = next((torque for _, torque in found if torque.unit is not None), None)
     for loc, torque in found:
         if named is not None and torque.unit is None and torque.value:
@@ -64,13 +64,6 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
             fix = "give all loads, bearings and drives a unit, or none"
             yield Problem(f"torques with and without units are mixed: '{torque}'", why, fix, train.place(*loc))
             return
-
-
-def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
-    """Yield the drives of the train and of its states with their paths."""
-    for loc, part in train.cases_declared:
-        if part.drive is not None:
-            yield (*loc, "drive"), part.drive
 
 
 def rates(train: Train) -> Iterator[Problem]:

@@ -23,10 +23,12 @@ def sliding_problems(train: Train) -> Iterator[Problem]:
         yield from _inputs(train, loc, part.inputs or {})
         yield from _loads(train, loc, part.loads or {})
         yield from _outputs(train, loc, part)
+        if part.drive is not None:
+            yield from _drive(train, (*loc, "drive"), part.drive)
+    if train.rate is not None:
+        yield from _drive(train, ("rate",), Drive(rate=train.rate))
     if train.sliding:
         yield from _links(train)
-    for loc, drive in _drives(train):
-        yield from _drive(train, loc, drive)
 
 
 def _inputs(train: Train, loc: Loc, inputs: Mapping[str, Quantity]) -> Iterator[Problem]:
@@ -100,25 +102,15 @@ _TURNING_ONLY = {
 def _links(train: Train) -> Iterator[Problem]:
     for link in (link for link in train.links if link in train.sliding):
         part, place = train.links[link], train.place("links", link)
-        for key, fix in _TURNING_ONLY.items():
-            if getattr(part, key) is not None:
-                yield Problem(
-                    f"'{link}' slides and has no `{key}`", f"`{key}` belongs to a link that turns", fix, place
-                )
+        for key in (key for key in _TURNING_ONLY if getattr(part, key) is not None):
+            what, why = f"'{link}' slides and has no `{key}`", f"`{key}` belongs to a link that turns"
+            yield Problem(what, why, _TURNING_ONLY[key], place)
         if part.copies > 1:
             what, why = f"{part.copies} copies of '{link}', which slides", "copies are spaced about an axis"
             yield Problem(what, why, "declare them one by one", place)
     if train.escapement is not None and train.escapement.link in train.sliding:
         what, why = f"the escapement is on '{train.escapement.link}', which slides", "an escape wheel turns"
         yield Problem(what, why, "name the link of the escape wheel", train.place("escapement", "link"))
-
-
-def _drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
-    if train.rate is not None:
-        yield ("rate",), Drive(rate=train.rate)
-    for loc, part in train.cases_declared:
-        if part.drive is not None:
-            yield (*loc, "drive"), part.drive
 
 
 def _drive(train: Train, loc: Loc, drive: Drive) -> Iterator[Problem]:

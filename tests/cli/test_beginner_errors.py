@@ -22,7 +22,7 @@ MISTAKES = r"""
 # a unit that is misspelt: |links:|unit: {per: 12 hrs}\nlinks:|
 error: my.yaml:1: '12 hrs' is not a unit
   why: `per` is a time, a length, or a period listed by `geartrain periods`
-  fix: for example, write `unit: {per: 12 h}`; units: m, cm, mm, um, in, ft, km, mile, s, min, h, d
+  fix: for example, write `unit: {per: 12 h}`; units: s, min, h, d, m, cm, mm, um, in, ft, km, mile
 
 # a unit without `per`: |links:|unit: 12 h\nlinks:|
 error: my.yaml:1: `unit` is not a mapping of keys to values
@@ -45,7 +45,7 @@ error: my.yaml:3: `links.a.wheels.p.thickness`: '3' has no unit
 
 # the unit of an input: |{a: 1}|{a: 30 1/min}|
 error: my.yaml:7: `inputs.a`: '30 1/min' has an unknown unit
-  fix: for example, write '30 rpm'; units: rpm, turn/s, turn/min, turn/h, turn/d, deg/s, rad/s
+  fix: for example, write '30 rpm'; units: rpm, turn/s, turn/min, turn/h, turn/d, deg/s, rad/s, m, cm, mm, um, in, ft, km, mile, m/s, mm/s, mm/min, ft/min, in/s
 
 # an unknown parent: |links:|extends: planetery\nlinks:|
 error: my.yaml:1: `extends` names the unknown parent 'planetery'
@@ -196,9 +196,9 @@ error: planetery: the file does not exist
   why: 'planetery' is not the name of a shipped train either
   fix: did you mean 'planetary' or 'norton-planetary' or 'planetary-24-18-60'?
 """,
-    "nothere.yaml": """\
-error: nothere.yaml: the file does not exist
-  why: 'nothere' is not the name of a shipped train either
+    "quux.yaml": """\
+error: quux.yaml: the file does not exist
+  why: 'quux' is not the name of a shipped train either
   fix: check the path; `geartrain list` shows the shipped trains
 """,
 }

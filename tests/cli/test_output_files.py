@@ -137,7 +137,7 @@ def ask(command: str, option: str, path: object, *more: object) -> Any:
 
 
 def test_every_option_that_names_a_file_is_tried_here() -> None:
-    reads = {("sphere", "--graph")}
+    reads = {("sphere", "--graph"), ("init", "--from")}
     assert set(writing()) - reads == {
         (re.sub("^mesh .*", "mesh", verb), option) for verb, option in (*REQUESTED, FOLDER, FOUND)
     }

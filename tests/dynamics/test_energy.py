@@ -23,6 +23,7 @@ from sampling import few_or_many
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import Torques, find_power_flow
+from geartrain.numerics.multiples_of_pi import PI
 
 Data = dict[str, Any]
 
@@ -41,6 +42,8 @@ def bearings_of(train: GearTrain, found: Torques) -> dict[str, list[tuple[str, F
         if part.bearing is None or not found.bearing_loss or link == train.declaration.frame:
             continue
         carrier = train.kinematics.tree.parent[link][0]
+        while carrier in train.declaration.sliding:  # a slide passes torques on to what bears it
+            carrier = train.kinematics.tree.parent[carrier][0]
         relative = along[link] - along[carrier]
         torque = -part.bearing.sliding.base * ((relative > 0) - (relative < 0))
         own, other = train.kinematics.signs.get(link, 1), train.kinematics.signs.get(carrier, 1)
@@ -52,7 +55,9 @@ def require_no_energy(train: GearTrain, found: Torques) -> None:
     """Every link in balance; every pair, bearing and lock passes on no more than it takes; no more out than in."""
     if not found.verdict or found.open_speeds or any(link not in found.speeds for link in train.declaration.links):
         return
-    speed = {link: Fraction(value) for link, value in found.speeds.items()}
+    # a force of 1 N does 1 mJ along a travel of 1 mm, and a torque of 1 N m does 2 pi J in a turn
+    sizes = dict.fromkeys(train.declaration.sliding, 1 / (2000 * PI))
+    speed = {link: Fraction(value) * sizes.get(link, 1) for link, value in found.speeds.items()}
     acting: dict[str, Fraction] = dict.fromkeys(train.declaration.links, Fraction(0))
     lost = Fraction(0)
     for name, pair in found.pairs.items():
@@ -141,10 +146,13 @@ def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int)
         for pin in plain.pin_couplings
     ]
     moving = [link for link in plain.links if link != plain.frame]
-    # loads are plain numbers here, and a friction that is declared has a unit
-    data["links"] = {link: {"bearing": None} for link in moving if plain.links[link].bearing}
-    data["links"] |= {link: {"bearing": "1/50"} for link in moving if random.random() < 0.3}
-    loads = {link: str(random.randint(-9, 9)) for link in random.sample(moving, min(2, len(moving)))}
+    turning = [link for link in moving if link not in plain.sliding]
+    # loads are plain numbers here unless a link slides, and a friction that is declared has a unit
+    unit = " N m" if plain.sliding else ""
+    units = {**dict.fromkeys(turning, unit), **dict.fromkeys(plain.sliding, " N")}
+    data["links"] = {link: {"bearing": None} for link in turning if plain.links[link].bearing}
+    data["links"] |= {link: {"bearing": f"1/50{unit}"} for link in turning if random.random() < 0.3}
+    loads = {link: f"{random.randint(-9, 9)}{units[link]}" for link in random.sample(moving, min(2, len(moving)))}
     data["loads"] = loads
     if plain.states:
         data["states"] = {state: {"loads": loads} for state in plain.states}

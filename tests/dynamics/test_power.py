@@ -30,6 +30,7 @@ from geartrain.report import (
     describe_train,
     to_markdown,
 )
+from geartrain.train import Train
 
 RING = """
 extends: planetary-24-18-60
@@ -148,7 +149,9 @@ def lossy(name: str) -> GearTrain:
         {"id": gear.name, "pair": list(gear.pair), "efficiency": f"0.9{1 + at % 9}"}
         for at, gear in enumerate(declared.gears)
     ]
-    data["links"] = {link: {"bearing": "1/100"} for link in declared.links if link != declared.frame}
+    unit = torque_unit(declared)
+    turning = (link for link in declared.links if link != declared.frame and link not in declared.sliding)
+    data["links"] = {link: {"bearing": f"1/100{unit}"} for link in turning}
     loads = {state: load_of(train, state) for state in states(train)}
     if train.states:
         data["states"] = {state: {"loads": given} for state, given in loads.items()}
@@ -157,13 +160,21 @@ def lossy(name: str) -> GearTrain:
     return load(json.dumps(data, indent=1))
 
 
+def torque_unit(declared: Train) -> str:
+    """A force on a slide, or a declared load, may have a unit, and then all torques have one."""
+    loads = (load for case in declared.cases for load in case.loads.values())
+    return " N m" if declared.sliding or any(load.unit for load in loads) else ""
+
+
 def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
     drives = torque_figures(train, state).drives
     if drives is None:
         return {}
     link = drives.forward.way.load
     speed = Fraction(train.solve(state).speeds[link])
-    return {link: str(-1 if speed > 0 else 1)} if speed else {}
+    declared = train.declaration
+    unit = " N" if link in declared.sliding else torque_unit(declared)
+    return {link: f"{-1 if speed > 0 else 1}{unit}"} if speed else {}
 
 
 @pytest.mark.parametrize("name", catalogue.every_train())

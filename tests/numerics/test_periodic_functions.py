@@ -9,7 +9,14 @@ import numpy as np
 import pytest
 
 from geartrain.errors import RangeError
-from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicFunction, PeriodicSum, PeriodicTable
+from geartrain.numerics.periodic_function import (
+    HarmonicSeries,
+    PeriodicFunction,
+    PeriodicPieces,
+    PeriodicSum,
+    PeriodicTable,
+    periodic_integral,
+)
 
 EIGHT = [0, 0.03, 0.05, 0.04, 0.01, -0.03, -0.05, -0.04]
 TWELVE = [-3.2, -13.6, -12.5, -4, 2.9, 2.2, -3.6, -6.3, -0.1, 10.2, 16.4, 11.1]
@@ -73,6 +80,41 @@ def test_harmonics_have_exact_moments_and_extremes() -> None:
     for order in (0, 1, 2):
         size = 0.4 * (6 * pi / 5) ** order
         assert one.extremes(order) == pytest.approx((-size, size), rel=1e-14)
+
+
+def _piece(powers: list[float]) -> PeriodicPieces:
+    """Return the polynomial of x from -1 to 1, by ascending powers, with the period 2."""
+    return PeriodicPieces(np.array([-1.0]), np.array(powers)[::-1, None], 2.0, np.array([0.0]))
+
+
+def test_an_extreme_at_a_sample_is_found() -> None:
+    """1 - x^2 has its maximum in the middle, which is a sample of the search."""
+    assert _piece([1.0, 0.0, -1.0]).extremes() == pytest.approx((0.0, 1.0), abs=1e-13)
+
+
+@pytest.mark.parametrize("at", [0.1234567, -0.9, 0.5, 1 / 256])
+def test_extremes_of_pieces_are_exact_to_rounding(at: float) -> None:
+    """A quartic with the double stationary point of (x - at)^2 (x - 2)^2 at the value 0."""
+    quadratic = np.polynomial.polynomial.polyfromroots([at, 2.0])
+    quartic = np.polynomial.polynomial.polymul(quadratic, quadratic)
+    assert _piece(quartic.tolist()).extremes()[0] == pytest.approx(0, abs=1e-15)
+
+
+def test_pieces_without_values_have_no_extremes() -> None:
+    pieces = PeriodicPieces(np.array([0.0, 1.0]), np.array([[1.0, np.nan], [0.0, np.nan]]), 2.0)
+    assert pieces.extremes() == pytest.approx((0.0, 1.0), abs=1e-13)
+
+
+def test_the_integral_of_a_slope_has_its_derivatives_and_its_mean() -> None:
+    found, mean = periodic_integral(lambda x: 0.3 + np.cos(x) * np.exp(np.sin(x)), 2 * pi, [1.0, 4.0])
+    x = np.linspace(-3, 9, 501)
+    value, sine, cosine = np.exp(np.sin(x)), np.sin(x), np.cos(x)
+    assert mean == pytest.approx(0.3, abs=1e-14)
+    assert found(x) == pytest.approx(value - np.exp(np.sin(1.0)), abs=1e-13)
+    assert found.derivative(x) == pytest.approx(cosine * value, abs=1e-12)
+    assert found.derivative(x, 2) == pytest.approx((cosine**2 - sine) * value, abs=1e-11)
+    assert found.derivative(x, 3) == pytest.approx(cosine * (cosine**2 - 3 * sine - 1) * value, abs=1e-8)
+    assert found.breakpoints.tolist() == [1.0, 4.0]
 
 
 def _sum() -> PeriodicSum:

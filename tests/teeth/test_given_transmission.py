@@ -433,7 +433,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     ({"error": {"harmonics": [["1", "0.1 deg"]]}, "efficiency": "0"}, "no power"),
     ({"error": {"harmonics": [["1", "0.1 deg"]]}, "efficiency": {"forward": "0.9", "backward": "-1"}}, "out of range"),
     ({"error": {"harmonics": [["1", "0.1 deg"]]}, "efficiency_table": {"points": [["0", "0"]]}}, "out of range"),
-    ({"error": {"harmonics": [["1", "0.1 deg"]]}, "backlash": "-1 deg"}, "negative"),
+    ({"error": {"harmonics": [["1", "0.1 deg"]]}, "backlash": "-1 deg"}, "below 0"),
     ({"error": {"harmonics": [["1", "0.1 deg"]]}, "clearance": "1.01"}, "clearance"),
     ({"eccentricity": "1.5"}, "base circles come"),
     ({"eccentricity": "1 mm"}, "cannot be converted to modules"),

@@ -332,6 +332,16 @@ def test_clutches_and_gears_are_states(tmp_path: Path) -> None:
     ]
 
 
+def test_gears_of_a_unit_without_load_cases_are_states(tmp_path: Path) -> None:
+    """Each gear has its own clutches, although the file has no load cases."""
+    path = written(load("ravigneaux-set"), tmp_path)
+    model = json.loads(path.read_text(encoding="utf-8"))
+    del model["model"]["load_spectrum"]
+    path.write_text(json.dumps(model), encoding="utf-8")
+    engaged = [{*state.engaged} for state in geartrain.load(declaration_of(path)[0]).declaration.states.values()]
+    assert engaged == [{"K1", "B2"}, {"K1", "B1"}, {"K1", "K3"}, {"K3", "B1"}, {"K2", "B2"}]
+
+
 # ------------------------------------------------------------------------------------------- files of other programs
 
 # in the form of files that other programs write: ids in names, version 1.1 with its own names of types, planets as
@@ -532,7 +542,11 @@ WORM = {'name="Mesh [10]" type="cylindrical_stage"': 'name="Mesh [10]" type="wor
     [
         (WORM, "", "Mesh [10]: worm stage is not read"),
         ({'<attribute id="number_of_teeth">17</attribute>': ""}, "", "Sun gear [12]: gear has no tooth count"),
-        ({"<array><c>true</c></array>": "false"}, "", "Brake [15]: `is_engaged` is incomplete"),
+        ({"<c>true</c>": ""}, "", "Brake [15]: `is_engaged` is incomplete"),
+        ({"<array><c>true</c></array>": "false"}, "", "`is_engaged` of component 15 is 'false', not a boolean_array"),
+        ({">4.0<": ">four<"}, "", "`normal_module` of component 12 is 'four', not a floating_point"),
+        ({'unit="N m"': 'unit="kN m"'}, "", "`torque_around_u_axis` of component 19 has the unit 'kN m', not 'N m'"),
+        ({"<c>-78</c>": "<c>y</c>"}, "", "`support_vector` of component 17 is ['0', '0', 'y']"),
         ({}, "assembly assembly=5 part=12", "Sun gear [12]: gear is not mounted on a shaft"),
         ({}, "planet_carrier_shaft planetary_stage=9 shaft=4", ""),
         ({'type="cylindrical_stage"': 'type="mesh"', 'type="planetary_stage"': 'type="set"'}, "", "has no gear stage"),

@@ -124,12 +124,17 @@ class _Decision:
         (case,) = close_joints(own.declaration, own.tree, [own.declaration.case(self.state, holding)])
         setting = own.make_load_case(case)
         others = [name for name in self.names if name not in holding]
-        slips = {name: None if setting is None else self._slip(setting, name) for name in others}
-        moves = setting is not None and all(slip is None or slip > 0 for slip in slips.values())
-        if setting is not None and moves and setting.forms:
-            moves = can_be_positive(
-                [self._slip_form(setting, name, setting.forms) for name in others], len(setting.forms)
-            )
+        if setting is None:
+            return ClutchPattern(holding, case, None, dict.fromkeys(others), False)
+        speeds = setting.forms or {link: {PRESCRIBED: speed} for link, speed in setting.speeds.items()}
+        forms = {name: self._slip_form(setting, name, speeds) for name in others}
+        slips = {
+            name: None if any(at != PRESCRIBED for at in form) else form.get(PRESCRIBED, Fraction(0))
+            for name, form in forms.items()
+        }
+        moves = all(slip is None or slip > 0 for slip in slips.values())
+        if moves and setting.forms:
+            moves = can_be_positive(list(forms.values()), len(setting.forms))
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
@@ -138,11 +143,6 @@ class _Decision:
         first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
         (sense,) = clutch.senses
         return clutch, first, second, sense
-
-    def _slip(self, setting: LoadCase, name: str) -> Fraction | None:
-        _, first, second, sense = self._clutch(name)
-        relative = setting.relative(second, first)
-        return None if relative is None else sense * setting.sense(second) * relative
 
     def _slip_form(self, setting: LoadCase, name: str, speeds: Mapping[str, LinearForm]) -> LinearForm:
         """Return the slip of a clutch as a linear form, from the linear forms of the speeds."""

@@ -11,15 +11,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
-from math import atan2, degrees, pi, sqrt
+from math import degrees, pi
 from typing import NamedTuple
 
 from geartrain.errors import DeclarationError, GearTrainError, Problem, RangeError
 from geartrain.kinematics.circuits.joint_tree import Axes, Tree
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.vectors import ExactVector, Vector, cross, dot
+from geartrain.numerics.vectors import cross, dot, size
 from geartrain.teeth.coupling import COUPLINGS, Coupling, CouplingRow
-from geartrain.train import Train, Wheel
+from geartrain.train import Train
 
 
 class Circuit(NamedTuple):
@@ -156,7 +156,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             problems.append(_no_carrier(train, tree, gear.name, i, j, ("gears", at)))
             continue
         if wheel_i.count is None or wheel_j.count is None:
-            problems.append(_no_count(train, gear.pair, (wheel_i, wheel_j)))
+            problems += _no_count(train, gear.pair)
             continue
         straight = wheel_i.helix_angle is None and wheel_j.helix_angle is None
         if (
@@ -164,7 +164,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
         ):  # fast path for nearly all pairs, without directions
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
             circuit = Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair)
-            circuits.append(_turning(tree, circuit) if tree.lines else circuit)
+            circuits.append(_turning(tree, circuit))
             continue
         try:
             a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
@@ -175,9 +175,9 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             ]
             continue
         circuit = Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note)
-        circuits.append(_turning(tree, circuit) if tree.lines else circuit)
+        circuits.append(_turning(tree, circuit))
     for at, coupling in enumerate(train.couplings):
-        found = _coupling_circuits(train, axes, coupling, at)
+        found = _DeclaredCoupling(train, axes, coupling, at).circuits()
         problems += [each for each in found if isinstance(each, Problem)]
         circuits += [each for each in found if isinstance(each, Circuit)]
     if problems:
@@ -185,108 +185,135 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
     return tuple(circuits)
 
 
-def _coupling_circuits(train: Train, axes: Axes, coupling: Coupling, at: int) -> Sequence[Circuit | Problem]:
-    """Return the circuits of a coupling, which have one carrier, or the problem that prevents them."""
-    wheels = [name for kind, name, _ in coupling.references() if kind == "wheel"]
-    declared = [train.wheels[name][1] for name in wheels]
-    if any(wheel.count is None for wheel in declared):
-        return (_no_count(train, wheels, declared),)
-    found = [_coupling_circuit(train, axes, coupling, row, at) for row in coupling.rows(train.wheels)]
-    circuits = [each for each in found if isinstance(each, Circuit)]
-    if len(circuits) < len(found):
-        return [each for each in found if isinstance(each, Problem)]
-    first, *others = circuits
-    for other in others:
-        if other.carrier != first.carrier:
-            return (_two_carriers(train, coupling, first, other, at),)
-    for one, other in combinations(circuits, 2):
-        if axes.tree.axis(one.i) == axes.tree.axis(other.i):
-            return (_no_carrier(train, axes.tree, coupling.name, one.i, other.i, ("couplings", at)),)
-    return circuits
+class _DeclaredCoupling(NamedTuple):
+    """Coupling as declared in a train, at its position in the list of couplings."""
 
+    train: Train
+    axes: Axes
+    coupling: Coupling
+    at: int
 
-def _coupling_circuit(train: Train, axes: Axes, coupling: Coupling, row: CouplingRow, at: int) -> Circuit | Problem:
-    tree = axes.tree
-    carrier = _carrier(tree, row.driven, row.driver)
-    if carrier is None and not coupling.NEEDS_DISTANCE:
-        carrier = _coaxial_carrier(tree, row.driven, row.driver, row.carrier)
-    elif row.carrier not in (None, carrier) and carrier is not None:
-        return _another_carrier(train, row, carrier, at)
-    if carrier is None:
-        if row.carrier is not None and _shared_axis(tree, row.driven, row.driver) is not None:
-            return _not_coaxial(train, row, at)
-        return _no_carrier(train, tree, row.id, row.driven, row.driver, ("couplings", at))
-    labels = _labels(tree, carrier, row.driven, row.driver)
-    if COUPLINGS[coupling.kind].travels:
-        ends = (row.driven, row.driver)
-        circuit = Circuit(row.id, coupling.kind, *ends, carrier, row.a, row.b, ends, by_teeth=False)
-        return _travel(train, axes, coupling, circuit, at)
-    b = row.b
-    if coupling.OBLIQUE:
-        if problem := _wrong_angle(train, axes, coupling, labels, at):
-            return problem
-        # both sides turn in the same sense about directions less than 90 degrees apart
-        b *= axes.sense(labels)
-    elif not coupling.PARALLEL:
-        # the ratio is that of the speeds about each link's own axis
-        b *= axes.sign(labels[0]) * axes.sign(labels[1])
-    elif not axes.are_parallel(labels):
-        return _oblique(train, coupling, row, labels, at)
-    ends = (row.driven, row.driver)
-    note = _SOLID if row.a + b == 0 and _shared_axis(tree, *ends) is not None else ""
-    by_teeth = row.wheels is not None
-    circuit = Circuit(row.id, coupling.kind, *ends, carrier, row.a, b, row.wheels or ends, note, by_teeth)
-    return _turning(tree, circuit) if tree.lines else circuit
+    def circuits(self) -> Sequence[Circuit | Problem]:
+        """Return the circuits of the coupling, which have one carrier, or the problems that prevent them."""
+        train, tree, name = self.train, self.axes.tree, self.coupling.name
+        wheels = [name for kind, name, _ in self.coupling.references() if kind == "wheel"]
+        if missing := _no_count(train, wheels):
+            return missing
+        found = [self._circuit(row) for row in self.coupling.rows(train.wheels)]
+        circuits = [each for each in found if isinstance(each, Circuit)]
+        if len(circuits) < len(found):
+            return [each for each in found if isinstance(each, Problem)]
+        first = circuits[0]
+        for one, other in combinations(circuits, 2):
+            if other.carrier != first.carrier:
+                return (self._two_carriers(first, other),)
+            if tree.axis(one.i) == tree.axis(other.i):
+                return (_no_carrier(train, tree, name, one.i, other.i, ("couplings", self.at)),)
+        return circuits
+
+    def _circuit(self, row: CouplingRow) -> Circuit | Problem:
+        tree, coupling, ends = self.axes.tree, self.coupling, (row.driven, row.driver)
+        carrier = _carrier(tree, *ends)
+        if carrier is None and not coupling.NEEDS_DISTANCE:
+            carrier = _coaxial_carrier(tree, *ends, row.carrier)
+        elif row.carrier not in (None, carrier) and carrier is not None:
+            what = f"'{row.carrier}' is not the carrier of coupling '{row.id}'"
+            why = f"'{row.driver}' and '{row.driven}' turn about two axes at a fixed distance on '{carrier}'"
+            return self._problem(what, why, f"omit `carrier`, or write `carrier: {carrier}`", "carrier")
+        coaxial = _shared_axis(tree, *ends) is not None
+        if carrier is None and row.carrier is not None and coaxial:
+            what = f"'{row.carrier}' is not coaxial with '{row.driver}' and '{row.driven}'"
+            why = "the carrier of a coaxial pair turns on the axis of the pair, or bears this axis"
+            fix = "name a link on this axis as `carrier`, or omit it for the link that bears the axis"
+            return self._problem(what, why, fix, "carrier")
+        if carrier is None:
+            return _no_carrier(self.train, tree, row.id, *ends, ("couplings", self.at))
+        note, by_teeth = _SOLID if row.a + row.b == 0 and coaxial else "", row.wheels is not None
+        circuit = Circuit(row.id, coupling.kind, *ends, carrier, row.a, row.b, row.wheels or ends, note, by_teeth)
+        return self._travelling(circuit) if circuit.travels else self._rotating(circuit)
+
+    def _rotating(self, circuit: Circuit) -> Circuit | Problem:
+        """Return the circuit of two links that turn, with the sign of its ratio about the directions of the axes."""
+        axes, coupling = self.axes, self.coupling
+        labels = _labels(axes.tree, circuit.carrier, circuit.i, circuit.j)
+        sign = 1
+        if coupling.OBLIQUE:
+            if problem := self._wrong_angle(labels):
+                return problem
+            # both sides turn in the same sense about directions less than 90 degrees apart
+            sign = axes.sense(labels)
+        elif not coupling.PARALLEL:
+            # the ratio is that of the speeds about each link's own axis
+            sign = axes.sign(labels[0]) * axes.sign(labels[1])
+        elif not axes.are_parallel(labels):
+            driven, driver = coupling.SIDES
+            names = (f"its {driven}", f"its {driver}") if driven != driver else (f"'{circuit.i}'", f"'{circuit.j}'")
+            sides = [f"'{label}' of {name}" for label, name in zip(labels, names, strict=True)]
+            what = f"coupling '{coupling.name}': the axes {sides[1]} and {sides[0]} are not parallel"
+            fix = "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels"
+            return self._problem(what, coupling.PARALLEL, fix)
+        return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
+
+    def _travelling(self, circuit: Circuit) -> Circuit | Problem:
+        """Return the circuit of a link j that turns and a link i that slides, each relative to the carrier's motion of
+        its kind.
+        """
+        axes, coupling, carrier, tree = self.axes, self.coupling, circuit.carrier, self.axes.tree
+        along, about = _labels(tree, carrier, circuit.i, circuit.j)
+        slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
+        if along not in slides or about in slides:
+            link, does, joints, key = circuit.j, "slides", "revolutes", "turns"
+            if along not in slides:
+                link, does, joints, key = circuit.i, "turns", "slides", "slides"
+            what = f"coupling '{coupling.name}': '{link}' {does} on '{carrier}'"
+            fix = f"declare '{link}' under `{joints}`, or name another link as `{key}`"
+            return self._problem(what, f"a {coupling.kind} joins a link that turns to a link that slides", fix)
+        b = circuit.b
+        if coupling.kind != "screw":
+            # the sense of a screw is that of its thread; other couplings are declared about and along their own axes
+            b *= axes.sign(along) * axes.sign(about)
+        elif {along, about} <= axes.directions.keys() and not axes.are_parallel((along, about)):
+            what = f"coupling '{coupling.name}': the slide '{along}' is not parallel to the axis '{about}' of the screw"
+            fix = f"give both the same direction in `axes`, such as `{along}: {{direction: [1, 0, 0]}}`"
+            return self._problem(what, "a nut moves along the axis of its screw", fix)
+        line = slides[along]
+        i, j = tree.moving(circuit.i, line), tree.moving(circuit.j, None)
+        return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
+
+    def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
+        """Return the problem of a joint whose axes do not have its angle, or are perpendicular; None if they fit."""
+        between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
+        what = f"coupling '{self.coupling.name}': "
+        if between is not None and between > pi / 2 - _SAME_ANGLE:
+            what += f"the axes '{labels[1]}' and '{labels[0]}' are perpendicular"
+            return self._problem(what, "a joint at 90 deg does not turn", "declare directions less than 90 deg apart")
+        if between is not None and declared is not None and abs(declared.si - between) > _SAME_ANGLE:
+            what += f"its angle is {declared.text}, but its axes are at {degrees(between):.6g} deg"
+            fix = "omit `angle`, which follows from `axes`, or correct a direction"
+            return self._problem(what, "both declare the same angle", fix)
+        return None
+
+    def _two_carriers(self, first: Circuit, other: Circuit) -> Problem:
+        name, kind = self.coupling.name, self.coupling.kind
+        return self._problem(
+            f"coupling '{name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
+            f"'{other.carrier}' those of '{other.j}' and '{other.i}'",
+            f"the distance between '{first.i}' and '{other.i}' changes, and a {kind} keeps its length",
+            f"join all its links to one carrier, or declare a {kind} for each carrier",
+        )
+
+    def _problem(self, what: str, why: str, fix: str, *key: str) -> Problem:
+        return Problem(what, why, fix, self.train.place("couplings", self.at, *key))
 
 
 def _turning(tree: Tree, circuit: Circuit) -> Circuit:
     """Return the circuit of two links that turn, without the sliding links among its members."""
+    if not tree.lines:
+        return circuit
     i, j, base = (tree.moving(link, None) for link in (circuit.i, circuit.j, circuit.carrier))
     if (i, j, base) == (circuit.i, circuit.j, circuit.carrier):
         return circuit
     return circuit._replace(i=i, j=j, bases=(base, base))
-
-
-def _travel(train: Train, axes: Axes, coupling: Coupling, circuit: Circuit, at: int) -> Circuit | Problem:
-    """Return the circuit of a link j that turns and a link i that slides, each relative to the carrier's motion of its
-    kind.
-    """
-    tree, carrier = axes.tree, circuit.carrier
-    along, about = tree.axis_seen_from(carrier, circuit.i), tree.axis_seen_from(carrier, circuit.j)
-    slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
-    if along not in slides or about in slides:
-        return _wrong_motion(train, coupling, circuit, at, along not in slides)
-    b = circuit.b
-    if not axes.plain:
-        declared = all(label in axes.directions for label in (along, about))
-        if declared and coupling.kind == "screw" and not axes.are_parallel((along, about)):
-            return _oblique_screw(train, coupling, (along, about), at)
-        # the sense of a screw is that of its thread; other couplings are declared about and along their own axes
-        if coupling.kind != "screw":
-            b *= axes.sign(along) * axes.sign(about)
-    line = slides[along]
-    i, j = tree.moving(circuit.i, line), tree.moving(circuit.j, None)
-    return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
-
-
-def _wrong_motion(train: Train, coupling: Coupling, circuit: Circuit, at: int, turns: bool) -> Problem:
-    link, key = (circuit.i, "slides") if turns else (circuit.j, "turns")
-    does, joints = ("turns", "slides") if turns else ("slides", "revolutes")
-    return Problem(
-        f"coupling '{coupling.name}': '{link}' {does} on '{circuit.carrier}'",
-        f"a {coupling.kind} joins a link that turns to a link that slides",
-        f"declare '{link}' under `{joints}`, or name another link as `{key}`",
-        train.place("couplings", at),
-    )
-
-
-def _oblique_screw(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
-    return Problem(
-        f"coupling '{coupling.name}': the slide '{labels[0]}' is not parallel to the axis '{labels[1]}' of the screw",
-        "a nut moves along the axis of its screw",
-        f"give both the same direction in `axes`, such as `{labels[0]}: {{direction: [1, 0, 0]}}`",
-        train.place("couplings", at),
-    )
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
@@ -328,26 +355,8 @@ def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
     return tuple(found)
 
 
-def _labels(tree: Tree, carrier: str, driven: str, driver: str) -> tuple[str, str]:
-    return tree.axis_seen_from(carrier, driven), tree.axis_seen_from(carrier, driver)
-
-
-def _wrong_angle(train: Train, axes: Axes, coupling: Coupling, labels: tuple[str, str], at: int) -> Problem | None:
-    """Return the problem of a joint whose axes do not have its angle, or are perpendicular; None if they fit."""
-    between, place = axes.angle(labels), train.place("couplings", at)
-    if between is None:
-        return None
-    if between > pi / 2 - _SAME_ANGLE:
-        what = f"coupling '{coupling.name}': the axes '{labels[1]}' and '{labels[0]}' are perpendicular"
-        return Problem(what, "a joint at 90 deg does not turn", "declare directions less than 90 deg apart", place)
-    declared = getattr(coupling, "angle", None)
-    if declared is not None and abs(declared.si - between) > _SAME_ANGLE:
-        what = (
-            f"coupling '{coupling.name}': its angle is {declared.text}, but its axes are at {degrees(between):.6g} deg"
-        )
-        fix = "omit `angle`, which follows from `axes`, or correct a direction"
-        return Problem(what, "both declare the same angle", fix, place)
-    return None
+def _labels(tree: Tree, carrier: str, i: str, j: str) -> tuple[str, str]:
+    return tree.axis_seen_from(carrier, i), tree.axis_seen_from(carrier, j)
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
@@ -391,58 +400,12 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 
-def _oblique(train: Train, coupling: Coupling, row: CouplingRow, labels: Sequence[str], at: int) -> Problem:
-    sides = [f"'{label}' of {link}" for label, link in zip(labels, _sides(coupling, row), strict=True)]
-    return Problem(
-        f"coupling '{coupling.name}': the axes {sides[1]} and {sides[0]} are not parallel",
-        coupling.PARALLEL,
-        "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels",
-        train.place("couplings", at),
-    )
-
-
-def _sides(coupling: Coupling, row: CouplingRow) -> tuple[str, str]:
-    """Return the driven and the driving side of a coupling as named in messages, such as `its slot` or `'b'`."""
-    first, second = coupling.SIDES
-    return (f"its {first}", f"its {second}") if first != second else (f"'{row.driven}'", f"'{row.driver}'")
-
-
-def _two_carriers(train: Train, coupling: Coupling, first: Circuit, other: Circuit, at: int) -> Problem:
-    return Problem(
-        f"coupling '{coupling.name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
-        f"'{other.carrier}' those of '{other.j}' and '{other.i}'",
-        f"the distance between '{first.i}' and '{other.i}' changes, and a {coupling.kind} keeps its length",
-        f"join all its links to one carrier, or declare a {coupling.kind} for each carrier",
-        train.place("couplings", at),
-    )
-
-
-def _another_carrier(train: Train, row: CouplingRow, carrier: str, at: int) -> Problem:
-    return Problem(
-        f"'{row.carrier}' is not the carrier of coupling '{row.id}'",
-        f"'{row.driver}' and '{row.driven}' turn about two axes at a fixed distance on '{carrier}'",
-        f"omit `carrier`, or write `carrier: {carrier}`",
-        train.place("couplings", at, "carrier"),
-    )
-
-
-def _not_coaxial(train: Train, row: CouplingRow, at: int) -> Problem:
-    return Problem(
-        f"'{row.carrier}' is not coaxial with '{row.driver}' and '{row.driven}'",
-        "the carrier of a coaxial pair turns on the axis of the pair, or bears this axis",
-        "name a link on this axis as `carrier`, or omit it for the link that bears the axis",
-        train.place("couplings", at, "carrier"),
-    )
-
-
-def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Problem:
-    name = next(name for name, wheel in zip(pair, wheels, strict=True) if wheel.count is None)
-    return Problem(
-        f"wheel '{name}' has no tooth count yet",
-        "only `search` is declared, and speeds need a definite count",
-        "add a `value` next to `search`",
-        train.place("links", train.wheels[name][0], "wheels", name),
-    )
+def _no_count(train: Train, wheels: Sequence[str]) -> list[Problem]:
+    """Return the problem of the first wheel without a tooth count; empty if all have one."""
+    what, why = "wheel '{}' has no tooth count yet", "only `search` is declared, and speeds need a definite count"
+    missing = [name for name in wheels if train.wheels[name][1].count is None][:1]
+    places = (train.place("links", train.wheels[name][0], "wheels", name) for name in missing)
+    return [Problem(what.format(*missing), why, "add a `value` next to `search`", place) for place in places]
 
 
 _SAME_ANGLE = 1e-3  # rad: tolerance of the angle of a joint, because written directions are rounded
@@ -455,25 +418,15 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     It is the sum of both pitch cone angles: the angle between the directions from the apex to the two wheels, which
     follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
     """
-    axes = Axes(train, tree)
-    if axes.plain:
-        return None
-    labels = [tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
-    u, v = (_floats(axes.direction(label)) for label in labels)
-    across = cross(u, v)
-    size = sqrt(dot(across, across))
-    if not size:
+    axes, labels = Axes(train, tree), _labels(tree, circuit.carrier, circuit.i, circuit.j)
+    if axes.are_parallel(labels):
         return None
     if passing_distance(axes, labels):
-        raise RangeError(
-            Problem(
-                "the axes of the pair do not intersect",
-                "axes of bevel and contrate wheels must intersect",
-                "correct the positions of the axes",
-            )
-        )
+        what, why = "the axes of the pair do not intersect", "axes of bevel and contrate wheels must intersect"
+        raise RangeError(Problem(what, why, "correct the positions of the axes"))
+    angle, _ = axes.crossing(*labels)
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
-    return atan2(size, facing * dot(u, v))  # acos would lose half the digits near 0 and pi
+    return angle if facing > 0 else pi - angle
 
 
 def bevels_on_one_side(
@@ -509,11 +462,8 @@ def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:
         return None
-    across = cross(*(_floats(axes.direction(label)) for label in labels))
+    upright = cross(*(axes.direction(label) for label in labels))
+    across = float(upright[0]), float(upright[1]), float(upright[2])
     apart = there[0].si - here[0].si, there[1].si - here[1].si, there[2].si - here[2].si
-    offset, reach = abs(dot(apart, across)) / sqrt(dot(across, across)), sqrt(dot(apart, apart))
-    return offset if offset > _MEET * reach else 0.0
-
-
-def _floats(vector: ExactVector) -> Vector:
-    return float(vector[0]), float(vector[1]), float(vector[2])
+    offset = abs(dot(apart, across)) / size(across)
+    return offset if offset > _MEET * size(apart) else 0.0

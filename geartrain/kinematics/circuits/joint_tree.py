@@ -430,7 +430,7 @@ class Axes:
         """Return the angle between two axes as lines [rad], 0 to pi/2; None if neither direction is declared."""
         if self.directions.keys().isdisjoint(labels):
             return None
-        angle, _ = self._crossing(*labels)
+        angle, _ = self.crossing(*labels)
         return min(angle, pi - angle)
 
     def sense(self, labels: tuple[str, str]) -> int:
@@ -460,7 +460,7 @@ class Axes:
             parts = (Fraction(0),) * 3 + direction
         return {at: part for at, part in enumerate(parts) if part}
 
-    def _crossing(self, one: str, other: str) -> tuple[float, int]:
+    def crossing(self, one: str, other: str) -> tuple[float, int]:
         """Return the angle between two axes [rad], 0 to pi, and its sign about the direction from `other` to `one`.
 
         The sign is 0 if the positions do not determine it.
@@ -474,7 +474,7 @@ class Axes:
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
         """Return the helix angles of two wheels on skew axes [rad]; None for parallel axes or undeclared angles."""
-        return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self._crossing(*labels))
+        return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self.crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
         """Return a and b of the Willis equation, and a note if the sense of rotation is a convention.
@@ -488,7 +488,7 @@ class Axes:
         side_by_side = self.are_parallel(labels)
         if wheel_i.is_helical or wheel_j.is_helical:
             if not side_by_side:
-                sense, note = crossed_sense((wheel_i, wheel_j), *self._crossing(*labels))
+                sense, note = crossed_sense((wheel_i, wheel_j), *self.crossing(*labels))
                 return z_i, sense * self.sign(labels[0]) * self.sign(labels[1]) * z_j, note
             check_parallel(wheel_i, wheel_j)
         # plane wheels: an external pair reverses the sense of rotation, an internal one does not

@@ -232,7 +232,7 @@ def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, An
 def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
     assert evidence.reconstruct is not None, "no evidence"
     for at, coupling in enumerate(evidence.pin_couplings):
-        yield coupling.ends, ("couplings", at)
+        yield (coupling.pin, coupling.slot), ("couplings", at)
     for at, given in enumerate(evidence.reconstruct.given):
         yield given.pair, ("reconstruct", "given", at)
 

@@ -15,7 +15,8 @@ from numpy.polynomial import chebyshev as cheb
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import joined, some
-from geartrain.numerics.polynomial_pieces import COUNT, POWERS, ends, extremes, moments, value
+from geartrain.numerics.periodic_function import PeriodicPieces
+from geartrain.numerics.polynomial_pieces import COUNT, POWERS, ends
 from geartrain.teeth.contact.outline_contact import OutlinePair
 from geartrain.teeth.transmission import SpeedLeap
 
@@ -55,16 +56,10 @@ class PiecewiseTransmission:
     """Period in driver angle [rad]."""
     breaks: Floats
     """Ends of the intervals [rad], shape (n + 1,), ascending over one period of the driver angle."""
-    middles: Floats
-    """Midpoints of the intervals [rad], shape (n,). The polynomials have the argument u = (phi1 - middle) / half,
-    which is from -1 to 1 except for rounding.
-    """
-    halves: Floats
-    """Half widths of the intervals [rad], shape (n,)."""
-    errors: Floats
-    """Polynomial coefficients of the transmission error [rad] by powers of u (see `middles`), shape (COUNT, n)."""
-    speeds: Floats
-    """Polynomial coefficients of the speed ratio by powers of u (see `middles`), shape (COUNT, n)."""
+    errors: PeriodicPieces
+    """Transmission error [rad], a polynomial on each interval."""
+    speeds: PeriodicPieces
+    """Speed ratio, a polynomial on each interval."""
     pair: Indices
     """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
@@ -80,43 +75,30 @@ class PiecewiseTransmission:
 
     def error(self, phi1: ArrayLike) -> Floats:
         """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
-        return self._of(self.errors, phi1)
+        return self.errors(phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
         """Return the speed ratio d angle / d phi1 at driver angles phi1 [rad]."""
-        return self._of(self.speeds, phi1)
+        return self.speeds(phi1)
 
     def angle(self, phi1: ArrayLike) -> Floats:
         """Return the driven angle [rad] at driver angles phi1 [rad]."""
         return self.error(phi1) + float(self.ratio) * np.asarray(phi1, dtype=float)
 
-    def _of(self, coefficients: Floats, phi1: ArrayLike) -> Floats:
-        phi1 = np.asarray(phi1, dtype=float)
-        flat = phi1.ravel()
-        rest = flat - self.breaks[0]
-        # faster than %; rounding may leave `rest` outside the period, so `searchsorted` is clipped
-        rest -= np.floor(rest / self.period) * self.period
-        rest += self.breaks[0]
-        which = np.clip(np.searchsorted(self.breaks, rest, side="right") - 1, 0, len(self.breaks) - 2)
-        u = (rest - self.middles[which]) / self.halves[which]
-        return value(coefficients, which, u)[0].reshape(phi1.shape)
-
     def extremes(self) -> tuple[float, float]:
         """Return the minimum and the maximum transmission error [rad], which are at kinks or where its slope is 0."""
-        return extremes(self.errors)
+        return self.errors.extremes()
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and maximum speed ratio."""
-        return extremes(self.speeds)
+        return self.speeds.extremes()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
         """Return the upward steps of the speed ratio at the breakpoints, in order of angle.
 
         Steps due to rounding are omitted.
         """
-        start, before = ends(self.speeds)
-        # the first interval follows the last one in the next period
-        after = np.roll(start, -1)
+        before, after = self.speeds.sides(0)
         leaps = after - before > _JUMP * float(self.ratio)
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
@@ -124,15 +106,13 @@ class PiecewiseTransmission:
         """Return the maximum rate at which the speed ratio decreases with the driver angle within the intervals
         [1/rad]; 0 if it never decreases.
         """
-        slopes = np.zeros_like(self.speeds)  # degree reduced by one, same number of coefficients
-        slopes[:-1] = self.speeds[1:] * np.arange(1, len(slopes))[:, None] / self.halves
-        return max(0.0, -extremes(slopes)[0])
+        return max(0.0, -self.speeds.extremes(1)[0])
 
     def moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error over a period and its rms deviation [rad]; NaN if contact has
         gaps.
         """
-        return moments(self.errors, self.halves)
+        return self.errors.moments()
 
 
 # -------------------------------------------------------------------------------------------------------------- fitting
@@ -209,14 +189,18 @@ def tabulate(
         why = f"at {where} the teeth of one wheel do not reach the teeth of the other"
         fix = change if first.bevel else f"{change}, or check that both outlines have the same unit"
         raise RangeError(Problem("the two wheels never touch", why, fix))
+    middles, halves = done.ends.mean(axis=0), np.diff(done.ends, axis=0)[0] / 2
+
+    def pieces(coefficients: Floats) -> PeriodicPieces:
+        scaled = coefficients / halves ** np.arange(COUNT)[:, None]
+        return PeriodicPieces(breaks[:-1], scaled[::-1], fitter.period, middles)
+
     return PiecewiseTransmission(
         fitter.ratio,
         fitter.period,
         breaks,
-        done.ends.mean(axis=0),
-        np.diff(done.ends, axis=0)[0] / 2,
-        done.errors,
-        done.speeds,
+        pieces(done.errors),
+        pieces(done.speeds),
         done.pair,
         done.kind,
         kinks,

@@ -9,5 +9,5 @@ ratio                 pairs and planetary sets of which only the ratio is known
 series_transmission   transmission function of pins in slots, universal joints, elliptical and lobed wheels
 step_transmission     transmission functions of couplings that move by steps
 steps                 Geneva drives, fingers and stars, ratchets, mutilated wheels
-table_transmission    transmission functions by a table or harmonics
+table_transmission    transmission functions with a periodic deviation from uniform motion
 """

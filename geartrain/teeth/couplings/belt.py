@@ -92,11 +92,6 @@ class Belt(Coupling):
         return self
 
     @property
-    def ends(self) -> tuple[str, ...]:
-        """Links with a diameter, or wheels, in the order of the declaration."""
-        return tuple(self.around)
-
-    @property
     def by_teeth(self) -> bool:
         """True if the pulleys are wheels with teeth, False if they are links with diameters."""
         return not isinstance(self.around, Mapping)
@@ -123,15 +118,6 @@ class Belt(Coupling):
                 shape = "ring" if wheel.internal else f"{wheel.kind} wheel"
                 why = "a belt or chain goes around the outside of a wheel with external teeth"
                 yield f"belt '{self.name}' goes around the {shape} '{name}'", why, "declare a wheel for the belt"
-
-    def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
-        """Return the links of the pulleys, in the order of the declaration."""
-        return tuple(wheels[name][0] for name in self.ends) if self.by_teeth else self.ends
-
-    def references(self) -> Iterator[tuple[str, str, tuple[str | int, ...]]]:
-        """Yield the wheels, or the links, that the belt goes around, with their paths."""
-        kind = "wheel" if self.by_teeth else "link"
-        yield from ((kind, name, ("around", at if self.by_teeth else name)) for at, name in enumerate(self.ends))
 
     @property
     def lengths(self) -> Iterator[Quantity]:
@@ -171,5 +157,4 @@ def belt_length(diameters: tuple[float, float], distance: float, crossed: bool =
     first, second = diameters
     half = (first + second if crossed else second - first) / 2
     straight, alpha = 2 * sqrt((distance - half) * (distance + half)), asin(half / distance)
-    wrapped = (pi / 2 + alpha) * (first + second) if crossed else pi / 2 * (first + second) + alpha * (second - first)
-    return straight + wrapped
+    return straight + pi / 2 * (first + second) + 2 * alpha * half

@@ -14,17 +14,14 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import MeasuredLength, above_zero, bad, millimetres
+from geartrain.numerics.roots import root
 from geartrain.teeth.couplings.travel import TravelCoupling
-from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth.transmission import LosslessTransmission
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
-
-
-_BISECTIONS = 60  # of a quarter turn, to rounding error
-_SAMPLES = 4096  # the mean over equidistant samples is exact to rounding error unless the rod is as short as the crank
 
 
 class CrankSlider(TravelCoupling):
@@ -54,7 +51,7 @@ class CrankSlider(TravelCoupling):
         return CrankSliderTransmission(float(millimetres(self.radius)), float(millimetres(self.rod)))
 
 
-class CrankSliderTransmission(TransmissionFunction):
+class CrankSliderTransmission(LosslessTransmission):
     """Transmission function of a crank that moves a slide through a rod.
 
     The driven angle is 2 pi times the travel of the slide from its outer dead centre in mm. Friction is not modelled.
@@ -100,19 +97,9 @@ class CrankSliderTransmission(TransmissionFunction):
         # l^2 - r^2 sin^2 S as a sum, which does not cancel for short rods
         return np.asarray(np.sqrt((self.l - self.r) * (self.l + self.r) + (self.r * np.cos(S)) ** 2))
 
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency, which is 1."""
-        import numpy as np
-
-        return np.ones_like(np.asarray(S, dtype=float))
-
     def peak(self) -> float:
-        """Return the crank angle of maximum speed between the dead centres [rad], by bisection."""
-        low, high = 0.0, pi / 2
-        for _ in range(_BISECTIONS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if self._acceleration(middle) < 0 else (low, middle)
-        return low
+        """Return the crank angle of maximum speed between the dead centres [rad]."""
+        return root(self._acceleration, 0.0, pi / 2, self._acceleration(0.0), self._acceleration(pi / 2))
 
     def _acceleration(self, S: float) -> float:
         """Return the second derivative of the position with respect to the crank angle [mm]."""
@@ -128,13 +115,6 @@ class CrankSliderTransmission(TransmissionFunction):
     def error_range(self) -> tuple[float, float]:
         """Return the travels of the slide at both dead centres [rad; 2 pi is 1 mm]."""
         return -2 * self.period * self.r, 0.0
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean travel of the slide and the rms deviation from it [rad; 2 pi is 1 mm]."""
-        import numpy as np
-
-        positions = self.error(np.arange(_SAMPLES) * (self.period / _SAMPLES))
-        return float(positions.mean()), float(positions.std())
 
     def steepest_fall(self) -> float:
         """Return the maximum rate at which the speed ratio decreases [1/rad], at the outer dead centre."""

@@ -38,6 +38,11 @@ _FEWEST, _MOST = 4, 10_000  # points of a smooth table
 _MOST_LOBES = _MOST_ORDER = 100
 
 
+JointAngle = Annotated[
+    Angle,
+    not_below_zero("give an angle from 0 to below 90 deg"),
+    below_right_angle("give an angle below 90 deg: a joint at 90 deg does not turn"),
+]
 Lobes = Annotated[int, Field(ge=1, le=_MOST_LOBES)]
 
 
@@ -46,11 +51,6 @@ class _VaryingPair(Coupling):
 
     pair: tuple[str, str] = Field(description="Driving link and driven link")
     phase: Angle | None = Field(None, description="Angle of the driver at the start; default 0")
-
-    @property
-    def ends(self) -> tuple[str, str]:
-        """Driving link and driven link."""
-        return self.pair
 
     @property
     def start(self) -> float:
@@ -77,14 +77,7 @@ class UniversalJoint(_VaryingPair):
     NEGLECTED = "side loads of joints", "forces and bending moments on the shafts of a joint are not computed"
 
     kind: Literal["universal_joint"] = Field(description="Universal joint: mean ratio 1, periods of half a turn")
-    angle: (
-        Annotated[
-            Angle,
-            not_below_zero("give an angle from 0 to below 90 deg"),
-            below_right_angle("give an angle below 90 deg: a joint at 90 deg does not turn"),
-        ]
-        | None
-    ) = Field(None, description="Angle between the shafts; default from `axes`")
+    angle: JointAngle | None = Field(None, description="Angle between the shafts; default from `axes`")
     phase: Angle | None = Field(
         None, description="Angle of the driver's fork from the plane of both shafts at the start; default 0"
     )
@@ -117,7 +110,25 @@ class UniversalJoint(_VaryingPair):
         return f"tan q = tan S / cos({self.angle.text if self.angle else 'beta'})"
 
 
-class EllipticalPair(_VaryingPair):
+class _LobedPair(_VaryingPair):
+    """Two non-circular wheels in external mesh."""
+
+    UNKNOWN = "teeth, friction and backlash"
+
+    lobes: tuple[Lobes, Lobes] = Field((1, 1), description="Numbers of lobes of the driver and of the driven wheel")
+
+    @property
+    def mean(self) -> Fraction:
+        """Mean ratio: minus the lobes of the driver divided by the lobes of the driven wheel."""
+        return -Fraction(*self.lobes)
+
+    @property
+    def periods_per_turn(self) -> Fraction:
+        """Number of periods in one revolution of the driver: its lobes."""
+        return Fraction(self.lobes[0])
+
+
+class EllipticalPair(_LobedPair):
     """Two elliptical or lobed wheels in external mesh about their foci.
 
     The driver has the pitch curve r = p / (1 + e cos(n1 theta)), with eccentricity e, n1 lobes and theta from a short
@@ -125,13 +136,10 @@ class EllipticalPair(_VaryingPair):
     a long radius of the driver on the line of centres.
     """
 
-    UNKNOWN = "teeth, friction and backlash"
-
     kind: Literal["elliptical"] = Field(
         description="Elliptical or lobed wheels about their foci: mean ratio minus the ratio of their lobes"
     )
     eccentricity: Figure = Field(description="Eccentricity e of the driver's pitch curve, 0 to below 1")
-    lobes: tuple[Lobes, Lobes] = Field((1, 1), description="Numbers of lobes of the driver and of the driven wheel")
     centre_distance: Annotated[Length, above_zero("give a length such as 60 mm")] | None = Field(
         None, description="Distance between the axes, which gives the size of the wheels"
     )
@@ -148,16 +156,6 @@ class EllipticalPair(_VaryingPair):
             what = f"with an eccentricity of {eccentricity.text} the pitch curve does not close"
             raise bad("law", what, "give 0 (a circle) to below 1")
         return eccentricity
-
-    @property
-    def mean(self) -> Fraction:
-        """Mean ratio: minus the lobes of the driver divided by the lobes of the driven wheel."""
-        return -Fraction(*self.lobes)
-
-    @property
-    def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver: its lobes."""
-        return Fraction(self.lobes[0])
 
     @property
     def _root(self) -> float:
@@ -187,14 +185,12 @@ class EllipticalPair(_VaryingPair):
         return f"tan({q}) = {(1 + rho) / (1 - rho):.6g} tan({S})"
 
 
-class PitchCurvePair(_VaryingPair):
+class PitchCurvePair(_LobedPair):
     """Two non-circular wheels in external mesh: the driver has a given pitch curve, and its mate is conjugate to it.
 
     The radii at equal angles over one lobe of the driver, starting at S = 0, are joined by a periodic cubic spline.
     The centre distance C follows from the condition that the mate closes: the mean of r/(C - r) is the mean ratio.
     """
-
-    UNKNOWN = "teeth, friction and backlash"
 
     kind: Literal["pitch_curve"] = Field(
         description="Non-circular wheels by the radii of the driver: mean ratio minus the ratio of their lobes"
@@ -203,7 +199,6 @@ class PitchCurvePair(_VaryingPair):
         description="Radii of the driver's pitch curve at equal angles over one lobe, 4 or more; the first is not "
         "repeated at the end"
     )
-    lobes: tuple[Lobes, Lobes] = Field((1, 1), description="Numbers of lobes of the driver and of the driven wheel")
     phase: Angle | None = Field(
         None,
         description="Angle of the driver at the start, from the position with the first radius on the line of centres; "
@@ -224,16 +219,6 @@ class PitchCurvePair(_VaryingPair):
         return self
 
     @property
-    def mean(self) -> Fraction:
-        """Mean ratio: minus the lobes of the driver divided by the lobes of the driven wheel."""
-        return -Fraction(*self.lobes)
-
-    @property
-    def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver: its lobes."""
-        return Fraction(self.lobes[0])
-
-    @property
     def distance(self) -> float:
         """Distance between the axes [m, or in the unit of plain radii]."""
         from geartrain.teeth.couplings.pitch_curves import mate_distance
@@ -247,10 +232,10 @@ class PitchCurvePair(_VaryingPair):
     @property
     def transmission(self) -> TableTransmission:
         """Transmission function by quadrature of the ratio r/(C - r)."""
-        from geartrain.teeth.couplings.pitch_curves import PitchCurveDeviation
+        from geartrain.teeth.couplings.pitch_curves import mate_deviation
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 
-        deviation = PitchCurveDeviation(self._values, self.distance, 2 * pi / self.lobes[0])
+        deviation, _ = mate_deviation(self._values, self.distance, 2 * pi / self.lobes[0])
         return TableTransmission(-self.mean, deviation, self.start)
 
     @property

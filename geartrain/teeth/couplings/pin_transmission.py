@@ -7,14 +7,14 @@ The driver's angle S is measured from the direction that points from the pin's a
 from __future__ import annotations
 
 from fractions import Fraction
-from math import atan2, inf, nan, pi, sqrt
+from math import inf, nan, sqrt
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.teeth.couplings.series_transmission import SeriesTransmission
-from geartrain.teeth.transmission import TransmissionFunction, check_friction
+from geartrain.teeth.transmission import check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -23,34 +23,28 @@ if TYPE_CHECKING:
 
 
 _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflows nor overflows
-# the mean of a smooth periodic function over equidistant samples is exact to rounding error unless r is close to e
-_SAMPLES = 4096
 
 
-class PinTransmission(TransmissionFunction):
+class PinTransmission(SeriesTransmission):
     """Transmission function of a pin in a slot or in a follower, with either side driving.
+
+    With the pin driving it is a `SeriesTransmission` with rho = min(r, e) / max(r, e). With the slot driving it is the
+    inverse function, which has the same maximum and the same rms of the error.
 
     `friction` is the coefficient of friction of the pin along the slot.
     """
 
     PAGE = "report.pair_page:describe_pin"
 
-    period = 2 * pi
     driver: ClassVar[Literal["pin", "slot"]]
     """Driving side, "pin" or "slot"."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         self.r, self.e, self.friction = pin_radius, offset, friction
         _check(pin_radius, offset, friction)
-
-    @property
-    def amplitude(self) -> float:
-        """Maximum transmission error [rad], equal for both driving sides: arcsin(min(r, e) / max(r, e)), with pin
-        radius r and axis offset e.
-        """
-        less, more = min(self.r, self.e), max(self.r, self.e)
-        # asin would lose half its digits near r = e
-        return atan2(less, sqrt((more - less) * (more + less)))
+        less, more = min(pin_radius, offset), max(pin_radius, offset)
+        ratio, factor = (Fraction(1), 1.0) if pin_radius > offset else (Fraction(0), -1.0)
+        super().__init__(ratio, factor, 1, less / more, (more - less) / more)
 
     @property
     def _maximum_tangent(self) -> float:
@@ -58,19 +52,6 @@ class PinTransmission(TransmissionFunction):
         angle between pin radius and slot, r the pin radius and e the axis offset.
         """
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
-
-    def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], which are minus and plus the amplitude."""
-        return -self.amplitude, self.amplitude
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error, which is 0, and its rms deviation [rad]."""
-        # the error is an odd function of S, so its mean is 0 without computation
-        error = self.error(self._turn_samples())
-        return 0.0, sqrt(float(np.mean(error**2)))
-
-    def _turn_samples(self) -> Floats:
-        return np.arange(_SAMPLES, dtype=np.float64) * (self.period / _SAMPLES)
 
 
 def _check(pin_radius: float, offset: float, friction: float) -> None:
@@ -96,8 +77,8 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
     check_friction(friction)
 
 
-class PinToSlotTransmission(SeriesTransmission, PinTransmission):
-    """Transmission function of a pin that drives a slot, a `SeriesTransmission` with rho = min(r, e) / max(r, e).
+class PinToSlotTransmission(PinTransmission):
+    """Transmission function of a pin that drives a slot.
 
     The slot angle is S + atan2(e sin S, r - e cos S) for r > e, and -atan2(r sin S, e - r cos S) for r < e. The mean
     ratio is 1 if the pin's circle encloses the slot's axis (r > e), otherwise 0. With a mean ratio of 0 the slot is a
@@ -135,12 +116,6 @@ class PinToSlotTransmission(SeriesTransmission, PinTransmission):
     """
 
     driver = "pin"
-
-    def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
-        PinTransmission.__init__(self, pin_radius, offset, friction)
-        less, more = min(pin_radius, offset), max(pin_radius, offset)
-        ratio, factor = (Fraction(1), 1.0) if pin_radius > offset else (Fraction(0), -1.0)
-        SeriesTransmission.__init__(self, ratio, factor, 1, less / more, (more - less) / more)
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Return two distances at driver angles S: r - e cos S, and the square of the distance of the pin from the
@@ -207,7 +182,6 @@ class SlotToPinTransmission(PinTransmission):
     """
 
     driver = "slot"
-    ratio = Fraction(1)
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         super().__init__(pin_radius, offset, friction)
@@ -247,6 +221,12 @@ class SlotToPinTransmission(PinTransmission):
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and maximum speed ratio, 1 - e/r and 1 + e/r, with axis offset e and pin radius r."""
         return 1 - self.e / self.r, 1 + self.e / self.r
+
+    def steepest_fall(self) -> float:
+        """Return the maximum rate at which the speed ratio decreases [1/rad], at a right angle from the line of the
+        axes.
+        """
+        return self._maximum_tangent
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S [rad]; 0 where friction locks the pin.

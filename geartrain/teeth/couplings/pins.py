@@ -10,12 +10,12 @@ Three or more pins in round holes, each wider than its pin by 2 e, keep two link
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import Field, model_validator
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.quantity import Length, Quantity, bad
+from geartrain.numerics.quantity import Length, bad, checked
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, DeclaredRestitution
 from geartrain.teeth.coupling import Coupling
 from geartrain.teeth.tooth_form import check_above_0
@@ -24,16 +24,11 @@ if TYPE_CHECKING:
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, PinTransmission
 
 
-def _integer(raw: object) -> object:
-    """Convert a decimal string to an integer, since a declaration gives numbers as strings."""
-    return int(raw) if isinstance(raw, str) and raw.isdecimal() else raw
-
-
-def _not_negative(length: Quantity) -> Quantity:
-    if length.value < 0:
-        fix = "give 0 or more: a slot is as wide as its pin or wider"
-        raise bad("pin", f"a clearance of {length.text} is negative", fix)
-    return length
+_CLEARANCE = checked(
+    lambda given: given.value >= 0,
+    "a clearance of {text} is negative",
+    "give 0 or more: a slot is as wide as its pin or wider",
+)
 
 
 class PinCoupling(Coupling):
@@ -47,7 +42,7 @@ class PinCoupling(Coupling):
     slot: str = Field(description="Link that has the slot")
     pin_radius: Length | None = Field(None, description="Distance of the pin from the axis of its own link")
     offset: Length | None = Field(None, description="Distance between the axes of the two links")
-    clearance: Annotated[Length, AfterValidator(_not_negative)] | None = Field(
+    clearance: Annotated[Length, _CLEARANCE] | None = Field(
         None, description="Width of the slot minus the diameter of the pin; default 0"
     )
     friction: DeclaredCoulombFriction | None = Field(
@@ -58,10 +53,47 @@ class PinCoupling(Coupling):
         None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default from the train"
     )
 
+
+class _PinInSlot(PinCoupling):
+    """Pin in a slot; over one turn of the pin, the slot turns `WINDING` times."""
+
+    WINDING: ClassVar[int] = 1
+
+    @model_validator(mode="after")
+    def _check_winding(self) -> Self:
+        radius, offset, slack = self.pin_radius, self.offset, self.clearance
+        if radius is None or offset is None:
+            return self
+        if radius.value <= 0 or offset.value < 0:
+            what = f"pin_radius {radius.text} or offset {offset.text} is out of range"
+            raise bad("pin", what, "give a pin_radius above 0 and an offset of 0 or more")
+        # an offset of 0 needs no unit
+        if offset.value and (radius.unit is None) != (offset.unit is None):
+            what = f"pin_radius {radius.text} and offset {offset.text} have a unit in one value only"
+            raise bad("pin", what, "give both with a unit, or both without")
+        # compared as exact fractions, so that equal lengths in different units are recognised
+        r, e = radius.base, offset.base
+        # the slot would reverse its direction at that moment
+        if r == e:
+            raise bad(
+                "pin",
+                f"pin_radius {radius.text} equals the offset: the pin would pass through the slot's axis",
+                "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one",
+            )
+        if (r > e) != bool(self.WINDING):
+            other = "pin_follower" if self.WINDING else "pin_and_slot"
+            what = f"a {self.kind} with pin_radius {radius.text} and offset {offset.text} is a {other}"
+            raise bad("pin", what, f"give `kind: {other}`, or correct the dimensions")
+        # the pin passes the axis of the slot at the minimum distance |r - e|
+        if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
+            what = f"with a clearance of {slack.text} the pin passes the slot's axis without touching the slot"
+            raise bad("pin", what, "give a clearance below twice the difference of pin_radius and offset")
+        return self
+
     @property
-    def ends(self) -> tuple[str, str]:
-        """Link with the pin, and link with the slot."""
-        return self.pin, self.slot
+    def mean(self) -> Fraction:
+        """Mean ratio, which is the winding number of the pin about the slot's axis."""
+        return Fraction(self.WINDING)
 
     @property
     def transmission(self) -> PinToSlotTransmission | None:
@@ -74,31 +106,18 @@ class PinCoupling(Coupling):
         return PinToSlotTransmission(self.pin_radius.si, self.offset.si, friction)
 
 
-class PinAndSlot(PinCoupling):
+class PinAndSlot(_PinInSlot):
     """Pin in a slot whose axis is inside the pin's circle: both links have the same mean speed."""
 
     kind: Literal["pin_and_slot"] = Field(description="Pin whose circle encloses the slot's axis: mean ratio 1")
 
-    @model_validator(mode="after")
-    def _encloses(self) -> PinAndSlot:
-        _check_winding(self, 1)
-        return self
 
-
-class PinFollower(PinCoupling):
+class PinFollower(_PinInSlot):
     """Pin in a slotted follower whose axis is outside the pin's circle: the follower oscillates."""
 
+    WINDING = 0
+
     kind: Literal["pin_follower"] = Field(description="Pin whose circle does not enclose the slot's axis: mean ratio 0")
-
-    @model_validator(mode="after")
-    def _leaves_out(self) -> PinFollower:
-        _check_winding(self, 0)
-        return self
-
-    @property
-    def mean(self) -> Fraction:
-        """Mean ratio 0, because the follower only oscillates."""
-        return Fraction(0)
 
 
 class _ParallelCoupling(PinCoupling):
@@ -115,11 +134,6 @@ class _ParallelCoupling(PinCoupling):
         check_above_0(self, "pin", *(name for name in lengths if name in type(self).model_fields))
         return self
 
-    @property
-    def transmission(self) -> None:
-        """None, because the speed ratio is constant."""
-        return None
-
 
 class PinsInHoles(_ParallelCoupling):
     """Pins in round holes that keep two links parallel, as the output pins of a cycloidal reducer do.
@@ -132,9 +146,7 @@ class PinsInHoles(_ParallelCoupling):
     SIDES = ("holes", "pins")
 
     kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at every instant")
-    pins: Annotated[int, BeforeValidator(_integer)] = Field(
-        6, ge=3, le=1000, description="Number of pins, evenly spaced on their circle"
-    )
+    pins: int = Field(6, ge=3, le=1000, description="Number of pins, evenly spaced on their circle")
     pin_diameter: Length | None = Field(
         None, description="Diameter of the pins; the diameter of the holes is larger by twice `offset`"
     )
@@ -158,38 +170,6 @@ class Parallel(_ParallelCoupling):
             fix = "remove `pin_radius` and `clearance`, or give `kind: pins_in_holes`"
             raise bad("pin", "a coupling of kind parallel has no pin", fix)
         return self
-
-
-def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
-    radius, offset = coupling.pin_radius, coupling.offset
-    if radius is None or offset is None:
-        return
-    if radius.value <= 0 or offset.value < 0:
-        what = f"pin_radius {radius.text} or offset {offset.text} is out of range"
-        raise bad("pin", what, "give a pin_radius above 0 and an offset of 0 or more")
-    # an offset of 0 needs no unit
-    if offset.value and (radius.unit is None) != (offset.unit is None):
-        mixed = "have a unit in one value only"
-        what = f"pin_radius {radius.text} and offset {offset.text} {mixed}"
-        raise bad("pin", what, "give both with a unit, or both without")
-    # compared as exact fractions, so that equal lengths in different units are recognised
-    r, e = radius.base, offset.base
-    # the slot would reverse its direction at that moment
-    if r == e:
-        raise bad(
-            "pin",
-            f"pin_radius {radius.text} equals the offset: the pin would pass through the slot's axis",
-            "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one",
-        )
-    if (r > e) != bool(winding):
-        other = "pin_follower" if winding else "pin_and_slot"
-        what = f"a {coupling.kind} with pin_radius {radius.text} and offset {offset.text} is a {other}"
-        raise bad("pin", what, f"give `kind: {other}`, or correct the dimensions")
-    # the pin passes the axis of the slot at the minimum distance |r - e|
-    slack = coupling.clearance
-    if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
-        what = f"with a clearance of {slack.text} the pin passes the slot's axis without touching the slot"
-        raise bad("pin", what, "give a clearance below twice the difference of pin_radius and offset")
 
 
 def pin_transmission(

@@ -11,38 +11,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    GetJsonSchemaHandler,
-    model_serializer,
-    model_validator,
-)
+from pydantic import BaseModel, BeforeValidator, Field, model_validator
 
 from geartrain.numerics.quantity import Figure, above_zero, bad
+from geartrain.teeth.contact_coefficients import NumberOrKeys
 from geartrain.teeth.coupling import Coupling, CouplingRow, ratio_row
 
 
-class ApproximateRatio(BaseModel):
+class ApproximateRatio(NumberOrKeys):
     """Ratio with its tolerance, if it is not known exactly. A bare number is an exact ratio."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     value: Figure = Field(description="Ratio used in calculations")
     tolerance: Annotated[Figure, above_zero("give a tolerance above 0, or only the ratio")] | None = Field(
         None, description="Maximum deviation of the true ratio from `value`; default none, for an exact ratio"
     )
-
-    @model_serializer(mode="wrap")
-    def _declared(self, handler: Any) -> Any:
-        """Return the ratio as declared: a bare number if it is exact."""
-        return str(self.value) if self.tolerance is None else handler(self)
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return {"anyOf": [{"type": ["number", "string"]}, handler(schema)]}
 
 
 def _ratio(raw: object) -> object:
@@ -64,7 +46,7 @@ class Ratio(Coupling):
     kind: Literal["ratio"] = Field(
         "ratio", description="Pair or planetary set of which only the ratio is known; this key may be omitted"
     )
-    pair: tuple[str, str] = Field(description="First and second link of the ratio")
+    pair: tuple[str, str] = Field(description="First link, which counts as driving, and second link")
     ratio: DeclaredRatio = Field(
         description="Speed of the first link divided by that of the second, relative to the carrier, with its sign: an "
         "exact number, or `{value, tolerance}`"
@@ -88,11 +70,6 @@ class Ratio(Coupling):
             what = f"'{self.carrier}' is the carrier and one of the pair"
             raise bad("ratio", what, "name the third link of the set as `carrier`, or omit it")
         return self
-
-    @property
-    def ends(self) -> tuple[str, str]:
-        """First link, which counts as driving, and second link."""
-        return self.pair
 
     @property
     def mean(self) -> Fraction:

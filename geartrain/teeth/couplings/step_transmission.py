@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import accumulate, pairwise
-from math import acos, pi, sin, sqrt, tan
+from math import copysign, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.periodic_function import PeriodicPieces
+from geartrain.numerics.periodic_function import PeriodicFunction, PeriodicPieces
 from geartrain.teeth.couplings.table_transmission import TableTransmission
-from geartrain.teeth.transmission import LosslessTransmission
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -20,12 +19,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_EARLY = Fraction(
-    1, 10**9
-)  # of the angle between engagements: a step at once is complete if rounding leaves less than this to it
+# of the angle between engagements: a step at once is complete if rounding leaves less than this to it
+_EARLY = Fraction(1, 10**9)
 
 
-class GenevaTransmission(LosslessTransmission):
+class GenevaTransmission(TableTransmission):
     """Transmission function of a Geneva drive, from S = 0 in the middle of a step.
 
     There a pin is on the line of centres: nearest to the other axis for an external drive, farthest for an internal
@@ -49,69 +47,45 @@ class GenevaTransmission(LosslessTransmission):
     """
 
     def __init__(self, slots: int, pins: int = 1, internal: bool = False) -> None:
-        self.slots, self.pins, self.internal = slots, pins, internal
-        self.ratio, self.period = Fraction(pins, slots), 2 * pi / pins
-        self.rho = (-1 if internal else 1) * sin(pi / slots)
-        """Pin radius divided by the distance of the axes, negative for an internal drive."""
-        self.alpha = pi / 2 + (1 if internal else -1) * pi / slots
+        side = -1 if internal else 1
+        self.alpha = pi / 2 - side * pi / slots
         """Driver angle from the middle of a step to its end [rad]."""
-        self.dwell = 1 - pins * (Fraction(1, 2) + Fraction(1 if internal else -1, slots))
+        self.dwell = 1 - pins * (Fraction(1, 2) - Fraction(side, slots))
+        period = 2 * pi / pins
+        # pins that follow each other without a rest end one step where the next one begins
+        kinks = [self.alpha, period - self.alpha] if self.dwell else [self.alpha]
+        deviation = _GenevaDeviation(side * sin(pi / slots), self.alpha, pins / slots, period, kinks)
+        super().__init__(Fraction(pins, slots), deviation)
 
-    def _from_middle(self, S: ArrayLike) -> Floats:
-        """Return driver angles modulo the period, between plus and minus half a period [rad]."""
-        S = np.asarray(S, dtype=float)
-        return np.asarray(S - self.period * np.rint(S / self.period))
+    def mirrored(self) -> GenevaTransmission:
+        """Return the function itself, because its deviation is odd."""
+        return self
 
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven side] at driver angles S [rad]."""
-        u = self._from_middle(S)
+
+class _GenevaDeviation(PeriodicFunction):
+    """Deviation of a Geneva drive from uniform motion: -Im log(1 - rho exp(i S)) - mean S during a step.
+
+    rho     pin radius divided by the distance of the axes, negative for an internal drive
+    alpha   driver angle from the middle of a step to its end [rad]
+    mean    mean speed ratio
+    """
+
+    def __init__(self, rho: float, alpha: float, mean: float, period: float, kinks: list[float]) -> None:
+        self.rho, self.alpha, self.mean, self.period = rho, alpha, mean, period
+        self.breakpoints, self.resolution = np.array(kinks), period / 32
+
+    def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
+        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        x = np.asarray(x, dtype=float)
+        u = x - self.period * np.rint(x / self.period)
         # at rest the angle is the angle at the end of the step
-        v = np.clip(u, -self.alpha, self.alpha)
-        angle = np.arctan2(abs(self.rho) * np.sin(v), 1 - self.rho * np.cos(v))
-        return np.asarray(angle - float(self.ratio) * u)
-
-    def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S [rad], which is 0 at rest."""
-        u = self._from_middle(S)
-        cos = np.cos(u)
-        speed = abs(self.rho) * (cos - self.rho) / (1 - 2 * self.rho * cos + self.rho**2)
-        return np.where(np.abs(u) < self.alpha, speed, 0.0)
-
-    def speed_range(self) -> tuple[float, float]:
-        """Return 0 and the maximum speed ratio, in the middle of a step."""
-        # pins that follow each other without a rest still have a speed of 0 between two steps
-        return 0.0, abs(self.rho) / (1 - self.rho)
-
-    def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], at the driver angles of mean speed."""
-        m, square = float(self.ratio), self.rho**2
-        side = -1 if self.internal else 1
-        S = acos((m * (1 + square) + side * square) / (abs(self.rho) * (1 + 2 * side * m)))
-        most = float(self.error(S))
-        return -most, most
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error, which is 0 by symmetry, and its rms value [rad], by Gauss-Legendre
-        quadrature over the smooth pieces.
-        """
-        S, weights = self.graded_nodes(lambda S: self.error(S) ** 2)
-        return 0.0, sqrt(float(weights @ self.error(S) ** 2))
-
-    def kinks(self) -> list[float]:
-        """Return the driver angles at which a step begins and ends [rad], where the acceleration jumps."""
-        return [-self.alpha, self.alpha]
-
-    def speed_leaps(self) -> tuple[()]:
-        """Return no jumps, because a pin enters its slot along it, without impact."""
-        return ()
-
-    def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad]."""
-        if self.internal:
-            return tan(pi / self.slots)  # at the end of the step
-        square = self.rho**2
-        cos = (sqrt((1 + square) ** 2 + 32 * square) - (1 + square)) / (4 * self.rho)
-        return self.rho * (1 - square) * sqrt(1 - cos**2) / (1 - 2 * self.rho * cos + square) ** 2
+        w = self.rho * np.exp(1j * np.clip(u, -self.alpha, self.alpha))
+        side = copysign(1, self.rho)
+        if order == 0:
+            return np.asarray(side * np.arctan2(w.imag, 1 - w.real) - self.mean * u)
+        share = w / (1 - w)
+        slope = (1j * share, -share / (1 - w), -1j * share * (1 + w) / (1 - w) ** 2)[order - 1].imag
+        return np.where(np.abs(u) < self.alpha, side * slope, 0.0) - (self.mean if order == 1 else 0.0)
 
 
 class StepTransmission(TableTransmission):

@@ -11,14 +11,14 @@ All other kinds move the driven link by whole teeth, at once or evenly over an a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from geartrain.numerics.exact import plural
+from geartrain.numerics.plain_values import Boolean
 from geartrain.numerics.quantity import Angle, Energy, bad, not_below_zero
 from geartrain.teeth.coupling import Coupling
 
@@ -34,22 +34,11 @@ def _moves(raw: object) -> object:
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 
-def _any_move(moves: Sequence[int]) -> Sequence[int]:
-    if not any(moves):
-        raise bad("step", "the driven link never moves", "give `moves` of 0 or more, and at least one above 0")
-    return moves
-
-
 _Moves = Annotated[
     tuple[Annotated[int, Field(ge=0)], ...],
     BeforeValidator(_moves),
-    AfterValidator(_any_move),
     WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "array", "items": {"type": "integer"}}]}),
 ]
-
-
-def _times(number: Fraction) -> str:
-    return "once" if number == 1 else f"{number} times"
 
 
 class SteppingCoupling(Coupling):
@@ -60,14 +49,9 @@ class SteppingCoupling(Coupling):
     UNKNOWN = "friction of pin, finger and lock; impacts where the lock stops the driven link"
 
     pair: tuple[str, str] = Field(description="Driving link, and the link that moves by steps")
-    internal: bool = Field(
+    internal: Boolean = Field(
         False, description="True if both links turn in the same sense; by default they turn in opposite senses"
     )
-
-    @property
-    def ends(self) -> tuple[str, str]:
-        """Driving link and driven link."""
-        return self.pair
 
     @property
     def mean(self) -> Fraction:
@@ -80,14 +64,10 @@ class SteppingCoupling(Coupling):
         raise NotImplementedError
 
     @property
-    def moving(self) -> Fraction:
-        """Fraction of the driver's revolution during which the driven link moves; 0 for steps at once."""
-        raise NotImplementedError
-
-    @property
     def remark(self) -> str:
         """Fraction of the time during which the driven link moves, in words."""
-        return f"moves {self.moving} of the time" if self.moving < 1 else ""
+        dwell = self.transmission.dwell if self.transmission else 0
+        return f"moves {1 - dwell} of the time" if dwell else ""
 
 
 class Geneva(SteppingCoupling):
@@ -99,8 +79,8 @@ class Geneva(SteppingCoupling):
 
     @model_validator(mode="after")
     def _check_pins(self) -> Geneva:
-        if self.moving > 1:
-            most = int(1 / self._share)
+        most = int(1 / (Fraction(1, 2) + Fraction(1 if self.internal else -1, self.slots)))
+        if self.pins > most:
             what = f"{self.pins} pins would meet {self.slots} slots at once: at most {most}"
             raise bad("geneva", what, f"give `pins: {most}` or fewer, or another number of slots")
         return self
@@ -109,16 +89,6 @@ class Geneva(SteppingCoupling):
     def turns(self) -> Fraction:
         """Number of pins divided by the number of slots."""
         return Fraction(self.pins, self.slots)
-
-    @property
-    def _share(self) -> Fraction:
-        """Fraction of the driver's revolution during which one pin is in a slot."""
-        return Fraction(1, 2) + Fraction(1 if self.internal else -1, self.slots)
-
-    @property
-    def moving(self) -> Fraction:
-        """Fraction of the driver's revolution during which a pin is in a slot."""
-        return self.pins * self._share
 
     @property
     def about(self) -> str:
@@ -166,6 +136,8 @@ class Step(SteppingCoupling):
 
     @model_validator(mode="after")
     def _check_moves(self) -> Step:
+        if not any(self.moves):
+            raise bad("step", "the driven link never moves", "give `moves` of 0 or more, and at least one above 0")
         if max(self.moves) > self.teeth:
             what = f"{max(self.moves)} teeth in one engagement are more than the {self.teeth} teeth of the wheel"
             raise bad("step", what, f"give `moves` of at most {self.teeth}")
@@ -186,16 +158,12 @@ class Step(SteppingCoupling):
         return Fraction(self.times * sum(self.moves), len(self.moves) * self.teeth)
 
     @property
-    def moving(self) -> Fraction:
-        """Fraction of the driver's revolution during which the teeth move; 0 for steps at once."""
-        moved = sum(1 for each in self.moves if each)
-        return self.moving_angle * self.times * Fraction(moved, len(self.moves))
-
-    @property
     def remark(self) -> str:
         """Number of steps at once, or the fraction of the time during which the driven link moves, in words."""
+        if self.moving_angle:
+            return super().remark
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))
-        return super().remark if self.moving else f"moves at once, {_times(steps)} a turn of the driver"
+        return f"moves at once, {'once' if steps == 1 else f'{steps} times'} a turn of the driver"
 
     @property
     def about(self) -> str:

@@ -1,100 +1,172 @@
-"""Transmission functions whose deviation from uniform motion is a periodic function, by a table or by harmonics."""
+"""Transmission functions whose deviation from uniform motion is a periodic function: by points, harmonics or formulas.
+
+With S the forward angle of the side to which the deviation d refers and m the mean speed ratio, the other side is at
+q = m S + d(S). If that side drives, its angle q is given, and S is the root of this equation. The error is then
+S - q/m = -d(S)/m, and the speed ratio is 1/(m + d'(S)).
+"""
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.transmission import LosslessTransmission, SpeedLeap
+from geartrain.numerics.roots import roots_by_false_position
+from geartrain.teeth.transmission import LosslessTransmission, SpeedLeap, TransmissionFunction
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.periodic_function import PeriodicFunction
 
+_CLOSE = 4e-16  # periods: distance at which the search for the driving angle ends
 _SLIGHT = 1e-9  # of the range of a quantity: smaller jumps are rounding error
 
 
-class TableTransmission(LosslessTransmission):
-    """Transmission function q = m S + d(S + phase) with a periodic deviation d from uniform motion.
+class DeviationTransmission(TransmissionFunction):
+    """Transmission function with a periodic deviation from uniform motion, or its inverse function.
 
     Parameters
     ----------
-    ratio : Fraction
-        Mean speed ratio m, without sign.
+    mean : Fraction
+        Mean speed ratio m of the function, without sign.
     deviation : PeriodicFunction
-        Deviation d [rad of the driven side] as a function of the driver's angle [rad].
-    phase : float, optional
-        Angle of the driver at S = 0 [rad], default 0.
-    way : int, optional
-        -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S). Default 1.
+        Deviation d [rad of the other side] as a function of the angle [rad] of the side to which it refers.
+    phase : float
+        Angle in the deviation at S = 0 [rad].
+    way : {1, -1}
+        -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S).
+    inverse : bool
+        True if the other side drives.
+    direction : {1, -1}
+        Direction of rotation.
+    lag : float
+        Constant that is added to the transmission error [rad of the driven side].
     """
 
-    def __init__(self, ratio: Fraction, deviation: PeriodicFunction, phase: float = 0.0, way: int = 1) -> None:
-        self.ratio, self.deviation, self.phase, self.way = ratio, deviation, phase, way
-        self.period = deviation.period
+    def __init__(
+        self,
+        mean: Fraction,
+        deviation: PeriodicFunction,
+        phase: float = 0.0,
+        way: int = 1,
+        inverse: bool = False,
+        direction: int = 1,
+        lag: float = 0.0,
+    ) -> None:
+        self.deviation, self.inverse, self.phase, self.way, self.direction = deviation, inverse, phase, way, direction
+        self._mean, self._lag = float(mean), lag
+        self.ratio = 1 / mean if inverse else mean
+        self.period = deviation.period * (self._mean if inverse else 1.0)
         self.waves = max(1, ceil(deviation.waves))
-        self.at_once = bool(self._leaps(0).any())
+        # errors of the driven side per deviation
+        self._scale = -1 / self._mean if inverse else float(way)
 
-    def mirrored(self) -> TableTransmission:
-        """Return the function for a driver whose forward sense is reversed."""
-        return TableTransmission(self.ratio, self.deviation, self.phase, -self.way)
+    def _own_angle(self, S: ArrayLike) -> Floats:
+        """Return the angle in the deviation [rad], modulo its period, at driver angles S."""
+        S = np.asarray(S, dtype=float)
+        if not self.inverse:
+            return np.asarray(self.way * S + self.phase)
+        q, (low, high) = np.mod(S, self.period).ravel(), self._extremes
 
-    def _angle(self, S: ArrayLike) -> Floats:
-        return np.asarray(self.way * np.asarray(S, dtype=float) + self.phase)
+        def beyond(x: Floats, which: NDArray[np.intp]) -> Floats:
+            return np.asarray(self._mean * x + self.deviation(x) - q[which])
+
+        first, last = (q - high) / self._mean, (q - low) / self._mean
+        every = np.arange(len(q))
+        close = _CLOSE * self.deviation.period
+        found = roots_by_false_position(beyond, first, last, beyond(first, every), beyond(last, every), close)
+        return found.reshape(S.shape)
+
+    @cached_property
+    def _extremes(self) -> tuple[float, float]:
+        return self.deviation.extremes()
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the deviation from uniform motion at driver angles S [rad of the driven side]."""
-        return self.way * self.deviation(self._angle(S))
+        """Return the transmission error [rad of the driven side] at driver angles S."""
+        return self._scale * self.deviation(self._own_angle(S)) + self._lag
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at driver angles S."""
-        return float(self.ratio) + self.deviation.derivative(self._angle(S))
+        return self._speed(self.deviation.derivative(self._own_angle(S)))
+
+    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """Return the transmission error [rad of the driven side] and the speed ratio at driver angles S."""
+        at = self._own_angle(S)
+        return self._scale * self.deviation(at) + self._lag, self._speed(self.deviation.derivative(at))
+
+    def _speed(self, slope: ArrayLike) -> Floats:
+        """Return the speed ratio for slopes of the deviation."""
+        own = self._mean + np.asarray(slope)
+        return np.asarray(1 / own if self.inverse else own)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio; jumps of the driven angle are not included."""
-        low, high = self.deviation.extremes(1)
-        return float(self.ratio) + low, float(self.ratio) + high
+        """Return the minimum and the maximum speed ratio over a period; jumps of the driven angle are not included."""
+        low, high = sorted(self._speed(self.deviation.extremes(1)).tolist())
+        return low, high
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum deviation from uniform motion [rad of the driven side]."""
-        low, high = sorted(self.way * each for each in self.deviation.extremes())
+        """Return the minimum and the maximum transmission error over a period [rad of the driven side]."""
+        low, high = sorted(self._scale * each + self._lag for each in self._extremes)
         return low, high
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the deviation from uniform motion, and its rms value about the mean [rad]."""
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side]."""
+        # the means of d and d^2 over S and over q are equal, because those of d d' and d^2 d' are 0
         mean, rms = self.deviation.moments()
-        return self.way * mean, rms
+        return self._scale * mean + self._lag, abs(self._scale) * rms
+
+    @property
+    def _breakpoints(self) -> Floats:
+        """Angles in the deviation at which the function or one of its derivatives is discontinuous [rad]."""
+        return self.deviation.breakpoints
 
     def kinks(self) -> list[float]:
-        """Return the driver angles at which the deviation or one of its derivatives is discontinuous [rad]."""
-        return [self.way * (float(each) - self.phase) for each in self.deviation.breakpoints]
+        """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous."""
+        at = self._breakpoints
+        driver = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
+        found: list[float] = driver.tolist()
+        return found
 
-    def _leaps(self, order: int) -> Floats:
+    def _jumps(self, order: int) -> Floats:
         """Return the jumps of a derivative of the deviation at its breakpoints, 0 if they are rounding error."""
         before, after = self.deviation.sides(order)
         low, high = self.deviation.extremes(order)
         return np.where(np.abs(after - before) > _SLIGHT * (high - low), after - before, 0.0)
 
+    @cached_property
+    def at_once(self) -> bool:  # type: ignore[override]
+        """True if the driven side moves at once, so that the transmission error is discontinuous."""
+        return bool(self._jumps(0).any())
+
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio."""
-        # the speed ratio follows the angle or, backwards, is passed in the opposite order
-        rises = self.way * self._leaps(1) > 0
-        before, after = self.deviation.sides(1)[:: self.way]
-        mean = float(self.ratio)
-        return tuple(
-            SpeedLeap(mean + float(low), mean + float(high))
-            for low, high in zip(before[rises], after[rises], strict=True)
-        )
+        """Return the upward steps of the speed ratio in the direction of motion within one period."""
+        sides = [self._speed(each[self._jumps(1) != 0]) for each in self.deviation.sides(1)]
+        pairs = zip(*(each.tolist() for each in sides[:: self.way * self.direction]), strict=True)
+        return tuple(SpeedLeap(before, after) for before, after in pairs if after > before)
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum rate at which the speed ratio decreases [1/rad]; None if it decreases abruptly."""
-        if self.at_once or (self.way * self._leaps(1) < 0).any():
+        """Return the maximum of -d(speed ratio)/dS between jumps [1/rad]; None for the inverse function, or if the
+        driver turns backwards.
+        """
+        if self.inverse or self.direction < 0:
             return None
         low, high = self.deviation.extremes(2)
         return max(0.0, -low if self.way > 0 else high)
+
+
+class TableTransmission(DeviationTransmission, LosslessTransmission):
+    """Transmission function of a coupling with a periodic deviation from uniform motion."""
+
+    def mirrored(self) -> TableTransmission:
+        """Return the function for a driver whose forward sense is reversed."""
+        return TableTransmission(self.ratio, self.deviation, self.phase, -self.way)
+
+    def steepest_fall(self) -> float | None:
+        """Return the maximum rate at which the speed ratio decreases [1/rad]; None if it decreases abruptly."""
+        return None if self.at_once or (self.way * self._jumps(1) < 0).any() else super().steepest_fall()

@@ -12,33 +12,15 @@ from fractions import Fraction
 from math import atan, cos, pi, tan
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field, model_validator
 
 from geartrain.numerics.multiples_of_pi import PI
+from geartrain.numerics.plain_values import Boolean, whole_from
 from geartrain.numerics.quantity import Angle, MeasuredLength, above_zero, bad, below_right_angle, millimetres
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, Efficiencies
 from geartrain.teeth.coupling import Coupling
 
-_MOST = 10**6  # teeth of a pinion, and falls of a line
-
-
-def _number(raw: object) -> object:
-    """Read a positive whole number, since a declaration gives numbers as strings."""
-    number = int(raw) if isinstance(raw, str) and raw.isascii() and raw.isdigit() and len(raw) < 9 else raw
-    if isinstance(number, bool) or not isinstance(number, int) or not 0 < number <= _MOST:
-        raise bad("travel", f"'{raw}' is not a number of teeth or falls", f"give a whole number from 1 to {_MOST:,}")
-    return number
-
-
-def _flag(raw: object) -> object:
-    found = {"true": True, "false": False}.get(raw.lower()) if isinstance(raw, str) else raw
-    if not isinstance(found, bool):
-        raise bad("travel", f"'{raw}' is neither true nor false", "write true or false")
-    return found
-
-
-Number = Annotated[int, BeforeValidator(_number)]
-Flag = Annotated[bool, BeforeValidator(_flag)]
+Number = Annotated[int, whole_from(1, 10**6, "teeth or falls")]
 
 
 class TravelCoupling(Coupling):
@@ -50,11 +32,6 @@ class TravelCoupling(Coupling):
 
     turns: str = Field(description="Link that turns: pinion, screw, drum or crank")
     slides: str = Field(description="Link that slides, or the link on which the carrier of the turning link slides")
-
-    @property
-    def ends(self) -> tuple[str, str]:
-        """Link that turns, and link that slides."""
-        return self.turns, self.slides
 
 
 class Rack(TravelCoupling):
@@ -68,7 +45,7 @@ class Rack(TravelCoupling):
     pitch: Annotated[MeasuredLength, above_zero("give a pitch such as 5 mm")] | None = Field(
         None, description="Pitch of the rack, instead of the module"
     )
-    reversed: Flag = Field(False, description="True if the rack moves backwards when the pinion turns forwards")
+    reversed: Boolean = Field(False, description="True if the rack moves backwards when the pinion turns forwards")
 
     @model_validator(mode="after")
     def _has_size(self) -> Rack:
@@ -79,8 +56,8 @@ class Rack(TravelCoupling):
     @property
     def mean(self) -> Fraction:
         """Travel of the rack per revolution of the pinion [mm]."""
-        size = millimetres(self.pitch) if self.module is None and self.pitch else PI * millimetres(self.module)  # type: ignore[arg-type]
-        return size * self.teeth * (-1 if self.reversed else 1)
+        pitch = PI * millimetres(self.module) if self.module else millimetres(self.pitch)  # type: ignore[arg-type]
+        return pitch * self.teeth * (-1 if self.reversed else 1)
 
 
 class Screw(TravelCoupling):
@@ -152,7 +129,7 @@ class Drum(TravelCoupling):
         description="Diameter of the drum plus the thickness of the line"
     )
     falls: Number = Field(1, description="Number of parts of the line that carry the load: 2 with one loose pulley")
-    reversed: Flag = Field(False, description="True if the load moves backwards when the drum turns forwards")
+    reversed: Boolean = Field(False, description="True if the load moves backwards when the drum turns forwards")
 
     @property
     def mean(self) -> Fraction:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from itertools import pairwise
-from math import inf, nan, sqrt
+from math import inf, nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -272,14 +272,6 @@ class TriangularTransmission(ToothTransmission):
         if self.direction > 0:
             return -max(lags), -min(lags)
         return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven wheel]."""
-        S, weights = self.graded_nodes(self.speed)
-        error = self.error(S)
-        mean = float(weights @ error)
-        # two passes: the mean of squares minus the square of the mean would cancel
-        return mean, sqrt(float(weights @ (error - mean) ** 2))
 
     def _samples(self) -> Iterator[tuple[str, Floats]]:
         """Yield the phase of contact and 101 angles alpha_1 of the driver's apex [rad] for each smooth interval in

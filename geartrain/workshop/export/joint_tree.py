@@ -61,23 +61,21 @@ def to_mjcf(work: SolidModel) -> str:
     root = Element("mujoco", model=work.train.name)
     SubElement(root, "compiler", angle="radian")
     SubElement(root, "option", gravity="0 0 0", integrator="implicitfast")  # stable with stiff drives
+    moving = [body for body in bodies if body.parent is not None]
     nodes = {body.id: SubElement(root, "worldbody") for body in bodies if body.parent is None}
-    waiting = [body for body in bodies if body.parent is not None]
-    while waiting:
-        body = waiting.pop(next(at for at, each in enumerate(waiting) if bodies[each.parent or 0].id in nodes))
-        parent = bodies[body.parent or 0]
-        node = nodes[body.id] = SubElement(nodes[parent.id], "body", name=body.id, pos=_metres(body, parent))
+    for body in moving:
+        node = nodes[body.id] = Element("body", name=body.id, pos=_metres(body, bodies[body.parent or 0]))
         SubElement(node, "inertial", pos="0 0 0", mass=_MASS, diaginertia=" ".join([_INERTIA] * 3))
         SubElement(node, "joint", name=body.id, type="hinge", axis=_numbers(body.direction))
+    for body in moving:
+        nodes[bodies[body.parent or 0].id].append(nodes[body.id])
     tendons, equality = Element("tendon"), Element("equality")
     for label, terms in _constraints(work):
-        (first, a), *others = terms.items()
-        if not others:
-            SubElement(equality, "joint", name=label, joint1=first, polycoef="0 0 0 0 0")
-        elif len(others) == 1:
-            ((second, b),) = others
-            ratio = f"0 {float(-b / a)} 0 0 0"
-            SubElement(equality, "joint", name=label, joint1=first, joint2=second, polycoef=ratio)
+        a, *others = terms.values()
+        if len(terms) <= 2:
+            joints = dict(zip(("joint1", "joint2"), terms, strict=False))
+            slope = float(-sum(others) / a)
+            SubElement(equality, "joint", {"name": label, **joints, "polycoef": f"0 {slope} 0 0 0"})
         else:
             tendon = SubElement(tendons, "fixed", name=label)
             for joint, each in terms.items():

@@ -10,17 +10,38 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
+from math import isfinite
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 from xml.etree import ElementTree
 from zipfile import BadZipFile, ZipFile
 
 from geartrain.errors import GearTrainError, Problem
 
-_UNREADABLE = (ValueError, ElementTree.ParseError, BadZipFile, RecursionError)
+_UNREADABLE = (LookupError, TypeError, AttributeError, ArithmeticError, ValueError, RecursionError)
 Model = dict[str, Any]
 """Model as in a JSON file: metadata, `relations`, `components`, and perhaps `load_spectrum`."""
+Attributes = Mapping[str, Any]
+"""Values of attributes by name."""
 
+_NAMES = {
+    ("floating_point_array", "mm"): "u_axis_vector support_vector w_axis_vector",
+    ("floating_point", "mm"): "normal_module axial_module face_width center_distance u_coordinate_on_shaft",
+    ("floating_point", "deg"): "helix_angle_reference_diameter normal_pressure_angle pitch_angle",
+    ("floating_point", "N m"): "torque_around_u_axis "
+    "torque_acting_on_inner_component_u torque_acting_on_outer_component_u",
+    ("floating_point", "1 / min"): "rotational_speed",
+    ("floating_point", "kW"): "power",
+    ("floating_point", ""): "addendum_modification_coefficient",
+    ("integer", ""): "number_of_teeth number_of_gears gear_shift_index",
+    ("boolean", ""): "defines_speed defines_torque transmits_torque is_driving_gear",
+    ("boolean_array", ""): "is_engaged",
+    ("reference_component", ""): "reference_component_for_position",
+}
+_ATTRIBUTES = {name: kind for kind, names in _NAMES.items() for name in names.split()}
+"""Type and unit of the attributes that are written or read."""
+_OTHER_UNITS = {"deg": ("°", "rad"), "1 / min": ("rad / s",)}
+"""Units that are read as well, in older files and of other programs."""
 _ROLES: Mapping[str, Sequence[str]] = {
     **{"assembly": ("assembly", "part"), "side": ("assembly", "inner_part", "outer_part")},
     **{"stage": ("stage", "gear_1", "gear_2"), "flank": ("gear", "left")},
@@ -31,19 +52,6 @@ _ROLES: Mapping[str, Sequence[str]] = {
 _EXPORT = "export the gear unit again as REXS 1.0 to 1.4, in JSON (.rexsj) or XML (.rexs)"
 
 
-class RexsValue(NamedTuple):
-    """Value of an attribute with its unit."""
-
-    value: Any
-    """Text, number, boolean, or list of these; in XML all scalars are text."""
-    unit: str = ""
-    """Unit as written in the file; empty for `none`."""
-
-
-LoadCase = Mapping[int, Mapping[str, RexsValue]]
-"""Attributes of components in one load case, by the id of the component."""
-
-
 @dataclass(frozen=True, slots=True)
 class RexsComponent:
     """Component of a gear unit, such as a shaft, a gear or a stage."""
@@ -51,7 +59,7 @@ class RexsComponent:
     id: int
     type: str
     name: str
-    attributes: Mapping[str, RexsValue]
+    attributes: Attributes
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,26 +72,34 @@ class RexsDocument:
     """Program that wrote the file, and the version of REXS."""
     components: Mapping[int, RexsComponent]
     """Components by id, in the order of the file."""
-    relations: tuple[tuple[str, Mapping[str, int]], ...]
-    """Relations: type, and id of the component in each role."""
-    cases: tuple[LoadCase, ...]
-    """Load cases."""
-
-    def related(self, kind: str) -> Iterator[Mapping[str, int]]:
-        """Yield the components of all relations of one type, by role."""
-        return (roles for each, roles in self.relations if each == kind)
+    relations: Mapping[str, Sequence[tuple[int, ...]]]
+    """Ids of the components of each relation in the order of `_ROLES`, by type of relation."""
+    cases: Sequence[Mapping[int, Attributes]]
+    """Attributes of components in each load case, by id of the component."""
+    units: Mapping[str, str]
+    """Unit of each attribute as written in the file; empty for numbers and flags."""
 
     def parts(self, assembly: int, kind: str) -> list[int]:
         """Return the components of one type that are assembled into a component."""
-        found = (roles["part"] for roles in self.related("assembly") if roles["assembly"] == assembly)
+        found = (part for whole, part in self.relations["assembly"] if whole == assembly)
         return [part for part in found if self.components[part].type == kind]
 
-    def of_type(self, *kinds: str) -> list[RexsComponent]:
+    def of_type(self, *kinds: str) -> list[int]:
         """Return the components of the given types."""
-        return [each for each in self.components.values() if each.type in kinds]
+        return [each.id for each in self.components.values() if each.type in kinds]
 
 
-# --------------------------------------------------------------------------------------------------------------- files
+# ------------------------------------------------------------------------------------------------------------- writing
+
+
+def written(attributes: Attributes) -> list[Model]:
+    """Return attributes with their types and units as in a JSON file; attributes that are None are omitted."""
+    found = []
+    for name, value in attributes.items():
+        kind, unit = _ATTRIBUTES[name]
+        if value is not None:
+            found.append({"id": name, **({"unit": unit} if unit else {}), kind: value})
+    return found
 
 
 def to_json(model: Model) -> str:
@@ -94,39 +110,37 @@ def to_json(model: Model) -> str:
 
 def to_xml(model: Model) -> str:
     """Return a model as XML file, with the byte order mark that REXS 1.4 requires."""
-    root = ElementTree.Element("model", {key: value for key, value in model.items() if isinstance(value, str)})
-    relations = ElementTree.SubElement(root, "relations")
-    for relation in model["relations"]:
-        node = ElementTree.SubElement(relations, "relation", id=str(relation["id"]), type=relation["type"])
-        for ref in relation["refs"]:
-            ElementTree.SubElement(node, "ref", {key: str(value) for key, value in ref.items()})
-    _add_components(ElementTree.SubElement(root, "components"), model)
-    if spectrum := model.get("load_spectrum"):
-        cases = ElementTree.SubElement(root, "load_spectrum", id=str(spectrum["id"]))
-        for case in spectrum["load_cases"]:
-            _add_components(ElementTree.SubElement(cases, "load_case", id=str(case["id"])), case)
+    root = _element("model", model)
     ElementTree.indent(root)
     return f'\ufeff<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
 
-def _add_components(node: ElementTree.Element, model: Model) -> None:
-    for part in model["components"]:
-        names = {key: str(part[key]) for key in ("id", "type", "name") if key in part}
-        component = ElementTree.SubElement(node, "component", names)
-        for given in part["attributes"]:
-            head = {key: value for key, value in given.items() if key in ("id", "unit")}
-            attribute = ElementTree.SubElement(component, "attribute", head)
-            (value,) = (value for key, value in given.items() if key not in head)
-            if isinstance(value, list):
-                values = ElementTree.SubElement(attribute, "array")
-                for each in value:
-                    ElementTree.SubElement(values, "c").text = _scalar(each)
-            else:
-                attribute.text = _scalar(value)
+def _element(tag: str, content: Any) -> ElementTree.Element:
+    """Return a part of a JSON file as an XML element."""
+    node = ElementTree.Element(tag)
+    if not isinstance(content, dict):
+        node.text = _scalar(content)
+        return node
+    for key, value in content.items():
+        if isinstance(value, dict):
+            node.append(_element(key, value))
+        elif isinstance(value, list):
+            name, item = ("array", "c") if tag == "attribute" else (key, key[:-1])
+            # other lists have no element of their own
+            inside = ElementTree.SubElement(node, name) if tag in ("model", "attribute") else node
+            inside.extend(_element(item, each) for each in value)
+        elif tag == "attribute" and key not in ("id", "unit"):
+            node.text = _scalar(value)
+        else:
+            node.set(key, _scalar(value))
+    return node
 
 
 def _scalar(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+# ------------------------------------------------------------------------------------------------------------- reading
 
 
 def read_document(path: Path) -> RexsDocument:
@@ -144,8 +158,10 @@ def read_document(path: Path) -> RexsDocument:
         text = _unpacked(data).decode("utf-8-sig").lstrip()
         model = _from_xml(text) if text.startswith("<") else json.loads(text)["model"]
         return _document(model, place)
-    except (LookupError, TypeError, AttributeError, ArithmeticError, *_UNREADABLE) as error:
-        raise GearTrainError(Problem("this is not a REXS model", _reason(error), _EXPORT, place)) from None
+    except (*_UNREADABLE, ElementTree.ParseError, BadZipFile) as error:
+        missing = f"key '{error.args[0]}' is missing" if isinstance(error, KeyError) else ""
+        why = missing or str(error) or type(error).__name__
+        raise GearTrainError(Problem("this is not a REXS model", why, _EXPORT, place)) from None
 
 
 def _unpacked(data: bytes) -> bytes:
@@ -161,10 +177,6 @@ def _unpacked(data: bytes) -> bytes:
         return archive.read(names[0])
 
 
-def _reason(error: Exception) -> str:
-    return f"key '{error.args[0]}' is missing" if isinstance(error, KeyError) else str(error) or type(error).__name__
-
-
 def _from_xml(text: str) -> Model:
     """Return the model of an XML file in the structure of a JSON file."""
     # entities could expand to an endless text, and REXS has none
@@ -173,58 +185,73 @@ def _from_xml(text: str) -> Model:
     root = ElementTree.fromstring(text)
     if root.tag != "model":
         raise ValueError(f"the root element is <{root.tag}>, not <model>")
-    cases = [{"components": _components(case)} for case in root.findall("load_spectrum/load_case")]
-    relations = [
-        {"id": node.get("id"), "type": node.get("type"), "refs": [ref.attrib for ref in node.findall("ref")]}
-        for node in root.findall("relations/relation")
-    ]
-    found = {"relations": relations, "components": _components(root.find("components"))}
-    return {**root.attrib, **found, "load_spectrum": {"load_cases": cases}}
+    return _object(root)
 
 
-def _components(node: ElementTree.Element | None) -> list[Model]:
-    return [
-        {**part.attrib, "attributes": [_attribute(each) for each in part.findall("attribute")]}
-        for part in (() if node is None else node.findall("component"))
-    ]
-
-
-def _attribute(node: ElementTree.Element) -> Model:
-    values, value = node.find("array"), (node.text or "").strip()
-    if values is None:
-        return {**node.attrib, "value": value}
-    return {**node.attrib, "value": [(each.text or "").strip() for each in values.findall("c")]}
+def _object(node: ElementTree.Element) -> Model:
+    """Return an XML element as an object of a JSON file; the value of an attribute has the key `value`."""
+    found: Model = dict(node.attrib)
+    if node.tag == "attribute":
+        values = node.find("array")
+        texts = [(each.text or "").strip() for each in ([node] if values is None else values.findall("c"))]
+        return {**found, "value": texts[0] if values is None else texts}
+    for child in node:
+        if child.tag in ("relations", "components"):
+            found[child.tag] = [_object(each) for each in child]
+        elif child.tag == "load_spectrum":
+            found[child.tag] = _object(child)
+        else:
+            found.setdefault(f"{child.tag}s", []).append(_object(child))
+    return found
 
 
 def _document(model: Model, place: str) -> RexsDocument:
-    components = {}
+    components: dict[int, RexsComponent] = {}
+    units: dict[str, str] = {}
     for part in model["components"]:
         number = int(part["id"])
         if number in components:
             raise ValueError(f"two components have the id {number}")
         name = str(part.get("name") or "")
-        components[number] = RexsComponent(number, str(part["type"]), name, _values(part))
-    relations = tuple(
-        (str(each["type"]), {str(ref["role"]): int(ref["id"]) for ref in each["refs"]}) for each in model["relations"]
-    )
-    for kind, roles in relations:
-        if missing := [role for role in _ROLES.get(kind, ()) if role not in roles]:
-            raise ValueError(f"a relation '{kind}' has no role '{missing[0]}'")
-        for role, number in roles.items():
-            if number not in components:
-                raise ValueError(f"the role '{role}' of a relation '{kind}' refers to the missing component {number}")
-    cases = tuple(
-        {int(part["id"]): _values(part) for part in case["components"]}
-        for case in (model.get("load_spectrum") or {}).get("load_cases", ())
-    )
+        components[number] = RexsComponent(number, str(part["type"]), name, dict(_values(part, units)))
+    relations: dict[str, list[tuple[int, ...]]] = {kind: [] for kind in _ROLES}
+    for relation in model.get("relations", ()):
+        kind, roles = str(relation["type"]), {ref["role"]: int(ref["id"]) for ref in relation["refs"]}
+        for role in _ROLES.get(kind, ()):
+            if role not in roles:
+                raise ValueError(f"a relation '{kind}' has no role '{role}'")
+            if roles[role] not in components:
+                raise ValueError(
+                    f"the role '{role}' of a relation '{kind}' refers to the missing component {roles[role]}"
+                )
+        relations.setdefault(kind, []).append(tuple(roles[role] for role in _ROLES.get(kind, ())))
+    found = (model.get("load_spectrum") or {}).get("load_cases", ())
+    cases = [{int(part["id"]): dict(_values(part, units)) for part in case.get("components", ())} for case in found]
     origin = f"{model.get('applicationId', 'unknown program')}, REXS {model.get('version', 'of unknown version')}"
-    return RexsDocument(place, origin, components, relations, cases)
+    return RexsDocument(place, origin, components, relations, cases, units)
 
 
-def _values(part: Model) -> dict[str, RexsValue]:
-    found = {}
-    for given in part["attributes"]:
+def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
+    """Yield the attributes of a component that are read and given, with their values; their units are added."""
+    for given in part.get("attributes", ()):
+        name, unit = str(given["id"]), str(given.get("unit") or "none").replace("none", "")
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)
-        unit = str(given.get("unit") or "")
-        found[str(given["id"])] = RexsValue(value, "" if unit == "none" else unit)
-    return found
+        if name not in _ATTRIBUTES or value in (None, ""):
+            continue
+        kind, expected = _ATTRIBUTES[name]
+        known = units.setdefault(name, unit or expected)
+        if unit not in ("", known) or known not in (expected, *_OTHER_UNITS.get(expected, ())):
+            raise ValueError(f"`{name}` of component {part['id']} has the unit '{unit}', not '{expected}'")
+        is_list = kind.endswith("_array")
+        try:
+            if is_list != isinstance(value, list):
+                raise TypeError
+            read = [_scalar_of(each, kind) for each in (value if is_list else [value])]
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError(f"`{name}` of component {part['id']} is {value!r}, not a {kind}") from None
+        if all(map(isfinite, read)):
+            yield name, read if is_list else read[0]
+
+
+def _scalar_of(value: Any, kind: str) -> float:
+    return str(value).lower() == "true" if kind.startswith("boolean") else float(value)

@@ -7,6 +7,7 @@ spur wheels on its axes is a planetary stage. A state of the train is a gear of 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
 from math import degrees
@@ -14,16 +15,16 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.vectors import Vector, dot, minus
 from geartrain.scene.solids.bearing_plates import basis
 from geartrain.teeth import Involute
-from geartrain.workshop.rexs.rexs_document import Model, to_json, to_xml
+from geartrain.workshop.rexs.rexs_document import Attributes, Model, to_json, to_xml, written
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.torque_results import Torques
-    from geartrain.kinematics.answer import Answer
-    from geartrain.scene.layout import WheelPlace
+    from geartrain.scene.layout import AxisPlace, WheelPlace
     from geartrain.scene.solids.solid_assembly import SolidModel
-    from geartrain.train import GearPair, StateCase, Wheel
+    from geartrain.train import GearPair, Wheel
 
 VERSION = "1.4"
 _ANGLE = 20.0  # deg, if no tooth form is declared
@@ -35,14 +36,13 @@ _STAGES = {
     ("worm_gear", "worm_wheel"): "worm_stage",
 }
 """Type of the stage of two gears, as REXS allows."""
+_REACTIONS = ("torque_acting_on_inner_component_u", "torque_acting_on_outer_component_u")
 _FLANKS = {"bevel_gear": "bevel_gear_flank", "worm_gear": "worm_gear_flank", "worm_wheel": "worm_gear_flank"}
-Attributes = list[dict[str, Any]]
 
 
 def to_rexs(work: SolidModel, xml: bool = False) -> str:
     """Return the gear unit of a train as a REXS file in JSON, or in XML."""
-    model = _Unit(work).model()
-    return to_xml(model) if xml else to_json(model)
+    return (to_xml if xml else to_json)(_Unit(work).model())
 
 
 def omitted_parts(work: SolidModel) -> Iterator[Problem]:
@@ -81,12 +81,11 @@ class _Unit:
     def model(self) -> Model:
         from importlib.metadata import version
 
-        gears = [_integer("number_of_gears", len(self.cases)), _integer("gear_shift_index", 1 + self.first)]
-        pose = _pose((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-        self.unit = self.add("gear_unit", self.declared.name, [*(gears if self.work.train.states else ()), *pose])
+        gears = len(self.cases) if self.work.train.states else None
+        first = gears and 1 + self.first
+        self.unit = self.add("gear_unit", self.declared.name, number_of_gears=gears, gear_shift_index=first, **_pose())
         self.numbers["unit", ""] = self.unit
-        self.casing = self.add("gear_casing", self.declared.frame)
-        self.relate("assembly", assembly=self.unit, part=self.casing)
+        self.casing = self.add("gear_casing", self.declared.frame, self.unit)
         for link in self.declared.links:
             self.shaft(link)
         for carrier in dict.fromkeys(self.tree.top.values()):
@@ -107,10 +106,13 @@ class _Unit:
             **({"load_spectrum": {"id": 1, "load_cases": cases}} if any(case["components"] for case in cases) else {}),
         }
 
-    def add(self, kind: str, name: str = "", attributes: Attributes | None = None) -> int:
+    def add(self, kind: str, name: str = "", *wholes: int, **attributes: Any) -> int:
+        """Add a component, and relate it to the components of which it is a part."""
         number = len(self.components) + 1
         named = {"name": name} if name else {}
-        self.components.append({"id": number, "type": kind, **named, "attributes": attributes or []})
+        self.components.append({"id": number, "type": kind, **named, "attributes": written(attributes)})
+        for whole in wholes:
+            self.relate("assembly", assembly=whole, part=number)
         return number
 
     def relate(self, kind: str, **roles: int) -> None:
@@ -120,9 +122,9 @@ class _Unit:
         ]
         self.relations.append({"id": len(self.relations) + 1, "type": kind, "refs": refs})
 
-    def join(self, kind: str, name: str, inner: int, outer: int, attributes: Attributes | None = None) -> int:
+    def join(self, kind: str, name: str, inner: int, outer: int, **attributes: Any) -> int:
         """Add a bearing or coupling between two components."""
-        number = self.add(kind, name, attributes)
+        number = self.add(kind, name, **attributes)
         self.relate("side", assembly=number, inner_part=inner, outer_part=outer)
         return number
 
@@ -134,11 +136,9 @@ class _Unit:
         if link == self.declared.frame and not wheels:
             return
         axis = self.work.layout.axes.get(self.tree.axis(link) or "")
-        point, along = (axis.point, axis.direction) if axis else ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
         drives = any(link in case.inputs for case in self.cases)
-        number = self.add("shaft", link, [{"id": "defines_speed", "boolean": drives}, *_pose(point, along)])
+        number = self.add("shaft", link, self.unit, defines_speed=drives, **_pose(axis))
         self.numbers["link", link] = number
-        self.relate("assembly", assembly=self.unit, part=number)
         if link == self.declared.frame:
             self.join("coupling", f"{link} in casing", number, self.casing)
         elif self.tree.top[link] == self.declared.frame:
@@ -147,30 +147,24 @@ class _Unit:
             self.gear(name, wheel, number)
         if any(link in self.loads(at) for at in range(len(self.cases))):
             known = any(link in case.loads for case in self.cases)
-            load = [{"id": "defines_torque", "boolean": known}, {"id": "transmits_torque", "boolean": True}]
-            self.numbers["load", link] = self.add("external_load", f"load on {link}", load)
-            self.relate("assembly", assembly=number, part=self.numbers["load", link])
+            load = self.add("external_load", f"load on {link}", number, defines_torque=known, transmits_torque=True)
+            self.numbers["load", link] = load
 
     def gear(self, name: str, wheel: Wheel, shaft: int) -> None:
         place = self.work.layout.wheels[name]
         axis = self.work.layout.axes.get(place.axis)
-        along = axis.direction if axis else (0.0, 0.0, 1.0)
-        kind = self.kind(name)
-        counted = [_integer("number_of_teeth", wheel.count)] if wheel.count else []
-        attributes = [*counted, *_sizes(kind, place, wheel), *_pose(place.centre, along)]
-        if axis is not None:
-            above = sum((a - b) * c for a, b, c in zip(place.centre, axis.point, along, strict=True))
-            attributes.append(_number("u_coordinate_on_shaft", "mm", above))
-        number = self.numbers["wheel", name] = self.add(kind, name, attributes)
-        self.relate("assembly", assembly=shaft, part=number)
-        angle, shift = self.teeth(name)
-        data: Attributes = []
-        if kind in ("cylindrical_gear", "ring_gear") and angle is not None:
-            data.append(_number("normal_pressure_angle", "deg", angle))
+        kind, pose = self.kind(name), _pose(axis, place.centre)
+        above = dot(minus(place.centre, axis.point), axis.direction) if axis else None
+        sizes = {**_sizes(kind, place, wheel), **pose, "u_coordinate_on_shaft": above}
+        number = self.add(kind, name, shaft, number_of_teeth=wheel.count or None, **sizes)
+        self.numbers["wheel", name] = number
+        teeth: Attributes = {}
+        if kind in ("cylindrical_gear", "ring_gear"):
+            angle, shift = self.teeth(name)
             # the sign of the shift of a ring differs between programs
-            if shift is not None and not (shift and wheel.internal):
-                data.append(_number("addendum_modification_coefficient", "", shift))
-        flanks = {side: self.add(_FLANKS.get(kind, "cylindrical_gear_flank"), "", data) for side in ("left", "right")}
+            clear = None if shift and wheel.internal else shift
+            teeth = {"normal_pressure_angle": angle, "addendum_modification_coefficient": clear}
+        flanks = {side: self.add(_FLANKS.get(kind, "cylindrical_gear_flank"), **teeth) for side in ("left", "right")}
         self.relate("flank", gear=number, **flanks)
 
     def kind(self, name: str) -> str:
@@ -200,14 +194,10 @@ class _Unit:
 
     def stage_of(self, gear: GearPair) -> tuple[str, str, str] | None:
         """Return the type of the stage of a pair with its first and second gear; None if REXS has no such stage."""
-        first, second = gear.pair
-        for pair in ((first, second), (second, first)):
-            kind = _STAGES.get((self.kind(pair[0]), self.kind(pair[1])))
-            if kind == "cylindrical_stage" and self.work.layout.axis_distance(first, second) is None:
-                return None
-            if kind is not None:
-                return kind, *pair
-        return None
+        first, second = sorted(gear.pair, key=self.kind)
+        kind = _STAGES.get((self.kind(first), self.kind(second)))
+        skew = kind == "cylindrical_stage" and self.work.layout.axis_distance(first, second) is None
+        return None if kind is None or skew else (kind, first, second)
 
     def stage(self, gear: GearPair) -> None:
         """Add a gear pair as a stage; an internal wheel is its second gear."""
@@ -215,18 +205,16 @@ class _Unit:
         if found is None:
             return
         kind, first, second = found
-        distance = self.work.layout.axis_distance(first, second)
-        sizes = [] if distance is None else [_number("center_distance", "mm", distance)]
-        number = self.add(kind, gear.name, sizes)
         carrier = ("stage", self.circuits[gear.name].carrier)
-        assembly = self.numbers.get(carrier, self.unit) if kind == "cylindrical_stage" else self.unit
-        self.relate("assembly", assembly=assembly, part=number)
-        gears = [self.numbers["wheel", wheel] for wheel in (first, second)]
-        self.relate("stage", stage=number, gear_1=gears[0], gear_2=gears[1])
+        whole = self.numbers.get(carrier, self.unit) if kind == "cylindrical_stage" else self.unit
+        distance = self.work.layout.axis_distance(first, second)
+        number = self.add(kind, gear.name, whole, center_distance=distance)
+        one, two = (self.numbers["wheel", wheel] for wheel in (first, second))
+        self.relate("stage", stage=number, gear_1=one, gear_2=two)
         driver = self.work.train.mechanics.drivers(self.cases[self.first].state)[gear.name]
-        for wheel, each in zip((first, second), gears, strict=True):
-            known = [{"id": "is_driving_gear", "boolean": driver.wheel == wheel}] if driver.known else []
-            data = self.add(f"{kind}_gear_data", "", known)
+        for wheel, each in ((first, one), (second, two)):
+            drives = driver.wheel == wheel if driver.known else None
+            data = self.add(f"{kind}_gear_data", is_driving_gear=drives)
             self.relate("stage_gear_data", stage=number, gear=each, stage_gear_data=data)
 
     def carrier(self, carrier: str) -> None:
@@ -240,12 +228,10 @@ class _Unit:
             for link in planets:
                 self.join("concept_bearing", f"bearing of {link}", self.numbers["link", link], shaft)
             return
-        stage = self.numbers["stage", carrier] = self.add("planetary_stage", f"planetary stage of {carrier}")
-        body = self.add("planet_carrier", carrier)
-        self.relate("assembly", assembly=self.unit, part=stage)
-        self.relate("assembly", assembly=stage, part=body)
-        plate = self.add("side_plate", f"side plate of {carrier}")
-        self.relate("assembly", assembly=body, part=plate)
+        stage = self.add("planetary_stage", f"planetary stage of {carrier}", self.unit)
+        self.numbers["stage", carrier] = stage
+        body = self.add("planet_carrier", carrier, stage)
+        plate = self.add("side_plate", f"side plate of {carrier}", body)
         self.relate("assembly", assembly=body, part=shaft)
         self.relate("planet_carrier_shaft", planetary_stage=stage, shaft=shaft)
         self.join("coupling", f"{carrier} in side plate", shaft, plate)
@@ -258,10 +244,7 @@ class _Unit:
 
     def pin(self, label: str, stage: int, body: int, plate: int, planets: Sequence[str]) -> None:
         """Add the pin of one axis on a carrier, with the planets that turn on it."""
-        axis = self.work.layout.axes[label]
-        pin = self.add("shaft", f"pin {label}", [*_pose(axis.point, axis.direction)])
-        self.relate("assembly", assembly=self.unit, part=pin)
-        self.relate("assembly", assembly=body, part=pin)
+        pin = self.add("shaft", f"pin {label}", self.unit, body, **_pose(self.work.layout.axes[label]))
         self.relate("planet_pin", planetary_stage=stage, shaft=pin)
         self.join("coupling", f"pin {label} in side plate", pin, plate)
         for link in planets:
@@ -294,30 +277,25 @@ class _Unit:
         """Add a brake on one link or a lock of two links; it is switchable unless it is always engaged."""
         ends = [self.numbers["link", link] for link in links if ("link", link) in self.numbers]
         name, fixed = self.clutch_name(links), all(engaged) and not any(links in case.clutches for case in self.cases)
-        states = [] if fixed else [{"id": "is_engaged", "boolean_array": engaged}]
-        kind = "coupling" if fixed else "switchable_coupling"
         if ends:
-            self.numbers["clutch", name] = self.join(kind, name, ends[0], ends[1] if ends[1:] else self.casing, states)
+            kind, outer = "coupling" if fixed else "switchable_coupling", ends[1] if ends[1:] else self.casing
+            states = None if fixed else engaged
+            self.numbers["clutch", name] = self.join(kind, name, ends[0], outer, is_engaged=states)
 
     @cached_property
-    def torques(self) -> list[Torques | None]:
-        """Torques in each state; None without loads in N m, or if the torques are not determined."""
-        return [self._torques(case) for case in self.cases]
-
-    def _torques(self, case: StateCase) -> Torques | None:
-        if not case.loads or any(load.unit is None and load.value for load in case.loads.values()):
-            return None
-        try:
-            found = self.work.train.torques(case.state)
-        except GearTrainError:
-            return None
-        return found if found.verdict else None
+    def torques(self) -> Mapping[int, Torques]:
+        """Torques of each state, by its index; without states without loads in N m, or with undetermined torques."""
+        found = {}
+        for at, case in enumerate(self.cases):
+            if case.loads and all(load.unit or not load.value for load in case.loads.values()):
+                with suppress(GearTrainError):
+                    found[at] = self.work.train.torques(case.state)
+        return {at: torques for at, torques in found.items() if torques.verdict}
 
     def loads(self, at: int) -> Mapping[str, float]:
         """Return the external torques of a state [N m] by link, without the torques of brakes and forces on slides."""
-        found = self.torques[at]
         apart = {link for links in self.engagement for link in links} | self.declared.sliding
-        computed = {} if found is None else found.external
+        computed = self.torques[at].external if at in self.torques else {}
         given = self.cases[at].loads.items()
         declared = {x: load.si for x, load in given if (load.unit or not load.value) and x not in self.declared.sliding}
         return {link: float(torque) for link, torque in computed.items() if link not in apart} | declared
@@ -326,59 +304,39 @@ class _Unit:
         """Return the data of one load case: the gear in force, speeds [1/min], and torques [N m]."""
         case, found = self.cases[at], []
         answer = self.work.train.solve(case.state, method="exact")
-        for link, speed in self.per_minute(case, answer).items():
-            if ("link", link) in self.numbers and (rpm := as_float(speed)) is not None:
-                changes = len({link in each.inputs for each in self.cases}) > 1
-                drives = [{"id": "defines_speed", "boolean": link in case.inputs}] if changes else []
-                found.append(self.data("link", link, [_number("rotational_speed", "1 / min", rpm), *drives]))
+        # speeds that are not per time are taken as turns per minute
+        factor = Fraction(1) if self.declared.unit_speed is None else 60 * self.declared.unit_speed
+        for link, speed in (answer.speeds if answer.verdict else case.inputs).items():
+            rpm = None if link in self.declared.sliding else as_float(Fraction(speed) * factor)
+            if ("link", link) in self.numbers and rpm is not None:
+                drives = link in case.inputs
+                found.append(self.data("link", link, rotational_speed=rpm, defines_speed=drives))
         for link, torque in self.loads(at).items():
-            found.append(self.data("load", link, [_number("torque_around_u_axis", "N m", torque)]))
-        for held in () if (torques := self.torques[at]) is None else torques.held:
+            found.append(self.data("load", link, torque_around_u_axis=torque))
+        for held in self.torques[at].held if at in self.torques else ():
             if ("clutch", name := self.clutch_name(held.links)) in self.numbers and held.torques is not None:
-                sides = zip(("inner", "outer"), map(float, held.torques), strict=False)
-                reactions = [_number(f"torque_acting_on_{side}_component_u", "N m", value) for side, value in sides]
-                found.append(self.data("clutch", name, reactions))
-        gear = [self.data("unit", "", [_integer("gear_shift_index", 1 + at)])] if len(self.cases) > 1 else []
+                reactions = zip(_REACTIONS, map(float, held.torques), strict=False)
+                found.append(self.data("clutch", name, **dict(reactions)))
+        gear = [self.data("unit", "", gear_shift_index=1 + at)] if len(self.cases) > 1 else []
         return [*gear, *found] if found else []
 
-    def data(self, kind: str, name: str, attributes: Attributes) -> Model:
+    def data(self, kind: str, name: str, **attributes: Any) -> Model:
         """Return the data of a component in a load case."""
         part = self.components[self.numbers[kind, name] - 1]
-        return {"id": part["id"], "type": part["type"], "name": part["name"], "attributes": attributes}
-
-    def per_minute(self, case: StateCase, answer: Answer) -> Mapping[str, Fraction]:
-        """Return the speeds of turning links in turns per minute; those of the inputs if the train is not solved.
-
-        Speeds that are not per time are taken as turns per minute.
-        """
-        factor = Fraction(1) if self.declared.unit_speed is None else 60 * self.declared.unit_speed
-        speeds = answer.speeds if answer.verdict else case.inputs
-        return {link: Fraction(speed) * factor for link, speed in speeds.items() if link not in self.declared.sliding}
+        return {"id": part["id"], "type": part["type"], "name": part["name"], "attributes": written(attributes)}
 
 
-def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Iterator[dict[str, Any]]:
+def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Attributes:
     if kind == "bevel_gear":
-        yield _number("face_width", "mm", place.thickness)
-        yield _number("pitch_angle", "deg", degrees(place.cone))
-    elif kind == "worm_gear" or kind == "worm_wheel":
-        yield _number("axial_module", "mm", place.module)
-    else:
-        yield _number("normal_module", "mm", place.module / wheel.slant)
-        yield _number("helix_angle_reference_diameter", "deg", degrees(wheel.helix))
-        yield _number("face_width", "mm", place.thickness)
+        return {"face_width": place.thickness, "pitch_angle": degrees(place.cone)}
+    if kind in ("worm_gear", "worm_wheel"):
+        return {"axial_module": place.module}
+    sizes = {"normal_module": place.module / wheel.slant, "helix_angle_reference_diameter": degrees(wheel.helix)}
+    return {**sizes, "face_width": place.thickness}
 
 
-def _number(name: str, unit: str, value: float) -> dict[str, Any]:
-    return {"id": name, **({"unit": unit} if unit else {}), "floating_point": value}
-
-
-def _integer(name: str, value: int) -> dict[str, Any]:
-    return {"id": name, "integer": value}
-
-
-def _pose(point: tuple[float, float, float], along: tuple[float, float, float]) -> Iterator[dict[str, Any]]:
-    """Yield the attributes of the position of a component in the gear unit: u along its axis, w perpendicular to it."""
-    right, _ = basis(along)
-    for name, vector in (("u_axis_vector", along), ("support_vector", point), ("w_axis_vector", right)):
-        yield {"id": name, "unit": "mm", "floating_point_array": [float(each) for each in vector]}
-    yield {"id": "reference_component_for_position", "reference_component": 1}
+def _pose(axis: AxisPlace | None = None, point: Vector | None = None) -> Attributes:
+    """Return the attributes of the position of a component: u along its axis, w perpendicular to it."""
+    along, origin = (axis.direction, axis.point) if axis else ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+    vectors = {"u_axis_vector": along, "support_vector": point or origin, "w_axis_vector": basis(along)[0]}
+    return {name: [*map(float, each)] for name, each in vectors.items()} | {"reference_component_for_position": 1}

@@ -22,6 +22,7 @@ from geartrain.report.soundness import find_soundness
 from geartrain.scene.layout.declared_geometry import Parallels, Point, read_geometry
 from geartrain.scene.layout.plan_problem import PlanProblem, plan_problem
 from geartrain.scene.layout.wheel_modules import size_geometry
+from geartrain.teeth.coupling import COUPLINGS
 
 TEXT = "text"
 """What the package calls a declaration that is no file."""
@@ -110,7 +111,9 @@ def _takes_numpy(train: GearTrain) -> bool:
     declared = train.declaration
     toothed = declared.tooth_form is not None or any(gear.tooth_form for gear in declared.gears)
     loaded = any(declared.is_loaded(state) for state in train.states or (None,))
-    return toothed or loaded or train.kinematics.is_placed or any(each.pin_radius for each in declared.couplings)
+    # a pin without dimensions has no transmission function
+    varying = any(COUPLINGS[each.kind].varies and getattr(each, "pin_radius", True) for each in declared.couplings)
+    return toothed or loaded or train.kinematics.is_placed or varying
 
 
 # -------------------------------------------------------------------------------------------------------------- dials

@@ -13,8 +13,8 @@ from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
+from geartrain.train.outputs import PrintedPeriod, year_seconds
 from geartrain.train.periods import period_table
-from geartrain.train.printed_period import PrintedPeriod, year_seconds
 
 DAYS_PER_CENTURY = 36525  # days in a Julian century
 SECONDS_PER_DAY = 86400

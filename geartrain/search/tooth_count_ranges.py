@@ -172,7 +172,7 @@ def read_counts(text: str) -> CountRuns:
 def _spans(part: str) -> Iterator[tuple[int, int]]:
     """Yield the spans of a count, a range or the name of a construction set."""
     if any(letter.isalpha() for letter in part):
-        from geartrain.train.owned_wheels import wheel_sets
+        from geartrain.train.mechanism import wheel_sets
 
         name = part.strip()
         if name not in wheel_sets():

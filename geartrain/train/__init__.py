@@ -5,14 +5,13 @@ parts keep their line numbers, or a `DeclarationError` with every problem that c
 here; `geartrain.GearTrain` does that.
 
 declaration                      complete model, friction in force, epoch
-mechanism                        links, wheels, axes, pairs; uncertain tooth counts, efficiencies, bearing friction
-outputs, states                  outputs, dials and targets; clutches, cases, and drives in time
+mechanism                        links, wheels, axes, pairs; uncertain and owned tooth counts, bearing friction
+outputs, states                  outputs, printed periods, dials, targets; clutches, cases, and drives in time
 manufacturing, wheel_stock, reconstruction   materials and cutting errors; blanks; constraints of a reconstruction
 fields, validation, references   strict fields; short forms and problems; conflicting names and units
 yaml_nodes, declaration_style    YAML with line numbers; rewriting in short or long forms
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and changed copies of a declaration
-periods, printed_period          table of astronomical periods; periods as sources print them
-owned_wheels                     wheels that a maker owns, and table of construction sets
+periods                          table of astronomical periods
 """
 
 from __future__ import annotations

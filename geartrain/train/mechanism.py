@@ -6,12 +6,17 @@ each driving wheel, and the bearing of a link has a sliding and a static frictio
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import csv
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import cache
+from importlib.resources import files
 from math import cos
+from types import MappingProxyType
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import (
+    AfterValidator,
     BeforeValidator,
     Discriminator,
     Field,
@@ -20,6 +25,8 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
+from geartrain.errors import suggest
+from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.plain_values import Boolean
 from geartrain.numerics.quantity import (
     Angle,
@@ -35,6 +42,7 @@ from geartrain.numerics.quantity import (
     Torque,
     TorsionalDamping,
     above_zero,
+    bad,
     below_right_angle,
     checked,
     millimetres,
@@ -56,7 +64,6 @@ from geartrain.train.fields import (
     side,
 )
 from geartrain.train.manufacturing import ArborSizes, FaceWidth, PairMounting, WheelManufacture
-from geartrain.train.owned_wheels import OwnedWheels
 
 # ----------------------------------------------------------------------------------------------------- bearing friction
 
@@ -127,6 +134,68 @@ DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 
 
 # --------------------------------------------------------------------------------------------------------- tooth counts
+
+
+@cache
+def wheel_sets() -> Mapping[str, tuple[int, ...]]:
+    """Return the tooth counts of the wheels of each construction set in the shipped table, in ascending order.
+
+    Examples
+    --------
+    >>> wheel_sets()["meccano"]
+    (15, 19, 25, 38, 50, 57, 60, 95, 133)
+    """
+    text = files("geartrain.train").joinpath("wheel_sets.csv").read_text(encoding="utf-8")
+    found: dict[str, list[int]] = {}
+    for row in csv.DictReader(text.splitlines()):
+        found.setdefault(row["set"], []).append(int(row["teeth"]))
+    return MappingProxyType({name: tuple(sorted(counts)) for name, counts in found.items()})
+
+
+def _known(name: str) -> str:
+    if name not in wheel_sets():
+        otherwise = f"use one of {', '.join(wheel_sets())}, or a list of tooth counts"
+        raise bad("teeth", f"the set of wheels '{name}' is unknown", suggest(name, wheel_sets(), otherwise=otherwise))
+    return name
+
+
+def _form(raw: object) -> str:
+    """Return the form of `of`: a name, numbers of wheels, or a list of counts."""
+    return "name" if isinstance(raw, str) else "numbers" if isinstance(raw, Mapping) else "list"
+
+
+class OwnedWheels(Declared):
+    """Wheels from which a wheel of the train is chosen.
+
+    Examples
+    --------
+    >>> OwnedWheels(of={15: 2, 57: 1}).counts, OwnedWheels(of="lego").counts[:3]
+    ((15, 57), (8, 12, 16))
+
+    See Also
+    --------
+    Teeth : its field `search`
+    """
+
+    of: Annotated[
+        Annotated[str, AfterValidator(_known), Tag("name")]
+        | Annotated[dict[Count, Count], Field(min_length=1), AfterValidator(FrozenDict), Tag("numbers")]
+        | Annotated[tuple[Count, ...], Field(min_length=1), Tag("list")],
+        Discriminator(_form),
+    ] = Field(
+        description="Tooth counts: a list, a mapping from tooth count to the number of such wheels, or the name of a "
+        "construction set (lego, meccano). Wheels with the same mapping share its wheels"
+    )
+
+    @property
+    def counts(self) -> Sequence[int]:
+        """Distinct tooth counts in ascending order."""
+        return tuple(sorted(set(wheel_sets()[self.of] if isinstance(self.of, str) else self.of)))
+
+    @property
+    def numbers(self) -> tuple[tuple[int, int], ...]:
+        """Tooth counts with the number of wheels of each; empty if the numbers are not limited."""
+        return tuple(sorted(self.of.items())) if isinstance(self.of, Mapping) else ()
 
 
 class Teeth(Declared):

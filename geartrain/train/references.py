@@ -11,9 +11,8 @@ from geartrain.numerics.quantity import as_rotation, units_of
 from geartrain.train.declaration import Train
 from geartrain.train.manufacturing import material_table
 from geartrain.train.mechanism import Joint
-from geartrain.train.outputs import Output, Published, Target
+from geartrain.train.outputs import Output, PrintedPeriod, Published, Target, year_seconds
 from geartrain.train.periods import period_table, suggested_period
-from geartrain.train.printed_period import PrintedPeriod, year_seconds
 from geartrain.train.reconstruction import NEW_ARBOR
 from geartrain.train.sliding_links import sliding_problems
 

@@ -14,7 +14,7 @@ from geartrain.search import read_counts
 from geartrain.search.train.train_search import search_train
 from geartrain.train import Train
 from geartrain.train.declaration_files import read_declaration
-from geartrain.train.owned_wheels import wheel_sets
+from geartrain.train.mechanism import wheel_sets
 
 TWO_STAGES = """
 name: owned

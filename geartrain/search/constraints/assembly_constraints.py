@@ -49,8 +49,7 @@ from geartrain.search.constraints.count_conditions import (
 )
 from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
 from geartrain.search.tooth_count_ranges import MOST_TEETH
-from geartrain.train.mechanism import Teeth
-from geartrain.train.owned_wheels import OwnedWheels
+from geartrain.train.mechanism import OwnedWheels, Teeth
 
 if TYPE_CHECKING:
     from decimal import Decimal

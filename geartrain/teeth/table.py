@@ -7,7 +7,7 @@ from math import lcm, pi
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, cast
 from weakref import WeakValueDictionary
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, model_validator
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import core_schema
 
@@ -198,7 +198,11 @@ def _listed(raw: object) -> object:
     return [raw] if isinstance(raw, dict | ErrorContribution) else raw
 
 
-_ONE_OR_SEVERAL = BeforeValidator(_listed, json_schema_input_type=ErrorContribution | tuple[ErrorContribution, ...])
+class _OneOrSeveral:
+    # pydantic 2.11 cannot resolve the schema of `json_schema_input_type` here
+    def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        made = handler(schema)
+        return {"anyOf": [made["items"], made]}
 
 
 class GivenError(ToothForm):
@@ -228,7 +232,7 @@ class GivenError(ToothForm):
     driver: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] = Field(
         1, description="Wheel to whose angle the errors refer, the first or second of the pair"
     )
-    error: Annotated[tuple[ErrorContribution, ...], _ONE_OR_SEVERAL] | None = Field(
+    error: Annotated[tuple[ErrorContribution, ...], BeforeValidator(_listed), _OneOrSeveral()] | None = Field(
         None, description="Transmission error over a period, or a list of errors that are added; default no error"
     )
     eccentricity: TwoLengths = Field(

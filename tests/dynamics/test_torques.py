@@ -79,6 +79,7 @@ def test_without_losses_powers_sum_to_zero_exactly(name: str) -> None:
     rough = train.declaration.friction is not None or any(gear.friction for gear in train.declaration.gears)
     lossy = bool(train.meshes) or len(plain) < len(train.declaration.gears)
     lossy |= any(coupling.efficiency is not None for coupling in train.declaration.couplings)
+    lossy |= any(coupling.kind == "screw" and coupling.friction for coupling in train.declaration.couplings)
     for output in list(case.outputs)[:4]:
         link = answer.outputs[output].of
         if link == source or not answer.speeds[link] or link in train.kinematics.joint_sums:

@@ -14,6 +14,7 @@ from shipped import train as load
 
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
+from geartrain.numerics.multiples_of_pi import PI
 
 PLANETARY = """
 name: set
@@ -143,7 +144,7 @@ def _read(text: str, wheels: dict[str, Fraction]) -> Fraction:
         text = re.sub(rf"z_{re.escape(wheel)}(?!\w)", name, text)
     text = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text).replace("^", "**")
     text = re.sub(r"(?<![\w*])(\d+)(?!\w)", r"F(\1)", text)
-    found = eval(text, {"F": Fraction, **values})  # written by the test itself, of names and signs
+    found = eval(text, {"F": Fraction, "π": PI, **values})  # written by the test itself, of names and signs
     return Fraction(found)
 
 

@@ -72,7 +72,7 @@ def test_every_shipped_train_has_its_matrix_in_every_state(name: str) -> None:
         assert set(system.links) - set(found.links) == {train.declaration.frame}
         for each in (found, whole):
             entries = each.matrix.tocoo()
-            exact = {(row.label, link): c for row in each.rows for link, c in row.terms if link in each.links}
+            exact = {(row.label, link): float(c) for row in each.rows for link, c in row.terms if link in each.links}
             assert {
                 (each.labels[row], each.links[column]): value
                 for row, column, value in zip(entries.row, entries.col, entries.data.tolist(), strict=True)

@@ -503,7 +503,7 @@ class ExactRatio(TransmissionFunction):
 
 
 class LosslessTransmission(TransmissionFunction):
-    """Transmission function without a model of friction: the only losses are those of a declared efficiency."""
+    """Transmission function without a model of friction: the only losses follow from a declared efficiency."""
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S, which is 1."""

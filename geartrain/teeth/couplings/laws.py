@@ -1,7 +1,7 @@
 """Universal joints, non-circular wheels, and couplings by a table or harmonics: variable ratios with an exact mean.
 
 The driven angle q depends on the angle S of the driver relative to the carrier, in the reference direction of their
-axes. `phase` is added to S. Losses are those of a declared `efficiency`.
+axes. `phase` is added to S. Losses follow from a declared `efficiency`.
 """
 
 from __future__ import annotations

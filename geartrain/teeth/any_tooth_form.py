@@ -47,7 +47,9 @@ def added_forms() -> Mapping[str, EntryPoint]:
 
 def form_names(name: object = None) -> tuple[str, ...]:
     """Return the names of all tooth forms; without those of other distributions if `name` is in `TOOTH_FORMS`."""
-    return tuple(TOOTH_FORMS) if name in TOOTH_FORMS else (*TOOTH_FORMS, *added_forms())
+    # a declaration may give any value as a name, also one without a hash
+    known = tuple(TOOTH_FORMS)
+    return known if name in known else (*known, *added_forms())
 
 
 def tooth_form(name: str) -> type[ToothForm]:

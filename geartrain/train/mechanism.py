@@ -343,6 +343,7 @@ HelixAngle = Annotated[
     Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("measure it from the axis")
 ]
 Thickness = Annotated[MeasuredLength, above_zero("give a length such as 2 mm")]
+Module = Annotated[Length, above_zero("give a length such as 0.5 mm")]
 MaterialDensity = Annotated[Density, above_zero("give a density such as 8.7 g/cm3 (bronze)")]
 
 
@@ -381,7 +382,7 @@ class Wheel(Declared):
     hand: Literal["right", "left"] | None = Field(
         None, description="Hand of helical teeth or of a worm's thread; a worm is right-handed by default"
     )
-    module: Length | None = Field(
+    module: Module | None = Field(
         None, description="Module, pitch diameter divided by tooth count; for helical teeth the normal module"
     )
     thickness: Thickness | None = Field(

@@ -465,10 +465,7 @@ MISTAKES = {
     ),
     "no reach": (EVIDENCE.replace("reach: 1 mm", "reach: 0 mm"), "must be greater than 0"),
     "a spread of nothing": (EVIDENCE.replace("5 %", "0 %"), "must be greater than 0"),
-    "a module of nothing": (
-        EVIDENCE.replace("module: 1 mm}}}", "module: 0 mm}}}"),
-        "module of 'p' is not greater than 0",
-    ),
+    "a module of nothing": (EVIDENCE.replace("module: 1 mm}}}", "module: 0 mm}}}"), "must be greater than 0"),
     "a mesh that cannot be": (EVIDENCE + "gears: [{pair: [v, x]}]\n", "the known mesh 'v~x' is impossible"),
 }
 

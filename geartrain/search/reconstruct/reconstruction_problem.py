@@ -481,16 +481,9 @@ def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) 
 
 
 def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
-    for name, (link, wheel) in evidence.wheels.items():
-        if wheel.module is None:
-            continue
-        if wheel.module.base <= 0:
-            place = evidence.place("links", link, "wheels", name, "module")
-            what = f"the module of '{name}' is not greater than 0"
-            raise DeclarationError(
-                [Problem(what, "a module is a positive length", "for example, declare `module: 0.5 mm`", place)]
-            )
-        yield MeasuredWheel(name, True, _millimetres(wheel.module))
+    for name, (_, wheel) in evidence.wheels.items():
+        if wheel.module is not None:
+            yield MeasuredWheel(name, True, _millimetres(wheel.module))
 
 
 def _placed(evidence: Train) -> Iterator[PlacedArbor]:

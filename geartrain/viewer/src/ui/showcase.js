@@ -1,10 +1,10 @@
 // The picture with three buttons: for a frame in another page, and for a screen in a museum.
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
+import { momentOf, pace } from "../opening.js";
 import { PAUSE, PLAY } from "./crank.js";
 import { Drive } from "./drive.js";
 import { el, icon } from "./element.js";
-import { pace } from "./interface.js";
 import { decimal } from "./number.js";
 import { paceOf } from "./playhead.js";
 import { Reading, told } from "./reading.js";
@@ -34,6 +34,7 @@ export class Showcase {
     this.drive.run = run ?? null;
     this.drive.rate = run ? paceOf(run) / run.period : pace(this.scene);
     this.drive.movable = app.machines[this.index].moves;
+    if (this.drive.movable) this.drive.at = momentOf(this.scene);
     this.look = 0;
     this.theme = new Theme((background) => this.stage?.theme({ background }));
     this.theme.apply();

@@ -21,6 +21,7 @@ const INTO = [0.62, 0.46, 0.64]; // oblique view into a train that is cut open
 const BEHIND = [INTO[0], INTO[1], -INTO[2]]; // the same from behind
 const MARGIN = 1.05;
 const NEAR = 1.7; // distance of the camera from a part, relative to that at which the part fills the picture
+const BEYOND = 0.02; // distance of a part behind the middle for which it is seen from behind, relative to the size of the train
 const FLIGHT = 1200; // [ms] to another part
 const ASIDE = 0.55; // cosine of the angle between the view of a full exploded view and the main direction
 
@@ -156,12 +157,21 @@ export class Stage {
   visit(part, colour, calm) {
     const { points, towards = null, chosen = null } = part ? aimAt(this.world, part) : { points: this.world.outline() };
     this.highlight(chosen, colour);
-    const way = towards ?? this.aside(this.opening());
+    const way = towards ?? this.nearer(points);
     const { target, distance } = frame(points, way, ...this.slopes);
     const whole = this.framed(way).distance;
     this.from = null;
     this.onOrbit();
     this.fly(target, target.clone().addScaledVector(way, part ? Math.min(NEAR * distance, whole) : whole), calm ? 0 : FLIGHT);
+  }
+
+  /** The initial viewing direction, reflected if points are on the other side of the train. */
+  nearer(points) {
+    const { main, ball, size } = this.world;
+    const way = this.opening().clone();
+    const depth = points.reduce((sum, point) => sum + point.clone().sub(ball.center).dot(main), 0) / points.length;
+    const straight = way.dot(main);
+    return depth * straight < -BEYOND * size ? way.addScaledVector(main, -2 * straight) : way;
   }
 
   /** Moves the camera and its target within a time [ms]. */

@@ -18,7 +18,6 @@ from geartrain.search.reconstruct import (
     evidence_question,
     read_evidence,
     reconstruction,
-    search_tasks,
 )
 from geartrain.search.reconstruct.reconstruction_problem import question_digest
 
@@ -182,17 +181,6 @@ def test_what_is_requested_is_told_before_the_search(monkeypatch: pytest.MonkeyP
     result = call("reconstruct", "back-train")
     assert result.exit_code != 0
     assert "problem: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
-    assert "possible paths: 22 to metonic, 4 to saros" in result.stderr
-
-
-def test_the_time_is_told_where_it_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(search_tasks, "timed_part", lambda task: 6400 / task.parts * (task.part < task.parts))
-    result = call("reconstruct", "back-train", "-k", "3", "--count", "--json", "--workers", "2")
-    assert "expected time: about 100 minutes in one process, shared by 2 processes; a few of 4096" in result.stderr
-    found = json.loads(result.stdout)
-    holds("reconstruct", found)
-    assert found["expected"]["seconds"] == 6000
-    assert found["counts"][3]["solutions"] == 60
 
 
 STOP_AFTER = 3

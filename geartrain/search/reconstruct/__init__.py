@@ -20,7 +20,7 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `added_counts`: choices of added counts by variable elimination and tables of products; their sums and random draws
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, enumerated
-- `search_tasks`: independent tasks for any number of processes; their time, extrapolated from a sample
+- `search_tasks`: independent tasks for any number of processes
 - `geometry_likelihood`: likelihood of measurements; closed polygons, and layers by dynamic programming over bit masks
 - `reconstruction_search`: counts, most probable candidates, random samples; equality up to the order of arbors
 

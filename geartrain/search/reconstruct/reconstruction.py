@@ -32,7 +32,6 @@ from geartrain.search.reconstruct.reconstruction_search import (
     find_reconstructions,
     rank_of,
 )
-from geartrain.search.reconstruct.search_tasks import ExpectedCost, expect_cost
 from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, lost_evidence
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
@@ -98,10 +97,7 @@ class ReconstructionRun:
     def begin(self, problem: ReconstructionProblem) -> None:
         """Receive the problem before the search begins."""
 
-    def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Receive the expected cost of the search before it begins."""
-
-    def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> AbstractContextManager[Execution]:
+    def search(self, problem: ReconstructionProblem) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor of the search."""
         return nullcontext(Execution())
 
@@ -166,7 +162,6 @@ class ReconstructionAnswer(Result):
     KEYS = (
         "name",
         "requested",
-        "expected",
         "counts",
         "complete",
         "unused",
@@ -199,8 +194,6 @@ class ReconstructionAnswer(Result):
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
     """Links that form one arbor because given couplings join them, by the name of the arbor."""
-    expected: ExpectedCost | None = None
-    """Estimated cost of the search, computed before the search."""
     drawn: tuple[RankedTrain, ...] = ()
     """Randomly sampled trains. Their field `rank` is the number of the draw."""
     known: tuple[KnownRank, ...] = ()
@@ -258,12 +251,10 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     _check_known(request, question)
     problem = question.problem
     run.begin(problem)
-    expected = expect_cost(problem)
-    run.expect(problem, expected)
     listing = (
         0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
     )
-    with run.search(problem, expected) as execution:
+    with run.search(problem) as execution:
         found = find_reconstructions(problem, execution, listing, request.prior_of)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
@@ -281,7 +272,6 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
         findings=_findings(evidence, problem, found, dropped, request.counts_only, run),
         base=question.base,
         joined=question.joined,
-        expected=expected,
         drawn=tuple(_ranked(evidence, drawn)),
         evidence=evidence,
         candidates=listed,

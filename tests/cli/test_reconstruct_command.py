@@ -254,7 +254,6 @@ def test_known_trains_are_ranked() -> None:
     assert first["wheels"] == {"m3": 27, "n1": 53, "nO": 57}
     assert (first["place"]["ranks"], first["place"]["trains"], first["place"]["dearer"]) == ([1, 21], 21, 1)
     assert (second["place"], [each["what"] for each in second["broken"]]) == (None, ["games turns at -1/76, not 1/4"])
-    assert [each["place"] and each["place"]["ranks"] for each in second["admitted"]] == [None, [1, 12]]
 
 
 def test_the_places_of_known_trains_are_told() -> None:
@@ -285,17 +284,6 @@ def test_trains_are_not_ranked_on_a_carrier() -> None:
     result = ended("reconstruct", "front-inferior-planets", "--rank", "freeth-2021")
     assert result.returncode == 2
     assert "cannot be ranked if arbors turn on a carrier" in result.stderr
-
-
-def test_a_rank_that_is_stopped_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    def stop(*_: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(reconstruction, "rank_known_train", stop)
-    result = call("reconstruct", "metonic-l-m", "--rank", "freeth-2008", "--json")
-    assert result.exit_code == 0
-    assert json.loads(result.stdout)["known"] == []
-    assert "rank of freeth-2008 omitted" in result.stderr
 
 
 def test_the_report_is_written(tmp_path: Path) -> None:

@@ -29,8 +29,7 @@ The answer
 - `explained_facts`: exact marginals of facts over all trains, the fact of maximum entropy, and the family tree, a
   trie over meshes
 - `dropped_facts`: counts without each hard constraint, and reasons why no train explains the evidence
-- `candidate_rules`: a published train with the names of the evidence, the rules that it breaks, and the problem
-  that would admit it
+- `candidate_rules`: a published train with the names of the evidence, and the rules that it breaks
 - `known_rank`: the rank of a known train, and the smallest sets of facts that distinguish it (all sets of up to
   three)
 - `reconstruction`: the request, and all steps in one call

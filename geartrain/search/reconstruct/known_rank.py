@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
-from geartrain.errors import QuestionError
 from geartrain.numerics.results import Key, Result
 from geartrain.search.reconstruct.candidate_names import NamedArbor
-from geartrain.search.reconstruct.candidate_rules import (
-    BrokenRule,
-    KnownTrain,
-    admitting_question,
-    as_missing_dial,
-    broken_rules,
-    find_known_train,
-)
+from geartrain.search.reconstruct.candidate_rules import BrokenRule, broken_rules, find_known_train
 from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
     lost_pointers,
@@ -35,9 +27,6 @@ from geartrain.search.reconstruct.reconstruction_search import (
 )
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
-
-Search = Callable[[ReconstructionProblem], Reconstructions]
-"""Function that finds all explanations of a problem."""
 
 # Facts that distinguish one train from all other explanations: single facts, and the smallest sets of facts.
 
@@ -166,26 +155,6 @@ class TrainPlace(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class AdmittingQuestion(Result):
-    """Changed problem for which a train is an explanation."""
-
-    changes: tuple[str, ...]
-    """Descriptions of the changes of the problem."""
-    wheels: dict[str, int]
-    """Tooth count of each wheel that the train adds."""
-    arbors: int
-    """Number of arbors that the train adds."""
-    requested: int
-    """Maximum number of added wheels in the search: the number that the train adds, or the limit if that is smaller."""
-    solutions: tuple[int, ...]
-    """Number of explanations with exactly 0, 1, 2, ... added wheels."""
-    place: TrainPlace | None
-    """Rank of the train; None if it adds more wheels than the search covers."""
-    refused: str | None = None
-    """Reason why the changed problem was not searched; None if it was searched."""
-
-
-@dataclass(frozen=True, slots=True)
 class KnownRank(Result):
     """Rank of a known train in a problem, or the rules that it breaks."""
 
@@ -201,42 +170,29 @@ class KnownRank(Result):
     """Features of the train that are ignored."""
     place: TrainPlace | None = None
     """Rank of the train; None if it breaks rules or adds more wheels than permitted."""
-    admitted: tuple[AdmittingQuestion, ...] = ()
-    """Ranks in problems without the broken rules: first with the dial speeds of the train, then without these dials."""
     telling: TellingFacts | None = None
     """Facts that distinguish the train; None unless the train is an explanation and 2 to 2000 explanations are all
     listed.
     """
 
 
-@dataclass(frozen=True)
-class RankedQuestion:
-    """Problem with all its explanations, among which known trains are ranked."""
+def rank_known_train(
+    train: Train,
+    evidence: Train,
+    problem: ReconstructionProblem,
+    found: Reconstructions,
+    same: Mapping[str, str] | None = None,
+) -> KnownRank:
+    """Rank a known train among the explanations of a problem whose arbors turn in the frame.
 
-    evidence: Train
-    """Declared evidence in which all arbors turn in the frame."""
-    problem: ReconstructionProblem
-    """Reconstruction problem of the evidence."""
-    found: Reconstructions
-    """All explanations of the problem."""
-    search: Search
-    """Function that finds all explanations of a changed problem, used to rank a train that breaks rules."""
-
-
-def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, str] | None = None) -> KnownRank:
-    """Rank a known train among the explanations of a problem.
-
-    same   name in the problem of each part that the train names differently; see `find_known_train`
+    found   all explanations of the problem
+    same    name in the problem of each part that the train names differently; see `find_known_train`
     """
-    problem, found = question.problem, question.found
     known = find_known_train(train, problem, same)
     broken = broken_rules(known.arbor, problem)
     place = None if broken else find_place(known.arbor, problem, found)
-    admitted = tuple(_all_admitted(train, problem, question.search, same or {})) if broken else ()
-    telling = None if place is None else find_telling_facts(question.evidence, problem, found, known.arbor)
-    return KnownRank(
-        train.name, dict(known.added), known.arbor.added_arbors, broken, known.notes, place, admitted, telling
-    )
+    telling = None if place is None else find_telling_facts(evidence, problem, found, known.arbor)
+    return KnownRank(train.name, dict(known.added), known.arbor.added_arbors, broken, known.notes, place, telling)
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
@@ -264,47 +220,3 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
         float(weight / sum(own * number for own, number in every)),
         max(own for own, _ in every) / weight,
     )
-
-
-def _all_admitted(
-    train: Train, problem: ReconstructionProblem, search: Search, same: Mapping[str, str]
-) -> Iterator[AdmittingQuestion]:
-    """Yield the changed problems that admit a train, with its rank in each."""
-    known_changes = set[tuple[str, ...]]()
-    for without_dials in (False, True):
-        changes, changed, known = _changed(train, problem, same, without_dials)
-        if known is None or changes in known_changes:
-            continue
-        known_changes.add(changes)
-        own = known.arbor.added_wheels
-        # trains with more added wheels than this one are not searched
-        requested = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
-        said = changes, dict(known.added), known.arbor.added_arbors, requested.additions.wheels
-        try:
-            found = search(requested)
-        except QuestionError as error:
-            yield AdmittingQuestion(*said, (), None, error.problems[0].what)
-        else:
-            solutions = tuple(count.solutions for count in found.counts)
-            yield AdmittingQuestion(*said, solutions, find_place(known.arbor, requested, found))
-
-
-def _changed(
-    train: Train, problem: ReconstructionProblem, same: Mapping[str, str], without_dials: bool
-) -> tuple[tuple[str, ...], ReconstructionProblem, KnownTrain | None]:
-    """Return the changes by which a train breaks no rule, the changed problem, and the train as read in it (or None).
-
-    The train is read again after each round, because without a dial the problem needs fewer of its arbors and wheels.
-    """
-    changes: dict[str, None] = {}
-    known = find_known_train(train, problem, same)
-    while broken := broken_rules(known.arbor, problem):
-        if without_dials:
-            broken = tuple(as_missing_dial(each) for each in broken)
-        changed = admitting_question(problem, broken)
-        changes.update(dict.fromkeys(each.change for each in broken if each.change is not None))
-        if changed == problem or not changed.dials:
-            return (), problem, None
-        problem = changed
-        known = find_known_train(train, problem, same)
-    return tuple(changes), problem, known

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from typing import Literal
@@ -20,7 +20,7 @@ from geartrain.search.reconstruct.dropped_facts import (
 )
 from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion, evidence_question
 from geartrain.search.reconstruct.explained_facts import NO_FINDINGS, CandidateFindings, find_facts
-from geartrain.search.reconstruct.known_rank import KnownRank, RankedQuestion, rank_known_train
+from geartrain.search.reconstruct.known_rank import KnownRank, rank_known_train
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem, RequestedQuestion
 from geartrain.search.reconstruct.reconstruction_search import (
@@ -267,7 +267,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
         found.complete,
         question.unused,
         best=tuple(_ranked(evidence, listed)),
-        known=_ranks_of_known(request, evidence, problem, found, run),
+        known=tuple(rank_known_train(train, evidence, problem, found, request.same) for train in request.known),
         original=None if original is None else rank_of(original, found),
         findings=_findings(evidence, problem, found, dropped, request.counts_only, run),
         base=question.base,
@@ -302,36 +302,6 @@ def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tu
         for each in changed_counts(changed, execution):
             counted.append(each)
     return tuple(counted)
-
-
-def _ranks_of_known(
-    request: ReconstructionRequest,
-    evidence: Train,
-    problem: ReconstructionProblem,
-    found: Reconstructions,
-    run: ReconstructionRun,
-) -> tuple[KnownRank, ...]:
-    ranked: list[KnownRank] = []
-    for train in request.known:
-        with run.part(f"rank of {train.name}") as execution:
-            question = RankedQuestion(evidence, problem, found, _whole_search(execution))
-            ranked.append(rank_known_train(train, question, request.same))
-    return tuple(ranked)
-
-
-def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Reconstructions]:
-    """Return a function that runs a reconstruction search to completion, without listing candidates.
-
-    The function raises `KeyboardInterrupt` if the search is interrupted.
-    """
-
-    def search(requested: ReconstructionProblem) -> Reconstructions:
-        answer = find_reconstructions(requested, execution, listed=0)
-        if not answer.complete:  # an interrupted search returns a partial result
-            raise KeyboardInterrupt
-        return answer
-
-    return search
 
 
 def _findings(

@@ -25,7 +25,6 @@ from geartrain.search.reconstruct.explained_facts import (
 from geartrain.search.reconstruct.known_rank import (
     MAXIMUM,
     MINIMUM,
-    AdmittingQuestion,
     KnownRank,
     TellingFact,
     TellingFacts,
@@ -232,9 +231,7 @@ def _place(dial: SearchedDial) -> str:
 
 
 def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
-    """Yield sections on the ranks of known trains, the rules that they break, and their ranks if these rules are
-    dropped.
-    """
+    """Yield sections on the ranks of known trains and the rules that they break."""
     if not known:
         return
     header = ("train", "added wheels", "added arbors", "rank", "rank, equal wheels", "weight", "maximum / weight")
@@ -243,9 +240,7 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
         if one.broken:
             rows = dict.fromkeys((each.what, each.change or "no single change") for each in one.broken)
             table = Table(("property of the train", "change that would admit it"), list(rows))
-            yield Section(
-                f"Rules that {one.train} breaks", [*_note_sentences(one), *_admission_sentences(one)], [table]
-            )
+            yield Section(f"Rules that {one.train} breaks", list(_note_sentences(one)), [table])
         elif one.notes:
             yield Section(f"Notes on {one.train}", list(_note_sentences(one)))
         if one.telling is not None and one.place is not None:
@@ -305,35 +300,6 @@ def _ranks(ranks: tuple[int, int], trains: int) -> str:
 
 def _note_sentences(one: KnownRank) -> Iterator[str]:
     yield from (f"{note}." for note in one.notes)
-
-
-def _admission_sentences(one: KnownRank) -> Iterator[str]:
-    """Yield a sentence on the rank of a train in each changed problem that admits it."""
-    all_that = tuple(dict.fromkeys(each.change for each in one.broken))
-    for admitted in one.admitted:
-        changes = (
-            "all these changes" if admitted.changes == all_that else f"the changes ({'; '.join(admitted.changes)})"
-        )
-        yield _admission_text(changes, admitted)
-
-
-def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
-    own = plural(len(admitted.wheels), "wheel") + (f" ({teeth_text(admitted.wheels)})" if admitted.wheels else "")
-    begins = f"With {changes} it adds {own}"
-    if admitted.refused is not None:
-        return f"{begins}. Not searched: {admitted.refused}."
-    listed = [f"{number} with {added}" for added, number in enumerate(admitted.solutions) if number]
-    if admitted.place is None:
-        trains = f"the trains by added wheels are {', '.join(listed)}" if listed else "nothing fits"
-        return f"{begins}. With at most {plural(admitted.requested, 'wheel')} {trains}."
-    place = admitted.place
-    outweighed = (
-        "no train weighs more" if place.dearer == 1 else f"the best weighs {figure(place.dearer)} times as much"
-    )
-    return (
-        f"{begins}. Trains by added wheels: {', '.join(listed)}. It ranks {_ranks(place.ranks, place.trains)}, and "
-        f"{_ranks(place.ranks_alike, place.trains_alike)} with the same number of wheels; {outweighed}."
-    )
 
 
 # ---------------------------------------- facts common to all candidates, facts that differ, the next fact, assumptions

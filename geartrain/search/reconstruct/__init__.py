@@ -30,8 +30,7 @@ The answer
   trie over meshes
 - `dropped_facts`: counts without each hard constraint, and reasons why no train explains the evidence
 - `candidate_rules`: a published train with the names of the evidence, and the rules that it breaks
-- `known_rank`: the rank of a known train, and the smallest sets of facts that distinguish it (all sets of up to
-  three)
+- `known_rank`: the rank of a known train, and the facts that distinguish it
 - `reconstruction`: the request, and all steps in one call
 - `reconstruction_report`: the answer as a document
 - `verb`, `reconstruction_run`: the command

@@ -22,13 +22,7 @@ from geartrain.search.reconstruct.explained_facts import (
     FamilyTrain,
     NextFact,
 )
-from geartrain.search.reconstruct.known_rank import (
-    MAXIMUM,
-    MINIMUM,
-    KnownRank,
-    TellingFact,
-    TellingFacts,
-)
+from geartrain.search.reconstruct.known_rank import KnownRank, TellingFact
 from geartrain.search.reconstruct.reconstruction import RankedTrain, ReconstructionAnswer
 from geartrain.search.reconstruct.reconstruction_problem import NEW, SearchedDial
 
@@ -37,7 +31,6 @@ _MOST_ALIKE = 2
 _MOST_MESHES = 40
 _MOST_NEXT = 12
 _MOST_UNCERTAINTIES = 30
-_MOST_SETS = 12
 _MOST_BRANCHES = 60
 _MOST_TRAINS = 6
 
@@ -62,8 +55,6 @@ _FACTS = {
     "pointer": "the pointer of {} is on {}",
     "count": "{} has {}",
     "added": "{} has {}",
-    MAXIMUM: "no added wheel has more than {1}",
-    MINIMUM: "no added wheel has fewer than {1}",
 }
 _USE = {
     "wheels": "every surviving wheel meshes",
@@ -243,27 +234,14 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
             yield Section(f"Rules that {one.train} breaks", list(_note_sentences(one)), [table])
         elif one.notes:
             yield Section(f"Notes on {one.train}", list(_note_sentences(one)))
-        if one.telling is not None and one.place is not None:
+        if one.telling and one.place is not None:
             yield _telling(one.train, one.telling, one.place.trains)
 
 
-def _telling(train: str, found: TellingFacts, trains: int) -> Section:
-    """Return the section on facts that distinguish a train, singly and in the smallest sets."""
-    many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
-    alone = [each for each in found.facts if each.solutions == 1]
-    lines = ["Facts that are true of this train but not of all, with the number of trains that each would leave."]
-    tables = [Table(("fact", f"left of {trains}"), _fact_rows(found.facts))]
-    if not found.sets:
-        lines.append("No set of three facts leaves only this train.")
-    elif not alone:
-        ways = plural(len(found.sets), "way")
-        lines.append(
-            f"{many_facts[len(found.sets[0])]} together leave only this train, in {ways}. "
-            "Equivalent facts are listed once."
-        )
-        rows = [("; ".join(map(_fact_text, some)),) for some in found.sets]
-        tables.append(Table(("facts that together leave only this train",), cut(rows, most=_MOST_SETS)))
-    return Section(f"Facts that distinguish {train}", lines, tables)
+def _telling(train: str, facts: Sequence[TellingFact], trains: int) -> Section:
+    """Return the section on the facts that distinguish a train."""
+    line = "Facts that are true of this train but not of all, with the number of trains that each would leave."
+    return Section(f"Facts that distinguish {train}", [line], [Table(("fact", f"left of {trains}"), _fact_rows(facts))])
 
 
 def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:

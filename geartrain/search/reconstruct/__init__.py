@@ -21,7 +21,7 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, enumerated
 - `search_tasks`: independent tasks for any number of processes
-- `geometry_likelihood`: likelihood of measurements; closed polygons, and layers by dynamic programming over bit masks
+- `geometry_likelihood`: likelihood of measured modules, radii and distances of axes
 - `reconstruction_search`: counts, most probable candidates, random samples; equality up to the order of arbors
 
 The answer

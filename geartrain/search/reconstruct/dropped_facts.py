@@ -102,7 +102,6 @@ def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructi
             left: Any = {key: getattr(problem, key) - {frozenset(pair)}}
             yield f"without the fact {what.format(' and '.join(pair))}", replace(problem, **left)
     if measured:
-        # distances exclude pairs in advance, and restrict chains and layers later
         free = replace(problem.geometry, reach=None)
         changed = replace(problem, apart=problem.apart - measured, geometry=free)
         yield "if the distances between axes exclude no meshes", changed

@@ -221,14 +221,12 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield rows on motion: composition (with numpy, compiled, from tables) and first-order superposition."""
+    """Yield rows on motion: composition (of functions, of tables) and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
 
-    from geartrain.dynamics.motion.compiled_composition import compiled_composition
     from geartrain.dynamics.motion.superposition import Superposition
-    from geartrain.numerics.kernels import usable
 
     def compose(tolerance: float | None = None) -> Motion:
         motion = train.motion(state, tolerance=tolerance)
@@ -250,10 +248,6 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
         reference = f"composed, output {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
         return MethodAccuracy("motion", method, seconds, float(off[at]), "deg", reference, prepared)
 
-    if usable() and (kernel := compiled_composition(motion._unset)) is not None:
-        kernel.at(turns[:1])  # compiled, or loaded from disk
-        prepared, _ = _best_of(partial(compiled_composition, motion._unset))
-        yield row("composed, compiled", lambda: kernel.at(turns).error, prepared)
     prepared, tabulated = _best_of(partial(compose, _TOLERANCES[-1]))
     yield row("composed, tabulated functions", lambda: tabulated._unset.at(turns).error, prepared)
     prepared, superposed = _best_of(partial(Superposition, motion._forward))

@@ -12,7 +12,6 @@ import typer
 from geartrain.cli.common import (
     INTERRUPTED,
     STANDARD,
-    Fast,
     File,
     Force,
     Json,
@@ -73,7 +72,6 @@ def run(
     spectrum: Annotated[
         bool, typer.Option("--spectrum", help="Add the spectral lines of each output, with exact orders and sources.")
     ] = False,
-    fast: Fast = None,
     json: Json = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Plot errors and speeds to this file.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
@@ -101,7 +99,7 @@ def run(
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     # an output that is also a link is reported once
-    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance, fast)
+    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance)
     requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
         _write_table(requested, to.path, resume, force)

@@ -72,7 +72,7 @@ def test_motion_imports_only_the_tooth_forms_that_the_train_names_and_the_comput
     modules = loaded("motion", "moon-triangular", "--turns", "1", "--samples", "100")
     forms = {name for name in TOOTH_FORMS if f"geartrain.teeth.{name}" in modules}
     assert forms == {"triangular"}
-    unused = ("motion.compiled_composition", "motion.superposition", "torques.mean_efficiencies")
+    unused = ("motion.superposition", "torques.mean_efficiencies")
     assert not modules & {f"geartrain.dynamics.{name}" for name in unused}
     assert sum(name.startswith("geartrain.") for name in modules) <= 100
 

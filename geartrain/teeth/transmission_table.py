@@ -10,17 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import copy
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-
-from geartrain.teeth.transmission import DerivedTransmission, TransmissionFunction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.transmission import TransmissionFunction
 
 
 # each degree costs 10 % more time per angle; below 4, tables of wheels with few teeth do not fit into the caches
@@ -78,11 +76,6 @@ class CellTable:
         found.coefficients = np.ascontiguousarray(self.coefficients[1:] * np.arange(1, self.degree + 1)[:, None])
         return found
 
-    @property
-    def nbytes(self) -> int:
-        """Memory of the table [byte]."""
-        return int(self.coefficients.nbytes + self.middles.nbytes)
-
     def __call__(self, S: ArrayLike) -> Floats:
         """Return the interpolated function at driver angles S [rad] of any shape."""
         S = np.asarray(S, dtype=float)
@@ -122,64 +115,3 @@ def fit(
         if table.uncertainty < best.uncertainty / 2:
             best = table
     return best
-
-
-class TabulatedTransmission(DerivedTransmission):
-    """Transmission function evaluated from tables, each made on first use.
-
-    Results over a whole period, such as the mean efficiency, are those of the underlying function. `tolerance` is the
-    maximum error of the transmission error in driven pitches (or periods of a coupling), of the speed ratio relative to
-    its mean, and of the efficiency; `degree` is the degree of the polynomials.
-    """
-
-    def __init__(self, transmission: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
-        super().__init__(transmission)
-        self.friction, self.tolerance, self.degree = transmission.friction, tolerance, degree
-        self.cuts = folded_kinks(transmission)
-
-    def _fit(self, function: Callable[[Floats], Floats], scale: float) -> CellTable:
-        return fit(function, self.period, self.cuts, self.tolerance * scale, self.degree)
-
-    @cached_property
-    def error_table(self) -> CellTable:
-        """Table of the transmission error [rad of the driven side]."""
-        return self._fit(self.transmission.error, (float(self.ratio) or 1.0) * self.pitch)
-
-    @cached_property
-    def speed_table(self) -> CellTable:
-        """Table of the speed ratio."""
-        return self._fit(self.transmission.speed, float(self.ratio) or 1.0)
-
-    @cached_property
-    def efficiency_table(self) -> CellTable:
-        """Table of the efficiency."""
-        return self._fit(self.transmission.efficiency, 1.0)
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven side] at driver angles S [rad]."""
-        return self.error_table(S)
-
-    def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S [rad]."""
-        return self.speed_table(S)
-
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN where the underlying function is NaN."""
-        return self.efficiency_table(S)
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency of the underlying function at constant driver torque."""
-        return self.transmission.efficiency_mean()
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the efficiency of the underlying function at constant load torque."""
-        return self.transmission.efficiency_at_constant_load()
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency of the underlying function."""
-        return self.transmission.efficiency_minimum()
-
-    def reversed_motion(self) -> TabulatedTransmission:
-        """Return the tabulated transmission function for a driver that turns backwards."""
-        back = self.transmission.reversed_motion()
-        return self if back is self.transmission else TabulatedTransmission(back, self.tolerance, self.degree)

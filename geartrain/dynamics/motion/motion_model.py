@@ -121,14 +121,9 @@ class Motion(Shown):
         Equations, mean speeds, transmission functions and drivers of the pairs, as collected by `GearTrain.motion`.
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
-    tolerance : float, optional
-        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default the functions
-        are evaluated directly.
 
     Raises
     ------
-    QuestionError
-        If the tolerance is not between 0 and 1.
     GearTrainError
         If the real teeth of a redundant loop cannot turn together, or the train has no order of solution.
 
@@ -151,15 +146,10 @@ class Motion(Shown):
         self,
         train: MotionProblem,
         outputs: Mapping[str, tuple[str, str]],
-        tolerance: float | None = None,
     ) -> None:
-        self._problem, self.outputs, self.tolerance = train, outputs, tolerance
-        self._errors = PairErrors(train, tolerance, {link for ends in outputs.values() for link in ends})
+        self._problem, self.outputs = train, outputs
+        self._errors = PairErrors(train, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
-        if tolerance is not None and not 0 < tolerance < 1:
-            why = "the accuracy of tables is a fraction of a pitch, between 0 and 1"
-            fix = "give a fraction such as 1e-9, or omit it"
-            raise QuestionError(Problem(f"the tolerance {tolerance!r} is out of range", why, fix))
         self._declaration: Any = None  # declaration of the train, for `print`
         self._state: str | None = None
         self._without: tuple[str, ...] = ()
@@ -288,13 +278,13 @@ class Motion(Shown):
         Returns
         -------
         Motion
-            Motion with the same outputs and tolerance.
+            Motion with the same outputs.
         """
         declared = self._problem.phases
         # the phase of a planet's second pair follows from its first pair
         free = [mesh.name for mesh in self._problem.rippling if self._problem.placed_by(mesh.name) is None]
         drawn = {name: float(random.random()) for name in free if name not in declared}
-        return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs, self.tolerance)
+        return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs)
 
     # -------------------------------------------------------------------------------------------------- results
 
@@ -321,7 +311,7 @@ class Motion(Shown):
             return {}
         from geartrain.dynamics.motion.stepped_advance import mean_advance
 
-        drivers = Motion(self._problem, self._problem.without_steps({}), self.tolerance)
+        drivers = Motion(self._problem, self._problem.without_steps({}))
         return {stepped.link: mean_advance(self._problem, drivers._forward, stepped)}
 
     def _statistics(self) -> list[RunningStatistics]:
@@ -514,7 +504,7 @@ class Motion(Shown):
 
     def _of(self, outputs: Sequence[str]) -> Motion:
         shown = {name: self.outputs[name] for name in outputs}
-        motion = Motion(self._problem, shown, self.tolerance)
+        motion = Motion(self._problem, shown)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
         return motion
 

@@ -121,7 +121,7 @@ class InertialContacts:
     def _senses(self) -> Floats:
         """Sense of rotation of the driven side of each pair in mean motion: 1 forwards, -1 backwards."""
         circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in self.moving.circuits}
-        errors = PairErrors(self.moving, None, ())
+        errors = PairErrors(self.moving, ())
         return np.array([errors.sense(circuits[name]) for name in self.pairs], dtype=float)
 
     def _by_link(self, values: Mapping[str, float]) -> Floats:

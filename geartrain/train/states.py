@@ -116,12 +116,14 @@ class SpringDrive(Declared):
         from geartrain.train.fusees import FuseeSpring
 
         fusee = self.fusee
-        constant, radii = (
+        return FuseeSpring(
+            self.stiffness.si,
+            tau * float(self.turns.value),
+            self.barrel.si,
+            float(fusee.turns.value),
             None if fusee.torque is None else fusee.torque.si,
-            tuple(each.si for each in fusee.radii or ()),
+            tuple(radius.si for radius in fusee.radii or ()),
         )
-        wound = tau * float(self.turns.value)
-        return FuseeSpring(self.stiffness.si, wound, self.barrel.si, float(fusee.turns.value), constant, radii)
 
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].

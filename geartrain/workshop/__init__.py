@@ -42,7 +42,6 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.friction_trials import FrictionSpread as FrictionSpread
     from geartrain.workshop.monte_carlo.friction_trials import FrictionTrials as FrictionTrials
     from geartrain.workshop.monte_carlo.friction_trials import TrialFigure as TrialFigure
-    from geartrain.workshop.monte_carlo.friction_trials import find_friction_plan as find_friction_plan
     from geartrain.workshop.monte_carlo.friction_trials import try_frictions as try_frictions
     from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
     from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
@@ -83,8 +82,7 @@ __getattr__, __all__ = public_names(
         "export.file_set": "ExportFile export_files notices train_file wheel_file",
         "export.parts_list": "ListedPart parts_list",
         "monte_carlo.clearance_study": "ClearanceCase jamming_map",
-        "monte_carlo.friction_trials": "FrictionPlan FrictionSpread FrictionTrials TrialFigure find_friction_plan "
-        "try_frictions",
+        "monte_carlo.friction_trials": "FrictionPlan FrictionSpread FrictionTrials TrialFigure try_frictions",
         "monte_carlo.monte_carlo_plots": "monte_carlo_figure",
         "monte_carlo.monte_carlo_report": "describe_monte_carlo",
         "monte_carlo.monte_carlo_result": "MonteCarloResult",

@@ -19,7 +19,7 @@ standard_teeth                involutes for pairs that declare no form
 meshing_wheels, gear_mesh     two wheels as declared; a pair of a train with its tooth geometry
 transmission                  transmission function: driven angle, speed ratio and efficiency against the driver's angle
 tooth_transmission            transmission function of toothed wheels: verdict, either driver, both directions
-transmission_table            transmission functions as tables of polynomials; the compiled kernel that reads them
+transmission_table            transmission functions as tables of polynomials
 pair_results                  results, verdict and table rows of one pair
 form_comparison               conjugate forms compared with the 20 degree involute
 contact_coefficients          declared coefficients of Coulomb friction and restitution

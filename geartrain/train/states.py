@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf, pi, tau
-from typing import Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -36,8 +36,10 @@ from geartrain.numerics.quantity import (
 )
 from geartrain.numerics.results import Result, Shown
 from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id, Nothing, exactly_one
-from geartrain.train.fusees import Fusee, FuseeSpring
 from geartrain.train.outputs import Output
+
+if TYPE_CHECKING:
+    from geartrain.train.fusees import FuseeSpring
 
 GRAVITY = 9.80665
 """Standard gravity [m/s^2]."""
@@ -45,6 +47,36 @@ GRAVITY = 9.80665
 _NEAR = 0.05  # relative tolerance of the length of a simple pendulum, for rods with mass
 
 DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in the direction in which the input turns")]
+
+
+class Fusee(Declared):
+    """Fusee on the driving link, by its constant torque or by its radii.
+
+    See Also
+    --------
+    SpringDrive : its field `fusee`
+    """
+
+    turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
+        description="Turns of the fusee from fully wound to run down"
+    )
+    torque: Annotated[Torque, above_zero("give a torque such as 0.27 N m")] | None = Field(
+        None, description="Constant torque of a fusee whose radii equalise the spring"
+    )
+    radii: tuple[Annotated[MeasuredLength, above_zero("give a length such as 6 mm")], ...] | None = Field(
+        None,
+        description="Radii of the chain's middle line at equal angles over the run, fully wound first, 2 or more; "
+        "straight lines in between",
+    )
+
+    @model_validator(mode="after")
+    def _has_one_form(self) -> Fusee:
+        exactly_one(self, "a fusee", ("torque", "radii"))
+        if self.radii is not None and len(self.radii) < 2:
+            raise bad("fusee", "a fusee with one radius is a drum", "give 2 radii or more, such as [6 mm, 14 mm]")
+        if self.torque is not None and self.torque.unit is None:
+            raise bad("fusee", "the torque of a fusee has no unit", f"write {self.torque.text} N m")
+        return self
 
 
 class SpringDrive(Declared):
@@ -72,7 +104,7 @@ class SpringDrive(Declared):
             fix = "give `barrel: 15 mm` and `fusee: {turns: 6, torque: 0.27 N m}`, or neither"
             raise bad("drive", "`barrel` and `fusee` must be given together", fix)
         if (chained := self.chained) is not None and (end := chained.end) < inf:
-            what = f"the spring has run down after {end:.6g} of the {chained.fusee.turns} turns of the fusee"
+            what = f"the spring has run down after {end:.6g} of the {chained.turns:g} turns of the fusee"
             raise bad("drive", what, "give more `turns` of winding, fewer turns of the fusee, or smaller radii")
         return self
 
@@ -81,7 +113,17 @@ class SpringDrive(Declared):
         """Spring with its fusee; None without a fusee."""
         if self.barrel is None or self.fusee is None:
             return None
-        return FuseeSpring(self.stiffness.si, tau * float(self.turns.value), self.barrel.si, self.fusee)
+        from geartrain.train.fusees import FuseeSpring
+
+        fusee = self.fusee
+        return FuseeSpring(
+            self.stiffness.si,
+            tau * float(self.turns.value),
+            self.barrel.si,
+            float(fusee.turns.value),
+            None if fusee.torque is None else fusee.torque.si,
+            tuple(radius.si for radius in fusee.radii or ()),
+        )
 
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].

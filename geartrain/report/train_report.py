@@ -164,6 +164,10 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
         from geartrain.report.torque_report import loaded_sections
 
         yield from loaded_sections(found.torques)
+    for clock in found.timekeeping:
+        from geartrain.report.clock_report import timekeeping_section
+
+        yield timekeeping_section(clock)
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
     if found.motion or found.teeth:

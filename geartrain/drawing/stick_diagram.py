@@ -112,6 +112,7 @@ class StickLabels:
         spots = [*before, *((x, y + _AWAY) for x in along), (right + 0.04 + wide / 2, y + _AWAY)]
         spots += [*((x, y - _AWAY) for x in along), (left - 0.04 - wide / 2, y + _AWAY)]
         spots += [(right + 0.04 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, -_AWAY) for step in range(6)]
+        spots += [(left - 0.04 - wide / 2 - step * _STEP, y + lift) for lift in (0.0, -_AWAY, _AWAY) for step in range(9)]
         tight = [text_box([link], _LINK_NAME, float(x), float(height), "bold") for x, height in spots]
         places = (*((x, height, across + 2 * _APART, tall) for x, height, across, tall in tight), *tight)
         self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
@@ -435,7 +436,7 @@ class _Drawing:
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
         draw_line(self.axes, [left, right], [shaft.y, shaft.y], "white", LINK + 3.0, zorder=5)
         draw_line(self.axes, [left, right], [shaft.y, shaft.y], BLACK, LINK, zorder=6, gid=f"link {shaft.link}")
-        joint, frame = left + 0.06, self.train.declaration.frame
+        joint, frame = left + BEARING, self.train.declaration.frame
         if self.train.kinematics.tree.top[shaft.link] == frame:
             draw_bearing(self.axes, joint, shaft.y, slides=shaft.link in self.train.declaration.sliding)
             self.words.keep_off((joint - BEARING, joint + BEARING), (shaft.y - BAR, shaft.y + BAR))

@@ -23,7 +23,7 @@ TICK = 0.085
 """Half the length of a tooth mark [in]."""
 TOUCH = 0.032
 """Distance from where two wheels meet to the middle of the mark of either wheel [in]."""
-BEARING, BAR = 0.08, 0.05
+BEARING, BAR = 0.07, 0.05
 """Half the length of the bars of a bearing, and their distance from the shaft [in]."""
 NAME = 8.0
 """Font size of the name of a brake or clutch [pt]."""

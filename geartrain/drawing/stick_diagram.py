@@ -112,7 +112,9 @@ class StickLabels:
         spots = [*before, *((x, y + _AWAY) for x in along), (right + 0.04 + wide / 2, y + _AWAY)]
         spots += [*((x, y - _AWAY) for x in along), (left - 0.04 - wide / 2, y + _AWAY)]
         spots += [(right + 0.04 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, -_AWAY) for step in range(6)]
-        spots += [(left - 0.04 - wide / 2 - step * _STEP, y + lift) for lift in (0.0, -_AWAY, _AWAY) for step in range(9)]
+        spots += [
+            (left - 0.04 - wide / 2 - step * _STEP, y + lift) for lift in (0.0, -_AWAY, _AWAY) for step in range(9)
+        ]
         tight = [text_box([link], _LINK_NAME, float(x), float(height), "bold") for x, height in spots]
         places = (*((x, height, across + 2 * _APART, tall) for x, height, across, tall in tight), *tight)
         self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
@@ -594,5 +596,4 @@ def _legend(train: GearTrain, held: bool) -> Iterator[Line2D | Patch]:
         for color, words in ((PURPLE, "closed brakes and clutches"), (GREY, "open ones")):
             yield Line2D([], [], color=color, label=words, **ends)  # type: ignore[arg-type]
     if any(clutch.one_way for clutch in train.declaration.clutches.values()):
-        look = {"linestyle": "", "marker": ">", "markersize": 6}
-        yield Line2D([], [], color=GREY, label="one-way clutches", **look)
+        yield Line2D([], [], color=GREY, linestyle="", marker=">", markersize=6, label="one-way clutches")

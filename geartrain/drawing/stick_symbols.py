@@ -149,7 +149,7 @@ def draw_joint(axes: Axes, x: float, meet: float, ends: tuple[float, float], kin
         draw_line(axes, [x - 0.09, x + 0.09], [meet - 0.09, meet + 0.09], PURPLE, 1.0, zorder=5)
 
 
-def draw_pin(axes: Axes, x: float, meet: float, ends: tuple[float, float], pins: tuple[bool, bool], name: str) -> None:
+def draw_pin(axes: Axes, x: float, meet: float, ends: tuple[float, float], pins: Sequence[bool], name: str) -> None:
     """Draw a pin in its slot; for links that are kept parallel, without a pin, two bars side by side.
 
     pins   True for the end that carries the pin

@@ -366,7 +366,9 @@ def test_bearings_are_bars_and_only_held_links_are_hatched(name: str, held: int)
     bars = [line.get_xydata() for line in figure.axes[0].lines if line.get_gid() == "bearing"]
     for link, (left, right, height) in shafts_of(figure).items():
         if train.kinematics.tree.top[link] == train.declaration.frame:
-            own = [bar for bar in bars if left - 1e-9 <= bar[0][0] < bar[1][0] <= right and abs(bar[0][1] - height) < 0.06]
+            own = [
+                bar for bar in bars if left - 1e-9 <= bar[0][0] < bar[1][0] <= right and abs(bar[0][1] - height) < 0.06
+            ]
             assert sorted(round(bar[0][1] - height, 6) for bar in own) == [-0.05, 0.05], link
 
 
@@ -517,7 +519,7 @@ def test_the_usual_sense_of_hands_is_written_once() -> None:
     texts = [text.get_text() for text in drawn("freeth-2021", "dials").axes[0].texts]
     assert sum(" clockwise" in text for text in texts) == 1
     backwards = {text.split(":")[0] for text in texts if text.endswith(", counter-clockwise")}
-    assert backwards == {"games", "nodes", "phase"}, "as reconstructed: games and nodes; the ball turns as the Moon gains"
+    assert backwards == {"games", "nodes", "phase"}, "the ball turns as the Moon gains on the Sun"
 
 
 def test_a_pointer_on_a_spiral_moves_outwards_with_every_turn() -> None:

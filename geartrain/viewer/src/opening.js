@@ -36,7 +36,7 @@ export function momentOf(scene) {
 
 /** The first sentence of the train's note; without a note, what drives which outputs. */
 export function purposeOf({ note, bodies, driving_link: lead, pointers, dials, asks }) {
-  if (note) return /^.+?\.(?=\s+[A-Z0-9(]|\s*$)/s.exec(note)?.[0] ?? note;
+  if (note) return /^.+?(?<!\b[A-Z])\.(?=\s+[A-Z0-9(]|\s*$)/s.exec(note)?.[0] ?? note;
   if (lead === null || !asks) return "";
   const read = pointers.filter(({ dial }) => !dials.length || dial !== null).map(({ output }) => output);
   const more = read.length > LISTED ? ` and ${read.length - LISTED} more` : "";

@@ -73,7 +73,7 @@ export class Tools {
 
   /** Places rarely used controls in the head on wide pages, else among the tools. */
   lodge(place, seldom) {
-    this.#asRoomIs(() => (this.small.matches ? this.row : place).append(this.files, ...seldom));
+    this.#asRoomIs(() => (this.small.matches ? this.row : place).append(...seldom, this.files));
   }
 
   /** Sets the displayed sides, and applies the controls to their pictures. */

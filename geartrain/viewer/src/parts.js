@@ -77,8 +77,8 @@ function chamfered(outline) {
   });
 }
 
-/** A flat part, with outlines of alternating x and y: first its edge, then its holes. */
-export function flatShape({ outlines, height }) {
+/** A flat part, with outlines of alternating x and y: first its edge, then its holes; without walls before outline `walled`. */
+export function flatShape({ outlines, height }, walled = 0) {
   const shape = new Shape();
   const rings = outlines.map((line) => {
     const points = [];
@@ -96,7 +96,7 @@ export function flatShape({ outlines, height }) {
     for (const { x, y } of points) shape.corner([x, y, (side * height) / 2], [0, 0, side], [1, 0, 0]);
     for (const [a, b, c] of triangles) shape.indices.push(first + a, first + b, first + c);
   }
-  for (const ring of rings) wall(shape, ring, height / 2);
+  for (const ring of rings.slice(walled)) wall(shape, ring, height / 2);
   return shape;
 }
 

@@ -30,6 +30,7 @@ from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.coupling_shapes import find_shapes
 from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
+from geartrain.scene.displays import drive_kind, find_displays, fusee_radii, upwards
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
@@ -411,6 +412,9 @@ def make_scene(
         front=stage.layout.front,
         driving_link=None if stage.driving_link is None else stage.body[stage.driving_link],
         crank=None if stage.crank is None else stage.body[stage.crank],
+        drive=drive_kind(stage),
+        fusee=fusee_radii(stage),
+        up=upwards(stage),
         step=fraction_text(stage.step),
         verdict=verdict,
         bodies=bodies,
@@ -419,7 +423,7 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
-        shapes=find_shapes(stage),
+        shapes=(*find_shapes(stage), *find_displays(stage)),
         dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
         pointers=pointers,
         movement=moved.movement,

@@ -39,6 +39,7 @@ export class Stage {
     this.setting.matrixAutoUpdate = false;
     this.setting.add(this.world.root);
     this.camera = new PerspectiveCamera(FIELD, 1, 0.02 * this.world.size, 60 * this.world.size);
+    this.camera.up.set(...machine.scene.up);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.1 * this.world.size;
     this.controls.maxDistance = 30 * this.world.size;
@@ -156,9 +157,10 @@ export class Stage {
     else this.fit(this.aside(this.opening()));
   }
 
-  /** A viewing direction, given relative to the front. */
+  /** A viewing direction, given relative to the front; for an observer above, to the side on which the front is lowest. */
   towards([x, y, z]) {
-    const front = this.machine.scene.front || 1;
+    const { front = 1, up } = this.machine.scene;
+    if (up[2] && (x || y)) return vector([x * front, -z, y * front]).normalize();
     return vector([x * front, y, z * front]).normalize();
   }
 
@@ -205,7 +207,7 @@ export class Stage {
   /** The camera position, as near as the extent allows, in the current direction or another one. */
   framed(towards = this.camera.position.clone().sub(this.controls.target).normalize()) {
     const high = Math.tan((FIELD * DEGREE) / 2) / MARGIN;
-    return { towards, ...frame(this.world.outline(), towards, high * this.camera.aspect, high) };
+    return { towards, ...frame(this.world.outline(), towards, this.machine.scene.up, high * this.camera.aspect, high) };
   }
 
   orbited() {

@@ -8,7 +8,7 @@ import { holds, quarterOf } from "./cutaway.js";
 import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
 import { dialParts, orderOf, pointerParts, shownBy } from "./faces.js";
 import { Ground } from "./ground.js";
-import { couplingParts, crankOf, hangerParts } from "./joints.js";
+import { couplingParts, crankOf, hangerParts, machineOf } from "./joints.js";
 import { Looks } from "./looks.js";
 import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
@@ -18,6 +18,8 @@ import { Sight } from "./sight.js";
 import { along, isParallel, offAxis, onAxis, sharesAxis, vector } from "./space.js";
 import { Sparks } from "./sparks.js";
 import { WheelPart } from "./wheels.js";
+
+const REACH = 0.12; // length of a crank relative to the size of the train
 
 export class World {
   constructor(machine) {
@@ -45,7 +47,7 @@ export class World {
     this.looks.paint("plain");
     this.root.add(...this.cast(0), ...this.cast(2));
     this.machine = machine;
-    this.ground = new Ground(this.size);
+    this.ground = new Ground(this.size, this.scene.up);
     this.root.add(this.ground.mesh);
     if (machine.simulated) {
       this.sparks = new Sparks(machine.scene, this.poses, machine.run);
@@ -96,10 +98,16 @@ export class World {
     return new Bend(machine, wave, part, joined.map(({ slot, ends }) => ({ slot, bottom: ends[1] })));
   }
 
-  /** Adds the crank at the end of its arbor where it is less in the way of other parts; the arbor is lengthened past them. */
+  /** True if the train is driven by what is drawn elsewhere: a weight that hangs, or the ground. */
+  get isDriven() {
+    const { crank, drive, hangers, shapes } = this.scene;
+    return (drive === "weight" && hangers.some(({ kind }) => kind === "weight")) || shapes.some(({ kind, body }) => kind === "road" && body === crank);
+  }
+
+  /** Adds the crank, or the motor or spring, at the end of its arbor where it is less in the way of other parts; the arbor is lengthened past them. */
   buildCrank(reach) {
     const { scene, size } = this;
-    if (scene.crank === null || scene.bodies[scene.crank].parent === null) return null;
+    if (scene.crank === null || scene.bodies[scene.crank].parent === null || this.isDriven) return null;
     const body = scene.bodies[scene.crank];
     const coaxial = scene.bodies.map((_, at) => at).filter((at) => reach[at] && sharesAxis(scene, scene.crank, at, size));
     const ends = coaxial.flatMap((at) => reach[at].map((end) => along(body, onAxis(scene.bodies[at], end))));
@@ -113,13 +121,14 @@ export class World {
         ? vector(body.direction).dot(this.main) * scene.front
         : off(high) - off(low);
     // in front of a dial the crank would hide its scale
-    const read = new Set(scene.dials.filter(({ centre, normal }) => offAxis(body, centre) < 1e-6 * size && isParallel(body.direction, normal)).map(({ normal }) => Math.sign(vector(normal).dot(vector(body.direction)))));
+    const isBefore = ({ centre, normal, radius }) => isParallel(body.direction, normal) && offAxis(body, centre) < 1.08 * radius + REACH * size;
+    const read = new Set(scene.dials.filter(isBefore).map(({ normal }) => Math.sign(vector(normal).dot(vector(body.direction)))));
     const side = read.size === 1 ? -[...read][0] : outward < 0 ? -1 : 1;
     const last = side > 0 ? high : low;
     const end = last + side * 0.02 * size;
     const foot = own[side > 0 ? 1 : 0];
     const rod = rodsOf(scene, scene.crank).sort((one, other) => side * (other[0] - one[0]))[0];
-    const crank = crankOf(scene, scene.crank, end, side, 0.12 * size, size);
+    const crank = scene.drive === "motor" || scene.drive === "spring" ? machineOf(scene, scene.crank, end, side, size) : crankOf(scene, scene.crank, end, side, REACH * size, size);
     crank.at = onAxis(body, last); // in the exploded view, it moves with its support
     for (const part of crank.parts) part.at = crank.at;
     const bar = (from, to, at) => ({ body: scene.crank, colour: PARTS.arbor, ...barBetween(onAxis(body, from), onAxis(body, to), rod ? rod[2] : 0.009 * size), at });

@@ -401,6 +401,7 @@ def make_scene(
     notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
     pointers = find_pointers(stage, dials)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
+    shapes, rods = find_shapes(stage)
     pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
@@ -423,7 +424,8 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
-        shapes=(*find_shapes(stage), *find_displays(stage)),
+        shapes=(*shapes, *find_displays(stage)),
+        hangers=rods,
         dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
         pointers=pointers,
         movement=moved.movement,

@@ -116,8 +116,8 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def line(self, axis: str) -> Vector:
-        """Return the unit direction in which links slide on an axis: as declared, along the axis of a screw, otherwise
-        along x.
+        """Return the unit direction in which links slide on an axis: as declared, along the axis of a screw, vertical
+        for the weight of a drum so that it falls as the train runs, otherwise along x.
         """
         declared = self.train.declaration.axes.get(axis)
         if declared is not None and "direction" in declared.model_fields_set:
@@ -126,7 +126,13 @@ class SceneContext:
         screws = (each for each in self.train.circuits if each.kind == "screw")
         found = (seen_from(each.carrier, each.j) for each in screws if seen_from(each.carrier, each.i) == axis)
         screw = next(found, None)
-        return (1.0, 0.0, 0.0) if screw is None else self.reference(screw)
+        if screw is not None:
+            return self.reference(screw)
+        for coupling in self.train.declaration.couplings:
+            if coupling.kind == "drum" and self.train.kinematics.tree.axis(coupling.slides) == axis:
+                if abs(self.reference(self.train.kinematics.tree.axis(coupling.turns))[1]) < 0.5:
+                    return (0.0, 1.0 if (self.speed(coupling.slides) or 0) < 0 else -1.0, 0.0)
+        return (1.0, 0.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:
         """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel

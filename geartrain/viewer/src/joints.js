@@ -6,7 +6,7 @@ import { armBetween } from "./arbors.js";
 import { HANDLE, PARTS } from "./colours.js";
 import { colourOf, ROUND, turnedShape } from "./parts.js";
 import { ball, band, bar, plate, roundEnded, Shape, swept } from "./shape.js";
-import { along, across, frameAt, onAxis, vector } from "./space.js";
+import { along, across, frameAt, isParallel, onAxis, vector } from "./space.js";
 
 /** Parts of a pin and its slot: {body, colour, shape, matrix, at}. */
 export function couplingParts(scene, coupling, size) {
@@ -129,6 +129,19 @@ function fusee(radii) {
   const top = radii.length * step;
   const shape = swept(new Shape(), [[0, 0], ...grooved, [radii.at(-1), top], [0, top]], 64);
   return [[{ colour: PARTS.pipe, shape }, { colour: PARTS.pipe, shape: bar(1.1 * most, -0.8 * step, 0, 64) }], 1.1 * most, top];
+}
+
+const GAP = 0.02; // in the rod of a shortened pendulum, relative to its length
+
+/** The turned parts of a hanging part; a pendulum longer than `most` (mm) is shortened, with a gap in its rod. */
+export function partsOfHanger({ kind, length, down, parts }, most) {
+  const less = length - most;
+  if (kind !== "pendulum" || less <= 0) return parts;
+  const broken = ([low, high, ...radii]) => [[low, most * (0.6 - GAP), ...radii], [most * (0.6 + GAP), high - less, ...radii]];
+  return parts.map((part) => {
+    if (isParallel(part.direction, down)) return { ...part, bands: part.bands.flatMap(broken) };
+    return { ...part, place: vector(part.place).addScaledVector(vector(down), -less).toArray() };
+  });
 }
 
 /** The turned parts of a hanging part, or its line: {colour, shape, matrix, at}. */

@@ -8,7 +8,7 @@ import { holds, quarterOf } from "./cutaway.js";
 import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
 import { dialParts, orderOf, pointerParts, shownBy } from "./faces.js";
 import { Ground } from "./ground.js";
-import { couplingParts, crankOf, hangerParts, machineOf } from "./joints.js";
+import { couplingParts, crankOf, hangerParts, machineOf, partsOfHanger } from "./joints.js";
 import { Looks } from "./looks.js";
 import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
@@ -20,13 +20,14 @@ import { Sparks } from "./sparks.js";
 import { WheelPart } from "./wheels.js";
 
 const REACH = 0.12; // length of a crank relative to the size of the train
+const LONGEST = 1.1; // maximum length of a pendulum as drawn, in the same way
 
 export class World {
   constructor(machine) {
     this.scene = machine.scene;
     const circles = circlesOf(this.scene);
     this.main = mainDirection(this.scene);
-    this.corners = cornersOf(this.scene, this.main);
+    this.corners = cornersOf([...this.scene.parts, ...this.scene.shapes], this.main);
     const corners = this.corners.map(({ point }) => point);
     this.ball = ballOf(this.scene, circles, corners);
     this.size = 2 * this.ball.radius;
@@ -81,7 +82,12 @@ export class World {
       const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
       pointerParts(scene, index, orderOf(scene, index)).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
     });
-    scene.hangers.forEach((hanger, index) => hangerParts(hanger).forEach((part) => this.put({ ...part, body: this.poses.hanger(index) })));
+    scene.hangers.forEach((hanger, index) => {
+      const body = this.poses.hanger(index);
+      const parts = partsOfHanger(hanger, LONGEST * size);
+      hangerParts({ ...hanger, parts }).forEach((part) => this.put({ ...part, body }));
+      this.corners.push(...cornersOf(parts, this.main).map((corner) => ({ ...corner, body })));
+    });
     this.crank = this.buildCrank(reach);
     this.crank?.parts.forEach((part) => this.put(part));
   }

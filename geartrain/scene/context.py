@@ -128,10 +128,13 @@ class SceneContext:
         screw = next(found, None)
         if screw is not None:
             return self.reference(screw)
-        for coupling in self.train.declaration.couplings:
-            if coupling.kind == "drum" and self.train.kinematics.tree.axis(coupling.slides) == axis:
-                if abs(self.reference(self.train.kinematics.tree.axis(coupling.turns))[1]) < 0.5:
-                    return (0.0, 1.0 if (self.speed(coupling.slides) or 0) < 0 else -1.0, 0.0)
+        from geartrain.teeth.couplings.travel import Drum
+
+        tree = self.train.kinematics.tree
+        for each in self.train.declaration.couplings:
+            hangs = isinstance(each, Drum) and tree.axis(each.slides) == axis
+            if hangs and abs(self.reference(tree.axis(each.turns))[1]) < 0.5:
+                return (0.0, 1.0 if (self.speed(each.slides) or 0) < 0 else -1.0, 0.0)
         return (1.0, 0.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:

@@ -106,7 +106,7 @@ def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[Scene
         rows = [circuits[row.id] for row in coupling.rows(stage.train.declaration.wheels)]
         places = [_placed(stage, coupling, circuit, level) for circuit in rows]
         for each in draw(places):
-            (rods if isinstance(each, SceneHanger) else found).append(each)  # type: ignore[attr-defined]
+            (rods if isinstance(each, SceneHanger) else found).append(each)
     return tuple(found), tuple(rods)
 
 
@@ -449,10 +449,12 @@ def _screw(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     nut = [(1.8 * radius * cos(pi * at / 3), 1.8 * radius * sin(pi * at / 3)) for at in range(6)]
     rods = [(1.45 * radius * cos(turn), 1.45 * radius * sin(turn)) for turn in (0.0, pi)]
     holes = (circle(0.16 * radius, rod) for rod in rods)
-    yield place.flat(declared.slides, "nut", place.driver_at, place.towards, nut, circle(radius), *holes, height=2 * lead)
+    yield place.flat(
+        declared.slides, "nut", place.driver_at, place.towards, nut, circle(radius), *holes, height=2 * lead
+    )
     for x, _ in rods:  # which keep the nut from turning
-        at, end = plus(place.driver_at, place.towards, x), turns * lead / 2
-        yield place.turned(place.circuit.carrier, "guide", at, 0.14 * radius, -end, end)
+        middle, end = plus(place.driver_at, place.towards, x), turns * lead / 2
+        yield place.turned(place.circuit.carrier, "guide", middle, 0.14 * radius, -end, end)
 
 
 def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]:

@@ -47,7 +47,7 @@ def _hand(reach: float, places: str, halves: str) -> HandOutline:
 
 
 HANDS: Mapping[str, HandOutline] = {name: _hand(*drawn) for name, drawn in _HANDS.items()}
-"""Outlines of hands by the name used in a declaration; other names have the outline of a needle, or `hand_with_ball`."""
+"""Outlines of hands by the name used in a declaration; other hands are needles or `hand_with_ball`."""
 
 
 def hand_with_ball(reach: float, ball: float) -> HandOutline:

@@ -1,4 +1,4 @@
-"""What a machine shows and what drives it in the picture; surfaces without seams, and nothing beyond the picture's edge."""
+"""What a machine shows and what drives it, surfaces without seams, and nothing beyond the edge of the picture."""
 
 from __future__ import annotations
 
@@ -54,7 +54,8 @@ POINTS = """([body, keep, turns]) => {
   const slots = new Set(parts.filter(own).map(({slot}) => slot));
   return castings.filter(({geometry}) => geometry).flatMap(({geometry, parts}) => {
     const points = geometry.attributes.position.array;
-    return parts.filter((part) => (body === null || part.body === body) && (!keep || slots.has(part.slot))).map((part) => {
+    const isOwn = (part) => (body === null || part.body === body) && (!keep || slots.has(part.slot));
+    return parts.filter(isOwn).map((part) => {
       const found = [];
       for (let at = part.first; at < part.last; at += 1) {
         const point = new Vector(...points.slice(3 * at, 3 * at + 3)).applyMatrix4(nodes[part.body].matrixWorld);

@@ -131,11 +131,11 @@ class SceneContext:
         from geartrain.teeth.couplings.travel import Drum
 
         tree = self.train.kinematics.tree
-        for each in self.train.declaration.couplings:
-            hangs = isinstance(each, Drum) and tree.axis(each.slides) == axis
-            if hangs and abs(self.reference(tree.axis(each.turns))[1]) < 0.5:
-                return (0.0, 1.0 if (self.speed(each.slides) or 0) < 0 else -1.0, 0.0)
-        return (1.0, 0.0, 0.0)
+        drums = (each for each in self.train.declaration.couplings if isinstance(each, Drum))
+        drum = next((each for each in drums if tree.axis(each.slides) == axis), None)
+        if drum is None or abs(self.reference(tree.axis(drum.turns))[1]) > 0.5:  # an axis that is not horizontal
+            return (1.0, 0.0, 0.0)
+        return (0.0, 1.0 if (self.speed(drum.slides) or 0) < 0 else -1.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:
         """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel

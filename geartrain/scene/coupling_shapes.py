@@ -186,8 +186,8 @@ def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier; a belt with
-    an idle pulley is off.
+    """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier; a belt
+    with an idle pulley is off.
     """
     first = places[0]
     ends = (first.circuit.j, *(place.circuit.i for place in places))
@@ -214,7 +214,8 @@ def _is_idle(stage: SceneContext, link: str) -> bool:
     """Return True if a link turns with one coupling only, and the clutches that could lock it are open in this state."""
     declared, case = stage.train.declaration, stage.case
     clutches = {name: each for name, each in declared.clutches.items() if link in (*(each.locks or ()), each.fixes)}
-    if not clutches or link in case.inputs or any(name in case.engaged or clutches[name].one_way for name in clutches):
+    locked = any(name in case.engaged or each.one_way for name, each in clutches.items())
+    if not clutches or locked or link in case.inputs:
         return False
     return sum(link in (circuit.i, circuit.j) for circuit in stage.train.circuits) == 1
 

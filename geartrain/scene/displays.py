@@ -139,7 +139,7 @@ def _has_mate(stage: SceneContext, link: str) -> bool:
 
 
 def _reach(stage: SceneContext, point: Vector, way: Vector) -> tuple[float, float]:
-    """Return the extent of all wheels from a point along a direction, and their maximum distance from this line [mm]."""
+    """Return the extent of all wheels from a point along a direction, and their distance from this line [mm]."""
     places = stage.layout.wheels.values()
     along = max((_extent(stage, place, point, way) for place in places), default=0.0)
     aside = max((size(across(minus(place.centre, point), way)) + place.radius for place in places), default=10.0)

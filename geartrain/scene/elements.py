@@ -60,8 +60,8 @@ class SceneHanger(Shown):
     """
 
     kind: Literal["pendulum", "line", "weight", "rod"]
-    """Kind of the part: a pendulum swings with its escape wheel; a weight falls on its line as the barrel turns; a rod or
-    a rope extends from a point of one body to a point of another.
+    """Kind of the part: a pendulum swings with its escape wheel; a weight falls on its line as the barrel turns; a
+    rod or a rope extends from a point of one body to a point of another.
     """
     body: int
     """Index of the body whose rotation moves the part, or of the body at the start of a rod."""

@@ -211,7 +211,7 @@ def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _is_idle(stage: SceneContext, link: str) -> bool:
-    """Return True if a link turns with one coupling only, and the clutches that could lock it are open in this state."""
+    """Return True if a link turns with one coupling only, and the clutches that could lock it are open in the state."""
     declared, case = stage.train.declaration, stage.case
     clutches = {name: each for name, each in declared.clutches.items() if link in (*(each.locks or ()), each.fixes)}
     locked = any(name in case.engaged or each.one_way for name, each in clutches.items())

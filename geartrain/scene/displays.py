@@ -1,4 +1,4 @@
-"""What a train moves and what moves it, besides dials: road wheels, a pointing figure, and the kind of drive.
+"""Road wheels, a pointing figure, and the kind of drive of a train.
 
 Figures and road wheels are parts of the link of an output. Their sizes are chosen for the picture: two road wheels on
 one axis have a track equal to their diameter, and a single one reaches below all wheels.
@@ -37,7 +37,7 @@ _TYRE = 0.1  # thickness of a road wheel divided by its radius
 
 
 def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weight"]:
-    """Return what drives a train: as declared, a motor for a speed in real time, otherwise a hand."""
+    """Return the drive of a train: as declared, a motor for a speed in real time, otherwise a hand."""
     drive = stage.case.drive
     declared = stage.train.declaration
     if drive is None:

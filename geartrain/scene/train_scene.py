@@ -201,7 +201,7 @@ class Scene(Shown):
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     drive: Literal["hand", "motor", "spring", "weight"]
-    """What turns the crank's body: as declared, a motor for a speed in real time, otherwise a hand."""
+    """Drive of the body of the crank: as declared, a motor for a speed in real time, otherwise a hand."""
     fusee: Sequence[float]
     """Radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
     up: Vector

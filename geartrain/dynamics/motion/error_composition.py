@@ -169,6 +169,25 @@ def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
     return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
 
+@dataclass(frozen=True)
+class ErrorDifference:
+    """Difference of the output errors of two composed motions with the same outputs, at the same input positions."""
+
+    one: ErrorSampler
+    other: ErrorSampler
+
+    @property
+    def chunk(self) -> int:
+        """Maximum number of positions that are evaluated at once."""
+        return min(self.one.chunk, self.other.chunk)
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
+        one, other = self.one.at(turns), self.other.at(turns)
+        both = one.reversing_drivers | other.reversing_drivers
+        return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
+
+
 @dataclass
 class ErrorComposition:
     """Composition of the error sources of a train. It computes the errors of the requested outputs at any position."""

@@ -19,6 +19,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import (
     ErrorComposition,
+    ErrorDifference,
     ErrorSamples,
     SeenLink,
     common_period,
@@ -174,6 +175,8 @@ class Motion(Shown):
         self._declaration: Any = None  # declaration of the train, for `print`
         self._state: str | None = None
         self._without: tuple[str, ...] = ()
+        self._shown = tuple(outputs)  # outputs that a plot shows
+        self._ideal: Motion | None = None  # motion whose errors are subtracted
         self._refuse_loops()
 
     def _summary(self) -> str:
@@ -366,7 +369,19 @@ class Motion(Shown):
             # division first: the last position is exactly `turns`, wherever chunks begin
             yield composition.at(turns * (at / (samples - 1)))
 
+    def _compositions(self, turns: float) -> list[ErrorComposition]:
+        """Return the error compositions whose kinks divide a run: of this motion, and of one that is subtracted."""
+        own = self._forward if turns >= 0 else self._backward
+        return [own] if self._ideal is None else [own, *self._ideal._compositions(turns)]
+
     def _sampler(self, turns: float, samples: int) -> ErrorSampler:
+        """Return the sampler of errors for a run of `samples` positions, with one composition or the difference of
+        two.
+        """
+        own = self._own_sampler(turns, samples)
+        return own if self._ideal is None else ErrorDifference(own, self._ideal._sampler(turns, samples))
+
+    def _own_sampler(self, turns: float, samples: int) -> ErrorSampler:
         """Return the error composition for a run of `samples` positions, or its compiled form."""
         composition = self._forward if turns >= 0 else self._backward
         pairs = len(composition.used)
@@ -542,6 +557,31 @@ class Motion(Shown):
         motion = Motion(self._problem, shown, self.tolerance, self.fast)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
         return motion
+
+    def without_anomaly(self) -> Motion:
+        """Return the motion whose errors are those of the teeth: the errors of the same couplings with ideal teeth, at
+        the same positions of the input, are subtracted.
+
+        Returns
+        -------
+        Motion
+            Motion with the same outputs; the same motion if it has no couplings, or only teeth with constant ratio.
+        """
+        if not (self._problem.couplings and self._problem.rippling):
+            return self
+        motion = self._of(tuple(self.outputs))
+        motion._ideal = self._with_ideal_teeth()
+        return motion
+
+    def _with_ideal_teeth(self) -> Motion:
+        """Return the motion of the same train with ideal teeth (constant ratio, no backlash) and the same couplings."""
+        return Motion(replace(self._problem, meshes={}), self.outputs, self.tolerance, self.fast)
+
+    def _degrees_per_day(self, output: str) -> float | None:
+        """Return the magnitude of an output's mean speed [deg/d]; None if it is 0, or if the unit is not a time."""
+        unit = None if self._declaration is None else self._declaration.unit_days
+        speed = self._problem.seen_ratio(*self.outputs[output]) * self._problem.speeds[self._problem.driving_link]
+        return float(360 * abs(speed) / unit) if unit and speed else None
 
     def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
         """Draw angles, errors and speeds against the revolutions of the input as a matplotlib figure.

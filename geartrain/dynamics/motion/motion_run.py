@@ -306,10 +306,10 @@ class MotionRun(Tabular, Pictured):
             self.done += len(passage.turns)
             on_done(len(passage.turns))
         # samples miss sharp peaks, so extremes are searched between them
-        composition = self.motion._forward if self.turns >= 0 else self.motion._backward
-        positions = int(3 * KinkSearch(composition).rate * abs(self.turns))
+        compositions = self.motion._compositions(self.turns)
+        positions = int(3 * KinkSearch(compositions[0]).rate * abs(self.turns))
         sampler = self.motion._sampler(self.turns, max(self.samples, positions))
-        self.reversing_drivers |= count_extremes([composition], sampler, self.turns, self.statistics)
+        self.reversing_drivers |= count_extremes(compositions, sampler, self.turns, self.statistics)
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
         """Repeat the run with random phases of the pairs that declare no phase.

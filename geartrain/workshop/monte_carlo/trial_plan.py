@@ -301,6 +301,10 @@ class TrialPlan(Shown):
     """Range of the random positions of the input [turn]."""
     driving_link: str
     """Name of the driving link."""
+    shown: Mapping[str, float | None] = field(default_factory=dict)
+    """Mean speed of each output that a plot shows [deg/d], None if it is unknown: the requested outputs, or the outputs
+    with a dial.
+    """
 
     def _summary(self) -> str:
         return f"{self.name}: {len(self.wheels)} wheels, {len(self.pairs)} pairs, outputs {', '.join(self.outputs[:6])}"
@@ -464,6 +468,7 @@ def find_trial_plan(
         reach,
         _span(composition, pairs),
         motion._problem.driving_link,
+        {name: motion._degrees_per_day(name) for name in motion._shown},
     )
 
 

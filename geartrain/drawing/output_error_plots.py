@@ -154,7 +154,9 @@ def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> F
 
 def _drawers(trace: _Trace) -> list[Callable[[Axes, _Trace], None]]:
     """Return the functions that draw an output's panels: the angle for few turns, only backward motion for many."""
-    errors = [_error, _speed] if np.ptp(trace.error) > _ROUNDING or np.ptp(trace.speed) > _ROUNDING else []
+    errors: list[Callable[[Axes, _Trace], None]] = (
+        [_error, _speed] if np.ptp(trace.error) > _ROUNDING or np.ptp(trace.speed) > _ROUNDING else []
+    )
     if trace.slides or np.ptp(trace.mean) <= _MAX_TURNS:
         return [_angle, *errors]
     return [_backward_motion, *errors] if (trace.speed < 0).any() else errors or [_speed]

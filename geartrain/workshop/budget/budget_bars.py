@@ -17,6 +17,7 @@ _LOOKS: dict[str, dict[str, Any]] = {
     cause: {"marker": marker, "markersize": 8, "color": series_colour(at), "markeredgewidth": 1.6}
     for at, (cause, marker) in enumerate(zip(CAUSES, _MARKERS, strict=True))
 }
+_OPEN: dict[str, Any] = {"markersize": 11, "markerfacecolor": WHITE}
 _SMALL = 1e-4
 """Size relative to the largest cause in the chart; smaller causes have no mark, as they would stretch the axis."""
 
@@ -34,7 +35,8 @@ def budget_figure(found: TrainBudget) -> Figure:
     -------
     matplotlib.figure.Figure
         Figure with sizes on a logarithmic axis [deg]; open marks are declared in part, and causes below 0.01 % of the
-        largest have no mark. Confidence intervals of 95 % are lines. The sum of the causes [deg] and its time [d] are next to the rows.
+        largest have no mark. Confidence intervals of 95 % are lines. The sum of the causes [deg] and its time [d] are
+        next to the rows.
 
     Raises
     ------
@@ -62,7 +64,7 @@ def budget_figure(found: TrainBudget) -> Figure:
         filter(None, ("size of each cause (deg); open marks: declared in part", _missing(found, pointers)))
     )
     name = found.name if found.state is None else f"{found.name}, {found.state}"
-    looks = {**_LOOKS, **{_part(cause): {**look, "markerfacecolor": WHITE} for cause, look in _LOOKS.items()}}
+    looks = {**_LOOKS, **{_part(cause): {**look, **_OPEN} for cause, look in _LOOKS.items()}}
     heads = ("sum", *["days"] * days)
     return interval_chart({label: rows}, looks, heads, f"{name}: causes of each pointer's error", log=True)
 

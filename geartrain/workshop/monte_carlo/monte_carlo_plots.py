@@ -54,7 +54,7 @@ PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)  # percentiles at the edges of bands
 LEVELS = (0.01, 0.1, 0.5)  # probabilities of the contour lines of a map
 _ROW = 2.3  # height of a panel [inch]
 _COURSES = 4  # maximum number of pointers with bands on one page: those with the largest spread
-_SHARE_LOOKS: dict[str, dict[str, Any]] = {
+_SHARE_LOOKS: dict[str, Mapping[str, Any]] = {
     "first order": DOT,
     "total, with interactions": {"marker": "o", "markersize": 10, "color": BLUE, "markerfacecolor": "none"},
 }

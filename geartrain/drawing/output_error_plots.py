@@ -52,8 +52,8 @@ _MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the pane
 class _Trace(NamedTuple):
     """Motion of one output against the turns of the input.
 
-    The angle and its mean are in turns, or mm for a link that slides, and the error in rad. The speed is divided by the
-    mean speed of the output, or by the input speed if the mean is 0.
+    The angle and its mean are in turns and the error in rad, or all in mm for a link that slides. The speed is divided
+    by the mean speed of the output, or by the input speed if the mean is 0.
     """
 
     name: str
@@ -66,7 +66,7 @@ class _Trace(NamedTuple):
     """Name of the error on the axis: transmission error if the train has tooth forms, otherwise anomaly."""
     slides: bool
     first: tuple[Floats, Floats, Floats]
-    """Turns, error [rad] and relative speed at each of the first positions."""
+    """Turns, error and relative speed at each of the first positions."""
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
@@ -128,7 +128,7 @@ def _error_chart(run: MotionRun, title: str) -> Figure:
 
 
 def _error_row(motion: Motion, tally: RunningStatistics, days: bool) -> Row:
-    factor = (1 if tally.slides else 360) / (2 * np.pi)
+    factor = tally.degrees_or_mm
     low, high = (factor * (end - tally.centre) for end in (tally.minimum, tally.most))
     rms = factor * tally.rms
     unit, per_day = (" mm" if tally.slides else "°"), motion._degrees_per_day(tally.name)
@@ -177,8 +177,9 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
         on_done(len(passage.turns))
     assert first is not None
     turns, deviation, error, speed = (np.concatenate(column) for column in zip(*parts, strict=True))
-    mean = start / (2 * np.pi) + tally.mean * turns
-    angle = mean + deviation / (2 * np.pi)
+    turn = 1.0 if tally.slides else 2 * np.pi
+    mean = start / turn + tally.mean * turns
+    angle = mean + deviation / turn
     return _Trace(tally.name, turns, angle, mean, error, speed, _kind(motion), tally.slides, first)
 
 
@@ -231,7 +232,7 @@ def _dial_line(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
 
 
 def _error(panel: Axes, trace: _Trace) -> None:
-    unit, factor = ("mm", 1 / (2 * np.pi)) if trace.slides else ("deg", 180 / np.pi)
+    unit, factor = ("mm", 1.0) if trace.slides else ("deg", 180 / np.pi)
     middle = trace.error.mean()
     _curve(panel, trace, factor * (trace.error - middle), factor * (trace.first[1] - middle))
     panel.set_ylabel(f"{trace.name}\n{trace.kind}\nless its mean ({unit})")

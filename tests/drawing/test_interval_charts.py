@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,8 +19,10 @@ from seen_figure import alike
 from test_words_in_pictures import faults_of
 
 from geartrain import GearTrain
+from geartrain import load as load_text
 from geartrain.drawing import motion_figure, torque_cycle_figure
 from geartrain.dynamics import MotionRun
+from geartrain.errors import QuestionError
 from geartrain.workshop import BudgetQuestion, budget_figure, find_budget, find_trial_plan, read_error_overrides
 
 SHORT = {"turns": 0.5, "samples": 501}
@@ -179,3 +184,77 @@ def test_a_torque_fills_its_axis_and_the_dots_are_the_mean_losses() -> None:
     for name, ((low, high),) in zip(("s~p", "p~ring"), spans_of(figure, 1), strict=True):
         power = found.losses.values[found.losses.labels[0].index(name)]
         assert (low, high) == pytest.approx((1000 * power.min(), 1000 * power.max()))
+
+
+# -------------------------------------------------------------------------------------------------------------- slides
+
+LATHE = """
+extends: lathe-thread
+name: lathe-with-teeth
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+"""
+LEAD = 6.0  # mm of carriage per turn of the lead screw
+
+
+def test_columns_of_a_link_that_slides_are_in_millimetres_as_their_cells() -> None:
+    """The carriage follows the lead screw exactly, so its error is that of the screw times the lead over a turn."""
+    train = load_text(LATHE)
+    run = train.motion().run(turns=2, samples=501)
+    screw, carriage = ({tally.name: tally for tally in run.statistics}[name] for name in ("leadscrew", "carriage"))
+    assert (screw.unit, carriage.unit) == ("rad", "mm")
+    for figure in ("peak_to_peak", "rms"):
+        assert getattr(carriage, figure) == pytest.approx(getattr(screw, figure) / (2 * np.pi) * LEAD)
+    assert run.motion.sensitivity["carriage"]["a~i"] == pytest.approx(
+        -run.motion.sensitivity["leadscrew"]["a~i"] / (2 * np.pi) * LEAD
+    )
+    figure = motion_figure(run)
+    assert [names_of(figure, panel) for panel in (0, 1)] == [["handwheel", "leadscrew"], ["carriage"]]
+    assert [f"({unit})" in axes.get_xlabel() for unit, axes in zip(("deg", "mm"), figure.axes, strict=True)] == [
+        True
+    ] * 2
+    assert np.diff(spans_of(figure, 1)[0][0]) == pytest.approx(carriage.peak_to_peak)
+    frame = run.to_frame().set_index("output")
+    assert frame["error p-p (mm)"]["carriage"] == carriage.peak_to_peak
+    assert np.isnan(frame["error p-p (rad)"]["carriage"])
+    assert frame.attrs["units"].keys() >= {"error p-p (mm)", "mean travel"}
+    assert all(frame.attrs["units"][f"error p-p ({unit})"] == unit for unit in ("rad", "mm"))
+    curve = train.motion().transmission_error("carriage", 2, 501)
+    assert curve.to_frame().attrs["units"]["error"] == "mm"
+
+
+def test_tables_of_motion_have_the_unit_of_their_cells_in_every_section(tmp_path: Path) -> None:
+    path = tmp_path / "lathe.yaml"
+    path.write_text(LATHE, encoding="utf-8")
+    options = ("--turns", "1", "--samples", 201, "--estimates", "--spectrum", "--phases", "1", "--of", "carriage")
+    text = call("motion", path, *options, "-o", "-").output
+    assert "(mm)" in text
+    assert "(deg)" not in text
+    assert not re.search(r"\d mm\b", text), "units are in the heads of columns"
+    table = json.loads(call("motion", path, *options, "--json").output)["outputs"]["carriage"]
+    spectrum = table["spectrum"][0]["measured"]
+    assert table["unit"] == "mm"
+    assert 0 < spectrum < table["transmission_error"]["peak_to_peak"] < table["estimates"]["bound"]["peak_to_peak"]
+    rows = tmp_path / "rows.csv"
+    call("motion", path, "--turns", "1", "--samples", 11, "--of", "carriage", "--of", "leadscrew", "-o", rows)
+    with rows.open(encoding="utf-8") as lines:
+        table = list(csv.DictReader(lines))
+    for row in table:
+        angle = float(row["leadscrew angle (rad)"]) - float(table[0]["leadscrew angle (rad)"])
+        travel = float(row["carriage travel (mm)"]) - float(table[0]["carriage travel (mm)"])
+        assert travel == pytest.approx(-angle / (2 * np.pi) * LEAD, abs=1e-12)
+
+
+def test_compiled_motion_of_a_slide_agrees() -> None:
+    pytest.importorskip("numba")
+    train = load_text(LATHE)
+    turns = np.linspace(0, 1, 2001)
+    plain, fast = (train.motion(outputs=("carriage",), fast=fast)._sampler(1, 10**9) for fast in (False, True))
+    for one, other in zip(plain.at(turns)[1:3], fast.at(turns)[1:3], strict=True):
+        assert one == pytest.approx(other, abs=1e-9)
+
+
+def test_errors_of_pointers_are_not_computed_for_slides() -> None:
+    train = load_text(LATHE)
+    assert "carriage" not in find_trial_plan(train, read_error_overrides(["pitch_deviation=1 %"])).outputs
+    with pytest.raises(QuestionError, match="'carriage' slides"):
+        find_budget(train, BudgetQuestion(outputs=("carriage",), **SHORT))

@@ -319,6 +319,7 @@ class CompiledComposition:
         # within one period a plain product is accurate enough
         plain = PLAIN / farthest if farthest else np.inf
         compose.chosen(self.fast)(self.arrays, turns, plain, error, rate, behind)
+        rate /= np.array([[seen.scale] for seen in self.composition.outputs])
         back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)
         return ErrorSamples(turns, error, rate, back)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import islice
-from math import degrees, pi
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -68,9 +68,16 @@ class TransmissionErrorCurve(Tabular, Result):
     """Angle of the output minus its mean motion [rad], shape (n,)."""
     speed: Floats
     """Speed of the output divided by the input speed [1], shape (n,)."""
+    slides: bool = False
+    """True for a link that slides, whose error is in mm, and its speed in mm per turn of the input."""
+
+    def _meaning(self, column: str) -> str:
+        text, unit = super()._meaning(column), {"error": "mm", "speed": "mm/turn"}.get(column)
+        return f"{text.split(' [')[0]} [{unit}]." if self.slides and unit else text
 
     def _summary(self) -> str:
-        figures = f"p-p {degrees(self.peak_to_peak):.4g} deg, rms {degrees(self.rms):.4g} deg"
+        factor, unit = self.statistics.degrees_or_mm, "mm" if self.slides else "deg"
+        figures = f"p-p {factor * self.peak_to_peak:.4g} {unit}, rms {factor * self.rms:.4g} {unit}"
         return f"{self.name}: {figures}, mean ratio {brief(self.ratio)}, {len(self.angle)} positions"
 
     @property
@@ -86,18 +93,18 @@ class TransmissionErrorCurve(Tabular, Result):
     @cached_property
     def statistics(self) -> RunningStatistics:
         """Peak values and moments of the transmission error and the speed of the output."""
-        found = RunningStatistics(self.name, self.ratio)
+        found = RunningStatistics(self.name, self.ratio, slides=self.slides)
         found.add(self.error, self.speed - self.mean)
         return found
 
     @property
     def peak_to_peak(self) -> float:
-        """Maximum minus minimum of the transmission error [rad]."""
+        """Maximum minus minimum of the transmission error [rad, or mm for a link that slides]."""
         return self.statistics.peak_to_peak
 
     @property
     def rms(self) -> float:
-        """Root mean square of the transmission error about its mean [rad]."""
+        """Root mean square of the transmission error about its mean [rad, or mm for a link that slides]."""
         return self.statistics.rms
 
 
@@ -236,7 +243,10 @@ class Motion(Shown):
     def _seen(self) -> tuple[SeenLink, ...]:
         index, signs = self._index, self._problem.signs
         return tuple(
-            SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
+            SeenLink(
+                index[of], index[base], axis_sense(of, base, signs), 1 / (2 * pi) if name in self._sliding else 1.0
+            )
+            for name, (of, base) in self.outputs.items()
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
@@ -274,8 +284,8 @@ class Motion(Shown):
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
-        """Constant angle between the pointer of each output and its wheels [rad], such that the output's error at
-        position 0 is 0.
+        """Constant angle between the pointer of each output and its wheels [rad, or mm for a link that slides], such
+        that the output's error at position 0 is 0.
         """
         return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
@@ -319,12 +329,13 @@ class Motion(Shown):
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Change of an output's angle per angular error of a pair's driven side [rad/rad], by output and pair; also for
-        ideal teeth.
+        """Change of an output's angle per angular error of a pair's driven side [rad/rad, or mm/rad for a link that
+        slides], by output and pair; also for ideal teeth.
         """
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
-            found[name] = dict(zip(self._propagation.pairs, self._propagation.sensitivity(*seen).tolist(), strict=True))
+            changes = seen.scale * self._propagation.sensitivity(*seen[:3])
+            found[name] = dict(zip(self._propagation.pairs, changes.tolist(), strict=True))
         return found
 
     @cached_property
@@ -346,7 +357,7 @@ class Motion(Shown):
 
     @cached_property
     def _sliding(self) -> frozenset[str]:
-        """Outputs of links that slide, for which an angle of 2 pi is a travel of 1 mm."""
+        """Outputs of links that slide, whose travel is in mm."""
         lines = self._problem.tree.lines if self._problem.tree is not None else {}
         return frozenset(name for name, (of, _) in self.outputs.items() if of in lines)
 
@@ -489,7 +500,9 @@ class Motion(Shown):
             on_done(len(passage.turns))
         angle *= 2 * pi
         return {
-            each.name: TransmissionErrorCurve(each.name, each.ratio, angle, error[at], each.mean + rate[at])
+            each.name: TransmissionErrorCurve(
+                each.name, each.ratio, angle, error[at], each.mean + rate[at], each.slides
+            )
             for at, each in enumerate(self._statistics())
         }
 
@@ -556,6 +569,17 @@ class Motion(Shown):
         shown = {name: self.outputs[name] for name in outputs}
         motion = Motion(self._problem, shown, self.tolerance, self.fast)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
+        return motion
+
+    def _turning(self, requested: Collection[str] = ()) -> Motion:
+        """Return the motion of the outputs that turn. Raise `QuestionError` if a requested output slides, or all do."""
+        turning = tuple(name for name in self.outputs if name not in self._sliding)
+        if not turning or not self._sliding.isdisjoint(requested):
+            what = f"'{min(self._sliding)}' slides, and errors of pointers are angles"
+            fix = "name outputs that turn, such as `--of ARBOR`"
+            raise QuestionError(Problem(what, "`geartrain motion` reports the errors of travels in mm", fix))
+        motion = self._of(turning)
+        motion._shown = tuple(name for name in self._shown if name in turning) or turning
         return motion
 
     def without_anomaly(self) -> Motion:

@@ -137,7 +137,7 @@ def find_budget(
     Raises
     ------
     QuestionError
-        If the train does not move, or an output is not declared, or the train has no outputs.
+        If the train does not move, or an output is not declared or slides, or the train has no outputs.
     GearTrainError
         If cutting errors are requested and the train's teeth cannot be cut.
 
@@ -155,7 +155,8 @@ def find_budget(
     requested, means = requested or BudgetQuestion(), means or Execution()
     answer = train.solve(state)
     names = pointer_names(answer, requested)
-    motion = train.motion(state, names, requested.without)
+    motion = train.motion(state, names, requested.without)._turning(requested.outputs)
+    names = tuple(motion.outputs)
     theories = _theories(train, requested, answer, motion)
     on_stage()
     teeth = find_tooth_motion(motion, requested.turns, requested.samples)

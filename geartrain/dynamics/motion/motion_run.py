@@ -286,7 +286,8 @@ class MotionRun(Tabular, Pictured):
         extreme speeds minus the mean speed, divided by the input speed [1]. Links that slide have columns of their own,
         in mm and in mm per turn.
         """
-        meanings, found = list(self.MEANINGS), {"output": [each.name for each in self.statistics]}
+        meanings = list(self.MEANINGS)
+        found: dict[str, Sequence[Any]] = {"output": [each.name for each in self.statistics]}
         for slides in sorted({each.slides for each in self.statistics} or {False}):
             rows = [
                 (float(each.ratio), str(each.ratio), each.peak_to_peak, each.rms, each.slow, each.fast)

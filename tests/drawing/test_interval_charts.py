@@ -244,15 +244,6 @@ def test_tables_of_motion_have_the_unit_of_their_cells_in_every_section(tmp_path
         assert travel == pytest.approx(-angle / (2 * np.pi) * LEAD, abs=1e-12)
 
 
-def test_compiled_motion_of_a_slide_agrees() -> None:
-    pytest.importorskip("numba")
-    train = load_text(LATHE)
-    turns = np.linspace(0, 1, 2001)
-    plain, fast = (train.motion(outputs=("carriage",), fast=fast)._sampler(1, 10**9) for fast in (False, True))
-    for one, other in zip(plain.at(turns)[1:3], fast.at(turns)[1:3], strict=True):
-        assert one == pytest.approx(other, abs=1e-9)
-
-
 def test_errors_of_pointers_are_not_computed_for_slides() -> None:
     train = load_text(LATHE)
     assert "carriage" not in find_trial_plan(train, read_error_overrides(["pitch_deviation=1 %"])).outputs

@@ -36,6 +36,7 @@ from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, impor
 if TYPE_CHECKING:
     from numpy.random import Generator
 
+    from geartrain.dynamics.motion.error_composition import ErrorSampler
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.numerics.arrays import Floats
 
@@ -383,7 +384,7 @@ class Motion(Shown):
             Transmission errors [rad] and speed deviations [1] at these positions.
         """
         turns = np.asarray(turns, dtype=float)
-        return evaluate(self._forward, turns)
+        return evaluate(self._sampler(1), turns)
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
         """Return the positions of the input at which a pair passes a kink of its transmission function. The errors of
@@ -557,7 +558,7 @@ class Motion(Shown):
 
     def _with_ideal_teeth(self) -> Motion:
         """Return the motion of the same train with ideal teeth (constant ratio, no backlash) and the same couplings."""
-        return Motion(replace(self._problem, meshes={}), self.outputs, self.tolerance)
+        return Motion(replace(self._problem, meshes={}), self.outputs)
 
     def _degrees_per_day(self, output: str) -> float | None:
         """Return the magnitude of an output's mean speed [deg/d]; None if it is 0, or if the unit is not a time."""

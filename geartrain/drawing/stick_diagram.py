@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, pairwise
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -358,7 +359,7 @@ _MOST = 160  # maximum number of pairs on a page
 PINS = {"pin_and_slot", "pin_follower", "pins_in_holes"}  # kinds of couplings that are drawn as a pin in a slot
 _LONE = 0.55  # inches: height of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
-_KEY = 0.5  # inches for the sample of an entry of the legend
+_KEY, _ENTRY = 0.5, 0.17  # inches: sample and height of an entry of the legend
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
@@ -379,7 +380,6 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     margin += (width - needed) / 2
     figure, axes = sheet(width, skeleton.height + _HEAD + _FOOT, title_of(declared.name, declared.title))
     axes.set_xlim(-margin, width - margin)
-    axes.set_ylim(-_FOOT, skeleton.height + _HEAD)
     for text in list(axes.texts):
         text.set_position((0.15 - margin, skeleton.height + _HEAD - 0.12))
     drawing = _Drawing(axes, train, skeleton, declared.state_or_first(state))
@@ -399,6 +399,9 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     entries = list(_legend(train, any(patch.get_gid() == "ground" for patch in axes.patches)))
     widest = max(text_width(str(each.get_label()), SMALL - 1.5) for each in entries) + _KEY
     columns = min(len(entries), max(int(width / widest), 1), 5)
+    foot = _FOOT + _ENTRY * max(ceil(len(entries) / columns) - 2, 0)
+    axes.set_ylim(-foot, skeleton.height + _HEAD)
+    figure.set_size_inches(width, skeleton.height + _HEAD + foot)
     figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
     return figure
 
@@ -577,7 +580,8 @@ class _Drawing:
 
 def _legend(train: GearTrain, held: bool) -> Iterator[Line2D | Patch]:
     yield Line2D([], [], color=BLACK, linewidth=LINK, label="links on their axes")
-    yield Line2D([], [], color=BLUE, linewidth=WHEEL, label="wheels")
+    if any(circuit.kind == "gear" for circuit in train.circuits):
+        yield Line2D([], [], color=BLUE, linewidth=WHEEL, label="wheels")
     if held:
         yield Patch(facecolor="white", edgecolor=GREY, hatch="//////", label="held by the frame")
     if any(circuit.carrier != train.declaration.frame for circuit in train.circuits):

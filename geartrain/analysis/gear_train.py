@@ -168,8 +168,6 @@ class GearTrain:
         state: str | None = None,
         outputs: Sequence[str] = (),
         without: Sequence[str] = (),
-        tolerance: float | None = None,
-        fast: bool | None = None,
     ) -> Motion:
         """Compute the motion of outputs or links with the transmission errors of teeth and pins, by composition of
         transmission functions.
@@ -182,13 +180,6 @@ class GearTrain:
             Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
             Pairs to ignore in loops that the transmission errors of the teeth would overconstrain.
-        tolerance : float, optional
-            Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
-            evaluation.
-        fast : bool, optional
-            True to use compiled kernels, which agree to 1e-12 rad and are about ten times as fast. By default the
-            kernels are used if numba is installed and there are enough positions to justify loading it. Pairs that
-            depend on each other never use them.
 
         Returns
         -------
@@ -205,7 +196,7 @@ class GearTrain:
 
         problem = find_motion_problem(self.mechanics, state, without, steps=True)
         wanted = problem.without_steps(self.kinematics.seen_links(state, outputs), outputs)
-        motion = Motion(problem, wanted, tolerance, fast)
+        motion = Motion(problem, wanted)
         motion._declaration, motion._state, motion._without = self.declaration, state, tuple(without)
         return motion
 

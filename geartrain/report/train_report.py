@@ -38,13 +38,13 @@ from geartrain.report.document import (
 from geartrain.report.formula_report import formula_section
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Link, Source, Train, Wheel
-from geartrain.train.fusees import FuseeSpring
 from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
+    from geartrain.train.fusees import FuseeSpring
 
 
 _CIRCUITS_ABREAST = 6  # columns of circuits that fit into one table
@@ -176,6 +176,10 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
         from geartrain.report.torque_report import loaded_sections
 
         yield from loaded_sections(found.torques)
+    for clock in found.timekeeping:
+        from geartrain.report.clock_report import timekeeping_section
+
+        yield timekeeping_section(clock)
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
     if found.motion or found.teeth:
@@ -192,7 +196,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
         if drive is not None and drive.spring is not None and (chained := drive.spring.chained) is not None:
             runs.setdefault(chained, state)
     for chained, state in runs.items():
-        run, turns = chained.run(), chained.fusee.turns
+        run = chained.run()
         rows = [
             ("torque, fully wound", f"{run.first:.6g} N m"),
             ("torque at the end", f"{run.last:.6g} N m"),
@@ -200,7 +204,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
             ("minimum torque", f"{run.minimum:.6g} N m after {run.minimum_at:.4g} turns"),
             ("mean torque", f"{run.mean:.6g} N m"),
         ]
-        if chained.fusee.torque is not None:
+        if chained.constant is not None:
             rows = [("torque", f"{run.mean:.6g} N m")]
         rows += [
             ("radius of the fusee", f"{1000 * run.radii[0]:.5g} mm to {1000 * run.radii[1]:.5g} mm"),
@@ -208,7 +212,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
             ("winding left", f"{run.left:.5g} turns"),
             ("energy", f"{run.energy:.6g} J"),
         ]
-        text = f"Torque of the spring at its fusee over {turns} turns of the fusee, without friction."
+        text = f"Torque of the spring at its fusee over {chained.turns:g} turns of the fusee, without friction."
         yield Section(titled(state, "fusee"), (text,), (Table(("quantity", "value"), rows),))
 
 

@@ -75,7 +75,7 @@ def trials() -> Any:
 
 
 def friction_trials() -> Any:
-    plan = room("workshop").find_friction_plan(load(SLIDER), 1.0, 40)
+    plan = room("workshop").FrictionPlan(load(SLIDER).declaration, 1.0, 40)
     return room("workshop").try_frictions(plan, 12)
 
 

@@ -136,9 +136,11 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def name_element(self, name: str, closed: bool, x: float, y: float) -> None:
-        """Add the name of a brake or clutch above the middle (x, y) of its plates, or further up."""
+        """Add the name of a brake or clutch above the middle (x, y) of its plates, further up, or on either side."""
         weight = "bold" if closed else "normal"
+        beside = 0.22 + text_width(name, NAME, weight) / 2
         spots = [(x + aside, y + 0.2 + step * _STEP) for step in range(4) for aside in (0.0, 0.1, -0.1)]
+        spots += [(x + side * beside, y) for side in (1, -1)]
         places = tuple(text_box([name], NAME, *spot, weight) for spot in spots)
         how = {"fontsize": NAME, "fontweight": weight}
         self.wheels.append(_Label(name, PURPLE if closed else GREY, places, how))
@@ -420,13 +422,16 @@ class _Drawing:
             ends = [mesh.meet, *(self._foot(link, mesh) for link in mesh.ends)]
             for x in (mesh.x, mesh.x + COLUMN) if mesh.ring else (mesh.x,):
                 self.words.keep_off((x, x), (min(ends), max(ends)))
+            for end in ends[1:] if mesh.kind in ("belt", "drum", "screw") else ():
+                self.words.keep_off((mesh.x - 0.11, mesh.x + 0.11), (end - 0.12, end + 0.12))
         for crank in skeleton.columns.cranks:
             far = skeleton.rows[crank.axis][0]
             self.words.keep_off((crank.x, crank.x), (skeleton.shafts[crank.carrier].y, far))
             self.words.keep_off((crank.x - BEARING, crank.x + BEARING), (far - 0.07, far + 0.07))
         for name, (x, middle) in skeleton.elements.items():
-            self.words.keep_off((x - 0.12, x + 0.2), (middle - 0.13, middle + 0.13))
-            self.words.keep_off((x - 0.1, x + 0.1), (min(self._ends(name)), middle))
+            self.words.keep_off((x - 0.2, x + 0.2), (middle - 0.13, middle + 0.13))
+            heights = [middle, *(end for end in self._ends(name) if end is not None)]
+            self.words.keep_off((x - 0.1, x + 0.1), (min(heights), max(heights)))
 
     def draw_axes(self) -> None:
         """Draw the centre lines of all axes."""
@@ -462,9 +467,13 @@ class _Drawing:
         draw_element(self.axes, name, self.train.declaration.clutches[name], closed, place, self._ends(name))
         self.words.name_element(name, closed, *place)
 
-    def _ends(self, name: str) -> list[float]:
-        """Return the height of the shaft of each link that a brake or clutch joins [in]."""
-        return [self.skeleton.shafts[link].y for link in self.train.declaration.clutches[name].links]
+    def _ends(self, name: str) -> list[float | None]:
+        """Return the height of the shafts that a brake or clutch joins [in], None for the frame, which is the first
+        member of a brake.
+        """
+        clutch = self.train.declaration.clutches[name]
+        links = clutch.locks or (self.train.declaration.frame, *clutch.links)
+        return [self.skeleton.shafts[link].y if link in self.skeleton.shafts else None for link in links]
 
     def draw_mesh(self, mesh: StickMesh) -> None:
         """Draw two wheels up to the point where they touch, or the coupling of two links."""
@@ -521,7 +530,7 @@ class _Drawing:
             draw_joint(axes, x, mesh.meet, (low, high), coupling.kind, mesh.name)
             self.words.keep_off((x - 0.1, x + 0.1), (mesh.meet - 0.1, mesh.meet + 0.1))
         if self.train.declaration.frame in mesh.ends:
-            draw_ground(axes, x, high if mesh.ends[1] == self.train.declaration.frame else low)
+            self._ground(x, high if mesh.ends[1] == self.train.declaration.frame else low)
         for wheel, foot, end in zip(mesh.wheels, (low, high), (high, low), strict=True) if circuit.by_teeth else ():
             self._name_wheel(wheel, x, (foot, (foot + end) / 2), PURPLE)
         if not circuit.by_teeth or not coupling.by_teeth:

@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, final, overload
 
-from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
+from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError, check_choice
 from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.results import imported_function
@@ -795,9 +795,16 @@ class GearTrain:
             return error.problems[0].what
 
     def _repr_html_(self) -> str:
-        declared = self.declaration
-        title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
-        return title + "".join(answer._repr_html_() for answer in self.answers())
+        page = imported_function("report.train_report", "describe_in_short")(self)
+        try:
+            text: str = imported_function("report.html_page", "to_fragment")([page])
+        except MissingExtraError:
+            text = f"<pre>{html.escape(str(page))}</pre>"
+        try:
+            picture: str = imported_function("drawing.train_pictures", "thumbnail")(self)
+        except GearTrainError:  # without matplotlib, or for a train that cannot be drawn
+            picture = ""
+        return text + picture
 
 
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:

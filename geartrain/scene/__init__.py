@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import PointerTarget as PointerTarget
     from geartrain.scene.train_scene import Scene as Scene
     from geartrain.scene.train_scene import SceneEpoch as SceneEpoch
+    from geartrain.scene.train_scene import TourStop as TourStop
 
 __all__ = [
     "AxisPlace",
@@ -92,6 +93,7 @@ __all__ = [
     "ScenePart",
     "SceneRun",
     "SceneWave",
+    "TourStop",
     "SceneWheel",
     "SolidModel",
     "SolidPart",
@@ -114,7 +116,7 @@ _PLACES = {
     "ManufacturingSizes": "solids.manufacturing_sizes",
     "SolidModel": "solids.solid_assembly",
     "SolidPart": "solids.solid_part",
-    **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch"), "train_scene"),
+    **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch", "TourStop"), "train_scene"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -420,6 +420,7 @@ def _unresolved(train: Train) -> Iterator[Problem]:
         "dial": train.dials,
         "clutch": train.clutches,
         "source": train.sources,
+        "output, link, wheel, dial or coupling": train.tour_parts,
     }
     for kind, name, loc in _references(train):
         if name is not None and name not in known[kind]:
@@ -444,6 +445,8 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
     if train.escapement is not None:
         yield "link", train.escapement.link, ("escapement", "link")
         yield "link", train.escapement.on, ("escapement", "on")
+    for at, step in enumerate(train.tour):
+        yield "output, link, wheel, dial or coupling", step.look_at, ("tour", at, "look_at")
     yield "link", train.crank, ("crank",)
     yield "link", train.solve_for, ("solve_for",)
     for name, clutch in train.clutches.items():

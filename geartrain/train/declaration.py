@@ -603,6 +603,23 @@ class Train(Declared):
         named = [speed for speed in map(as_rotation, speeds) if speed.unit]
         return next((speed.unit or "" for speed in named if speed.value), (named[0].unit or "") if named else "")
 
+    def dial_outputs(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the names of outputs with a dial; if there are none, of outputs with a target, otherwise all names.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Names of outputs or links.
+
+        Returns
+        -------
+        tuple of str
+            Names in the given order.
+        """
+        known = [(name, self.outputs[name]) for name in names if name in self.outputs]
+        dials = tuple(name for name, output in known if output.dial)
+        return dials or tuple(name for name, output in known if output.targets) or tuple(names)
+
     @property
     def unit_speed(self) -> Fraction | None:
         """Speed of 1 in the unit of the train [turn/s]; None for numbers without a unit, or if the unit is a length."""

@@ -10,7 +10,7 @@ from hashlib import sha256
 from html import escape
 from importlib.resources import files
 from string import Template
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 from urllib.parse import quote
 
 from geartrain.errors import Problem, QuestionError
@@ -79,7 +79,7 @@ def page(
         raise QuestionError(Problem("there are too few scenes for a page", why, fix))
     # the default layout needs no entry
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
-    data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
+    data = {"scenes": [_data(scene) for scene in scenes], "options": options}
     program = _built("viewer.js")
     policy = f"{own_script_only(program)}; img-src data: blob:; connect-src 'none'"  # no connections
     return Template(_part("page.html")).substitute(
@@ -166,6 +166,14 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
     """
     style = f"width:100%;height:{height}px;border:0"
     return f'<iframe src="{escape(quote(address))}" title="{escape(title)}" style="{style}" loading="lazy"></iframe>'
+
+
+def _data(scene: Scene) -> dict[str, Any]:
+    """Return a scene as plain data, with tooth profiles to 1e-8 of the pitch radius, which is finer than any picture."""
+    data = scene.to_dict()
+    for profile in data["profiles"]:
+        profile["points"] = [[round(radius, 8), round(angle, 8)] for radius, angle in profile["points"]]
+    return data
 
 
 def json_in_script(data: object) -> str:

@@ -5,8 +5,6 @@ import { svg } from "./element.js";
 import { skyOf } from "./sky.js";
 
 const RIM = 90;
-const PLAIN = { turns: 1, divisions: 12, inner: 1, outer: 1, way: 1 }; // scale of an output without a dial
-const NEEDLE = { reach: 0.97, outline: [[-0.15, 0.018], [0, 0.014], [0.9, 0.012], [1, 0]] };
 const place = (turn, radius, zero) => {
   const angle = 2 * Math.PI * turn + zero;
   return [radius * Math.sin(angle), -radius * Math.cos(angle)];
@@ -26,11 +24,11 @@ export function zeroOf(dial) {
 }
 
 export class Dial {
-  /** `dial`: dial of the scene, or null for a plain face; `hands`: its readings */
+  /** `dial`: dial of the scene; `hands`: its readings */
   constructor(name, dial, hands) {
-    this.scale = dial?.scale ?? PLAIN;
-    this.engraving = dial?.engraving ?? [];
-    this.zero = dial ? zeroOf(dial) : 0;
+    this.scale = dial.scale;
+    this.engraving = dial.engraving;
+    this.zero = zeroOf(dial);
     this.hands = hands.map((hand) => ({ reading: hand, node: this.#hand(hand), sky: this.#sky(hand) }));
     this.node = svg(
       "svg",
@@ -48,15 +46,13 @@ export class Dial {
     return RIM * (inner + ((outer - inner) * turns) / all);
   }
 
-  /** Draws the engraving of the scene; for a plain face, a rim and twelve marks. */
+  /** Draws the engraving of the scene. */
   #scale() {
     const turned = { transform: `rotate(${((this.zero * 180) / Math.PI).toFixed(6)})` };
     const drawn = this.engraving.map(([kind, width, lines]) => svg("path", { class: kind, "stroke-width": (width * RIM).toFixed(3), d: lines.map(pathOf).join("") }));
-    const marks = Array.from({ length: 12 }, (_, k) => `M${at(place(k / 12, RIM, 0))}L${at(place(k / 12, RIM - 4, 0))}`).join("");
-    const plain = [svg("circle", { class: "rim", r: RIM }), svg("path", { class: "fine", d: marks })];
     const sides = [-0.011, 0.011].map((turn) => at(place(turn, RIM + 8, 0)));
     const zero = svg("path", { class: "zero", d: `M${sides[0]}L${sides[1]}L${at(place(0, RIM + 1.5, 0))}Z` });
-    return [svg("g", turned, ...(drawn.length ? drawn : plain), zero)];
+    return [svg("g", turned, ...drawn, zero)];
   }
 
   #hand(reading) {
@@ -76,7 +72,7 @@ export class Dial {
 
   draw(group, { pointer }, order) {
     const spiral = this.scale.turns > 1;
-    const sides = handOf(pointer.outline.length ? pointer : NEEDLE, RIM * this.scale.outer, order);
+    const sides = handOf(pointer, RIM * this.scale.outer, order);
     const left = sides.map(([x, w]) => at([w, -x]));
     const right = sides.map(([x, w]) => at([-w, -x])).reverse();
     group.append(svg("path", { class: "needle", d: spiral ? "" : `M${[...left, ...right].join("L")}Z` }));

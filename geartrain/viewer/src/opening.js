@@ -2,7 +2,7 @@
 
 import { Fraction } from "./fraction.js";
 
-const [TRIED, PART] = [400, new Fraction(1n, 8n)]; // positions that are compared, in parts of a unit of the input
+const [TRIED, PART] = [400, new Fraction(13n, 64n)]; // positions that are compared, in parts of a unit of the input, or of a turn if that is less
 const LISTED = 8; // maximum number of outputs in a sentence
 const [SLOWEST, FASTEST] = [0.001, 0.1]; // turns of the driving link per second
 const POINTER = 0.15; // turns of the fastest pointer per second
@@ -26,8 +26,9 @@ export function momentOf(scene) {
   if (scene.run || scene.driving_link === null) return Fraction.of(0);
   const groups = scene.dials.length ? scene.dials.map((_, at) => scene.pointers.filter(({ dial }) => dial === at)) : [scene.pointers];
   const speeds = groups.map((group) => [...new Set(group.map(speedOf).filter(Boolean))]).filter(({ length }) => length);
-  const step = Fraction.of(scene.step).times(PART);
-  const size = Math.abs(Number(step));
+  const unit = Fraction.of(scene.step);
+  const step = PART.times(Math.abs(Number(unit)) < 1 ? unit : Fraction.of(1));
+  const size = Number(step);
   const score = (n) => speeds.reduce((sum, group) => sum + apart(group, n * size), 0);
   let [best, most] = [0, 0];
   for (let n = 1; n <= TRIED; n += 1) if (score(n) > most + 1e-9) [best, most] = [n, score(n)];

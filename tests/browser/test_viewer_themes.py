@@ -30,7 +30,7 @@ TEXTS = """() => {
     const text = field || [...each.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
     const name = each.outerHTML.slice(0, 90);
     if (each.matches('.dial .hand')) found.push([name, style(each).color, face(each), 3]);
-    const under = (node) => (node.closest('.dial') ? face(node) : ground(node.ownerSVGElement.parentElement));
+    const under = (node) => (node.closest('.dial') ? face(node) : style(node).stroke); // names have an outline
     if (text && each instanceof SVGElement) found.push([name, style(each).fill, under(each), 4.5]);
     if (text && each instanceof HTMLElement) found.push([name, style(each).color, ground(each), 4.5]);
     if (field || (text && each.matches('button:not(.plain, .copy, [role=tab], .grip)')))

@@ -29,9 +29,9 @@ export function momentOf(scene) {
   const unit = Fraction.of(scene.step);
   const step = PART.times(Math.abs(Number(unit)) < 1 ? unit : Fraction.of(1));
   const size = Number(step);
-  const score = (n) => speeds.reduce((sum, group) => sum + apart(group, n * size), 0);
+  const score = (n) => speeds.reduce((product, group) => product * apart(group, n * size), 1);
   let [best, most] = [0, 0];
-  for (let n = 1; n <= TRIED; n += 1) if (score(n) > most + 1e-9) [best, most] = [n, score(n)];
+  for (let n = 1; n <= TRIED; n += 1) if (score(n) > most) [best, most] = [n, score(n)];
   return step.times(best);
 }
 

@@ -169,10 +169,10 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
 
 
 def _data(scene: Scene) -> dict[str, Any]:
-    """Return a scene as plain data, with tooth profiles rounded to 1e-8 of the pitch radius."""
+    """Return a scene as plain data, with tooth profiles rounded to 1e-10 of the pitch radius."""
     data = scene.to_dict()
     for profile in data["profiles"]:
-        profile["points"] = [[round(radius, 8), round(angle, 8)] for radius, angle in profile["points"]]
+        profile["points"] = [[round(radius, 10), round(angle, 10)] for radius, angle in profile["points"]]
     return data
 
 

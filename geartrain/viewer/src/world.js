@@ -201,7 +201,8 @@ export class World {
       const lift = poses.lift(body, at);
       return poses.apart(point, typeof lift === "number" ? lift : lift(point)).add(poses.shifts[body]);
     };
-    const held = this.corners.map(({ point, body, at }) => moved(point, body, at));
+    const hangs = (body) => poses.bodies[body].hangs !== undefined; // now lower than at 0 turns
+    const held = this.corners.map(({ point, body, at }) => (hangs(body) ? this.placed(point, body, at ?? point) : moved(point, body, at)));
     return [...outlineOf(this.scene, poses), ...swing.map((point) => moved(point, crank.body, crank.at)), ...held];
   }
 

@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import PointerTarget as PointerTarget
     from geartrain.scene.train_scene import Scene as Scene
     from geartrain.scene.train_scene import SceneEpoch as SceneEpoch
+    from geartrain.scene.train_scene import SceneSetting as SceneSetting
 
 __all__ = [
     "AxisPlace",
@@ -114,7 +115,7 @@ _PLACES = {
     "ManufacturingSizes": "solids.manufacturing_sizes",
     "SolidModel": "solids.solid_assembly",
     "SolidPart": "solids.solid_part",
-    **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch"), "train_scene"),
+    **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch", "SceneSetting"), "train_scene"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

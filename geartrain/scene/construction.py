@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,7 +30,14 @@ from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, 
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.coupling_shapes import find_shapes
-from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
+from geartrain.scene.dial_pointers import (
+    angles_at_start,
+    find_dials,
+    find_epoch,
+    find_pointers,
+    with_balls,
+    with_titles,
+)
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
@@ -392,13 +400,17 @@ def make_scene(
     state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
+    dials = find_dials(stage)
+    pointers = find_pointers(stage, dials)
+    faces = tuple(dials.values())
+    epoch = find_epoch(stage, pointers, faces)
+    if epoch is not None and run is None:  # a simulated run has its own starting angles
+        stage = replace(stage, set_angles=angles_at_start(stage, epoch, pointers, faces))
     moved = find_movement(stage)
     teeth, undrawn = find_profiles(stage)
     turns, out_of_phase = phase_wheels(stage, moved)
     wheels, profiles = find_wheels(stage, teeth, turns)
-    dials = find_dials(stage)
     notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
-    pointers = find_pointers(stage, dials)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
     pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
     return Scene(
@@ -420,7 +432,7 @@ def make_scene(
         pairs=pairs,
         couplings=couplings,
         shapes=find_shapes(stage),
-        dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
+        dials=with_titles(with_balls(faces, pointers), pointers),
         pointers=pointers,
         movement=moved.movement,
         sources=_sources(train),
@@ -428,7 +440,7 @@ def make_scene(
         back=moved.back,
         unit_days=exact(declared.unit_days),
         elements=find_elements(stage, state),
-        epoch=find_epoch(stage),
+        epoch=epoch,
         formulas=find_count_formulas(folded, state, bodies, wheels, pointers) if formulas and run is None else None,
         asks=bool(stage.case.outputs),
         run=None if run is None else find_run(stage, run, moves, moved.movement, wheels, pairs, couplings),

@@ -151,6 +151,24 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
         )
 
 
+def set_outputs(train: Train) -> Iterator[Problem]:
+    """Yield problems of links that outputs set twice at the epoch, or after an output that is relative to them."""
+    set_links: dict[str, str] = {}
+    seen = set[str]()
+    for name, output in train.outputs.items():
+        if output.at_epoch is None:
+            continue
+        of, base = output.links(name, train.frame)
+        if of in set_links or of in seen:
+            first = set_links.get(of)
+            what = f"outputs '{first}' and '{name}' both set '{of}'" if first else f"'{name}' sets '{of}' too late"
+            why = "a link has one angle at the epoch" if first else "an output above it is relative to this link"
+            fix = f"remove one `at_epoch`, or move '{name}' above the outputs that are relative to '{of}'"
+            yield Problem(what, why, fix, train.place("outputs", name))
+        set_links[of] = name
+        seen.add(base)
+
+
 def _suggested_unit(train: Train, per: str) -> str:
     """Return a correction of a unit that cannot be read."""
     number, name = re.fullmatch(r"([\d./ ]*)(.*)", per.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
@@ -230,6 +248,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _one_way(train)
     yield from _reconstruction(train)
     yield from declared_units(train)
+    yield from set_outputs(train)
 
 
 _HOMES = {

@@ -287,6 +287,11 @@ class Motion(Shown):
                 )
             )
 
+    def with_angles(self, angles: Mapping[str, float]) -> Motion:
+        """Return the motion with other starting angles of some links [rad]."""
+        problem = replace(self._problem, angles={**self._problem.angles, **angles})
+        return Motion(problem, self.outputs, self.tolerance, self.fast)
+
     def with_random_phases(self, random: Generator) -> Motion:
         """Return the motion in which each pair with a declared tooth form but without a declared phase has a random
         phase.

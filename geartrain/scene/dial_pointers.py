@@ -419,9 +419,7 @@ def _elements() -> dict[str, dict[str, tuple[float, ...]]]:
     }
 
 
-def _settings(
-    stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]
-) -> Iterator[SceneSetting]:
+def _settings(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> Iterator[SceneSetting]:
     for at, pointer in enumerate(pointers):
         text = stage.outputs[pointer.output].at_epoch
         if text is None or pointer.speed is None:

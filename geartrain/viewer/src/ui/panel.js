@@ -65,7 +65,7 @@ export class Panel {
     this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), onCounts, say });
     this.change = new Change(sides, { onCounts, say });
     this.chosen = null;
-    this.sky = new Sky(sides, say);
+    this.sky = new Sky(sides, { say, onSet: (day) => this.owner.setTo(day) });
     this.contacts = new Contacts(sides, (side, contact) => this.owner.contact(side, contact));
     this.places.Contacts?.replaceChildren(this.contacts.node);
     this.places.Dials.replaceChildren(this.dials.node);

@@ -70,7 +70,7 @@ export class Showcase {
   /** Readings shown in a kiosk: the date, if there is one, and outputs, those with dials first. */
   #outputs() {
     const { scene, index, app } = this;
-    if (scene.epoch && !this.drive.run) this.epoch = new Epoch(scene.epoch);
+    if (scene.epoch && !scene.epoch.unset.length) this.epoch = new Epoch(scene.epoch);
     this.date = this.epoch && el("output", { class: "date" });
     const asked = scene.asks ? scene.pointers.map((_, at) => at) : [];
     const order = asked.sort((one, other) => (scene.pointers[one].dial === null) - (scene.pointers[other].dial === null));

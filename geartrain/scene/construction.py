@@ -403,8 +403,9 @@ def make_scene(
     dials = find_dials(stage)
     pointers = find_pointers(stage, dials)
     faces = tuple(dials.values())
-    epoch = find_epoch(stage, pointers, faces)
-    if epoch is not None and run is None:  # a simulated run has its own starting angles
+    # a simulated run has its own starting angles
+    epoch = find_epoch(stage, pointers, faces) if run is None else None
+    if epoch is not None:
         stage = replace(stage, set_angles=angles_at_start(stage, epoch, pointers, faces))
     moved = find_movement(stage)
     teeth, undrawn = find_profiles(stage)

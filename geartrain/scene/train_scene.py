@@ -258,7 +258,8 @@ class Scene(Shown):
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link."""
+    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link, and for a run.
+    """
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
     asks: bool = True

@@ -288,7 +288,18 @@ class Motion(Shown):
             )
 
     def with_angles(self, angles: Mapping[str, float]) -> Motion:
-        """Return the motion with other starting angles of some links [rad]."""
+        """Return the motion with other starting angles of some links.
+
+        Parameters
+        ----------
+        angles : mapping of str to float
+            Starting angles by link [rad]; other links keep their declared angles.
+
+        Returns
+        -------
+        Motion
+            Motion with these angles.
+        """
         problem = replace(self._problem, angles={**self._problem.angles, **angles})
         return Motion(problem, self.outputs, self.tolerance, self.fast)
 

@@ -158,8 +158,8 @@ def test_a_kiosk_tells_the_date_and_outputs_as_it_turns(showcase: Showing) -> No
     read = shown.page.locator("header .read > div")
     assert read.count() == 6
     shown.run("geartrain.setTurns('7/3')")
-    wait(shown, "document.querySelector('.read dd').textContent.startsWith('120.00')")  # the Sun turns as b
-    assert read.first.inner_text().split() == ["sun", "120.00°,", "Leo,", "degree", "1"]
+    wait(shown, "document.querySelector('.read dd').textContent.startsWith('152.16')")  # 46.71 degrees at 19/470 turns
+    assert read.first.inner_text().split() == ["sun", "152.16°,", "Virgo,", "degree", "3"]
     fits = "document.querySelector('.read').scrollWidth <= innerWidth"
     assert shown.run(fits)
     assert shown.errors == shown.requests == []

@@ -441,7 +441,15 @@ def angles_at_start(
         turned = read_fraction(pointer.speed or "0") * Fraction(epoch.turns)
         own = float((setting.sense * angle - turned) % (1 if pointer.dial is None else dials[pointer.dial].scale.turns))
         found[of] = 2 * pi * own + stage.sense(of) * stage.sense(base) * found.get(base, stage.start(base))
-    return found
+    return found | dict(_slots_at_pins(stage, found))
+
+
+def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator[tuple[str, float]]:
+    """Yield the angle at 0 turns [rad] of every slot without an own angle whose pin has one, so that it is at its pin."""
+    for coupling in stage.train.declaration.pin_couplings:
+        pin, slot = coupling.pin, coupling.slot
+        if coupling.kind == "pin_and_slot" and pin in angles and slot not in angles:
+            yield slot, stage.sense(slot) * stage.sense(pin) * (angles[pin] - stage.start(pin)) + stage.start(slot)
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:

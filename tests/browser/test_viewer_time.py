@@ -248,7 +248,8 @@ def test_a_zodiac_without_positions_has_no_date(show: Opening) -> None:
 
 def test_the_speed_is_in_days_a_second_where_there_are_dates(show: Opening) -> None:
     shown = show(ANTIKYTHERA)
-    shown.page.clock.install()
+    shown.page.clock.install(time="2026-01-01T00:00:00Z")
+    shown.page.clock.pause_at("2026-01-01T01:00:00Z")
     shown.page.get_by_label("days a second").fill("50")
     shown.page.get_by_role("button", name="play", exact=True).click()
     shown.page.clock.run_for(2000)

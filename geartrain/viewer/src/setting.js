@@ -71,10 +71,7 @@ export function setTo(scene, day) {
     epoch: { ...scene.epoch, day },
     bodies: scene.bodies.map((body, at) => ({ ...body, start: start[at] })),
     wheels: scene.wheels.map((wheel, at) => remounted(scene, wheel, at, about)),
-    couplings: scene.couplings.map((each) => {
-      const followed = each.kind === "pin_follower" ? 0 : about(each.pin, each.carrier);
-      return { ...each, slot_turn: (each.slot_turn ?? 0) + followed - about(each.slot, each.carrier) };
-    }),
+    couplings: scene.couplings.map((each) => ({ ...each, slot_turn: (each.slot_turn ?? 0) + slotTurned(each, about) })),
     movement: phased(scene.movement),
     back: phased(scene.back),
   };
@@ -91,6 +88,10 @@ function starts(scene, day) {
     const turned = Number(made.floor % coils) + made.part;
     start[body] = TURN * (((sense * valueOf(angle, T)) / 360 - turned) % Number(coils)) + scene.bodies[body].sense * scene.bodies[base].sense * start[base];
   }
+  for (const { kind, pin, slot } of scene.couplings) {
+    const own = scene.epoch.settings.some(({ pointer }) => scene.pointers[pointer].body === slot);
+    if (kind === "pin_and_slot" && !own) start[slot] += scene.bodies[slot].sense * scene.bodies[pin].sense * (start[pin] - scene.bodies[pin].start);
+  }
   return start;
 }
 
@@ -104,13 +105,16 @@ function phase(scene, source, about) {
   return { ...source, start: source.start + forward * about(driver, pins.carrier) };
 }
 
-/** The wheel turned back on its arbor by the angle by which the arbor was turned, with slots that stay at their pins. */
+/** Angle by which a slot is turned on its link, so that it stays at its pin. */
+const slotTurned = ({ kind, pin, slot, carrier }, about) => (kind === "pin_follower" ? 0 : about(pin, carrier)) - about(slot, carrier);
+
+/** The wheel turned back on its arbor by the angle by which the arbor was turned; a slot in it stays at its pin. */
 function remounted(scene, wheel, index, about) {
   const pair = scene.pairs.find(({ wheels }) => wheels.includes(index));
-  const pins = scene.couplings.find(({ slot, kind }) => slot === wheel.body && kind === "pin_and_slot");
-  const turn = wheel.turn - (pair ? about(wheel.body, pair.carrier) : 0);
-  const angle = pins && pair ? about(pins.pin, pins.carrier) : 0;
-  return { ...wheel, turn, holes: angle ? wheel.holes.map((outline) => rotated(outline, angle)) : wheel.holes };
+  const pins = scene.couplings.find(({ slot }) => slot === wheel.body);
+  const turned = pair ? -about(wheel.body, pair.carrier) : 0;
+  const angle = pins && wheel.holes.length ? slotTurned(pins, about) - turned : 0;
+  return { ...wheel, turn: wheel.turn + turned, holes: angle ? wheel.holes.map((outline) => rotated(outline, angle)) : wheel.holes };
 }
 
 const rotated = (outline, angle) =>

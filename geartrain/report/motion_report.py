@@ -404,7 +404,7 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"holds it. Not computed: the position of {', '.join(sorted(run.motion._problem.behind))} within a step."
         )
     if run.reversing_drivers:
-        composition = run.motion._forward if run.turns >= 0 else run.motion._backward
+        composition = run.motion._composition(run.turns)
         names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)
         yield (
             f"The driver of {names} temporarily turns backwards. Then the other flanks drive, and the crossing of the "
@@ -415,7 +415,7 @@ def _remarks(run: MotionRun) -> Iterator[str]:
     if not all(tally.searched for tally in run.statistics):
         from geartrain.dynamics.motion.superposition import Superposition
 
-        bounds = Superposition(run.motion._forward if run.turns >= 0 else run.motion._backward).bounds
+        bounds = Superposition(run.motion._composition(run.turns)).bounds
         limits = (f"{name} {degrees(most):.5g} deg" for name, most in zip(run.motion.outputs, bounds, strict=True))
         yield (
             "The run is too long to search every pitch, so extremes are those of the computed positions; a shorter run "

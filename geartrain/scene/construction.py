@@ -43,7 +43,7 @@ from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
 from geartrain.scene.movement import MovementStart, find_movement
 from geartrain.scene.scene_run import find_run
-from geartrain.scene.train_scene import Scene
+from geartrain.scene.train_scene import Scene, TourStop
 from geartrain.train import Output
 
 if TYPE_CHECKING:
@@ -442,6 +442,7 @@ def make_scene(
         unit_days=exact(declared.unit_days),
         elements=find_elements(stage, state),
         epoch=epoch,
+        tour=tuple(TourStop(declared.tour_parts[step.look_at], step.look_at, step.text) for step in declared.tour),
         formulas=find_count_formulas(folded, state, bodies, wheels, pointers) if formulas and run is None else None,
         asks=bool(stage.case.outputs),
         run=None if run is None else find_run(stage, run, moves, moved.movement, wheels, pairs, couplings),

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.arrays import packed
-from geartrain.numerics.exact import decimal, fraction_text
-from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
+from geartrain.numerics.exact import decimal, fraction_text, pi_text, touches_pi
 from geartrain.numerics.quantity import turns_in
 from geartrain.numerics.results import Key
 from geartrain.numerics.vectors import Vector, dot, unit_or_z

@@ -445,7 +445,7 @@ def angles_at_start(
 
 
 def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator[tuple[str, float]]:
-    """Yield the angle at 0 turns [rad] of every slot without an own angle whose pin has one, so that it is at its pin."""
+    """Yield the angle at 0 turns [rad] of each slot that has no own angle although its pin has one."""
     for coupling in stage.train.declaration.pin_couplings:
         pin, slot = coupling.pin, coupling.slot
         if coupling.kind == "pin_and_slot" and pin in angles and slot not in angles:

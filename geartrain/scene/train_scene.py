@@ -150,6 +150,23 @@ class SceneEpoch(Shown):
 
 
 @dataclass(frozen=True, slots=True)
+class TourStop(Shown):
+    """Step of the tour of a scene.
+
+    See Also
+    --------
+    make_scene : returns it in `Scene.tour`.
+    """
+
+    kind: str
+    """Kind of the part: output, link, wheel, dial or coupling."""
+    name: str
+    """Name of the part."""
+    text: str
+    """Text about the part, as declared."""
+
+
+@dataclass(frozen=True, slots=True)
 class Pointer(Shown):
     """Pointer of a scene, which shows one output of the train.
 
@@ -260,6 +277,8 @@ class Scene(Shown):
     epoch: SceneEpoch | None = None
     """Date at a number of turns of the driving link; None without a date, a time unit or a driven link, and for a run.
     """
+    tour: Sequence[TourStop] = ()
+    """Tour of the train, as declared."""
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
     asks: bool = True

@@ -441,23 +441,6 @@ class TransmissionFunction(Shown, ABC):
         return angle
 
 
-def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """Write driver angles S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
-
-    The period is split into two parts, so that the first product is exact up to about 10^8 periods.
-    """
-    import numpy as np
-
-    # 24 bits: the product with a number of periods below 2^29 is exact in a float of 53 bits
-    coarse = float(np.float32(period))
-    np.multiply(S, 1 / period, out=scratch)
-    np.floor(scratch, out=scratch)
-    np.multiply(scratch, coarse, out=out)
-    np.subtract(S, out, out=out)
-    np.multiply(scratch, period - coarse, out=scratch)
-    np.subtract(out, scratch, out=out)
-
-
 class ExactRatio(TransmissionFunction):
     """Transmission function with a constant speed ratio and without loss.
 

@@ -32,6 +32,7 @@ from geartrain.train.outputs import (
     Published,
     SpeedUnit,
     Target,
+    TourStep,
     View,
 )
 from geartrain.train.periods import CalendarDate, Period, date_of, julian_day, period_table, read_date
@@ -75,6 +76,7 @@ __all__ = [
     "Target",
     "Teeth",
     "Train",
+    "TourStep",
     "View",
     "Wheel",
     "WheelManufacture",

@@ -608,3 +608,17 @@ class View(Declared):
     positive: Literal["clockwise", "counter-clockwise"] = Field(
         "counter-clockwise", description="Sense of rotation of a positive speed"
     )
+
+
+class TourStep(Declared):
+    """Step of the tour of a train on its page: a part at which the camera looks, and a text about it.
+
+    See Also
+    --------
+    Train : its field `tour`
+    """
+
+    look_at: Id = Field(
+        description="Name of an output, link, wheel, dial or coupling; the first of these kinds that has this name"
+    )
+    text: str = Field(description="Text for visitors")

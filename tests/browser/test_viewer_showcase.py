@@ -30,7 +30,7 @@ def showcase(open_page: OpenPage, tmp_path: Path) -> Showing:
         path = tmp_path / "page.html"
         scene = shipped.scene(name) if "\n" not in name else make_scene(geartrain.load(name))
         path.write_text(page([scene], teeth=False, shown=way), encoding="utf-8")
-        return open_page(path, before + (f"location.hash = '{mark}';" if mark else ""), **window)
+        return open_page(path, before + (f"location.hash = '{mark}';" if mark else ""), **({"opening": True} | window))
 
     return opened
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import pickle
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
 from typing import Any
@@ -12,10 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from fitters import SIMPLE, box, columns, declared, epicyclic, passed, rules_of
+from fitters import SIMPLE, box, columns, epicyclic, passed, rules_of
 from shapely import affinity
 
-from geartrain import GearTrain, load
+from geartrain import load
 from geartrain.errors import QuestionError
 from geartrain.numerics import Quantity
 
@@ -297,106 +296,3 @@ def test_a_planet_as_large_as_its_ring_does_not_go_in() -> None:
     rules = interference("pr", 20)
     assert not any(passed(rules, p=planet, r=40) for planet in range(35, 60))
     assert not passed(rules, p=1, r=2)
-
-
-# ----------------------------------------------------------------------------------------------------------- positions
-
-
-def closes(data: Data, counts: Mapping[str, int]) -> bool:
-    """The verdict of the train with these counts declared."""
-    for link in data["links"].values():
-        for name, wheel in link.get("wheels", {}).items():
-            if name in counts:
-                link["wheels"][name] = (wheel if isinstance(wheel, dict) else {}) | {"teeth": counts[name]}
-    return bool(GearTrain.declare(data).closure)
-
-
-def test_teeth_of_planets_in_place_meet_as_the_declared_train_says() -> None:
-    data = epicyclic(*SIMPLE, 3, [(42.0, 0.1)])
-    rules = rules_of(data, coaxial=False, closure=True)
-    assert [rule.name[:18] for rule in rules] == ["declared positions"] * 5 + ["phase closure: tee"]
-    for s, p in product(range(22, 28), range(15, 19)):
-        counts = {"s": s, "r": s + 2 * p, "p": p, "p-1": p, "p-2": p}
-        assert passed(rules, **counts) == closes(data, counts)
-    # one planet of another size would have to stand elsewhere
-    assert not passed(rules, **{"s": 24, "r": 60, "p": 18, "p-1": 18, "p-2": 19})
-    assert not passed(rules, **{"s": 24, "r": 61, "p": 18, "p-1": 18, "p-2": 18})
-
-
-def test_stepped_planets_in_place_are_judged_one_candidate_at_a_time() -> None:
-    parts: tuple[Any, ...] = (
-        {"s": (20, False), "r": (60, True)},
-        [{"p": 15, "q": 12}],
-        [("s", "p"), ("q", "r")],
-        3,
-        [(40.0, 0.0)],
-    )
-    data = epicyclic(*parts)
-    rules = rules_of(data, ["s", "r"], coaxial=False, closure=True)
-    (rule,) = [rule for rule in rules if "closure" in rule.name]
-    assert set(rule.wheels) == {"s", "r"}
-    grid = box(s=range(18, 23), r=range(57, 62))
-    found = pickle.loads(pickle.dumps(rule)).holds(grid)
-    wanted = [closes(data, {"s": s, "r": r}) for s, r in zip(grid["s"].tolist(), grid["r"].tolist(), strict=True)]
-    assert found.tolist() == wanted
-    assert 0 < sum(wanted) < len(wanted)
-
-
-def loop_of_four(side: float, other: float, modules: bool = False) -> Data:
-    """Four wheels at the corners of a rectangle, each meshing with the next."""
-    corners = [(0.0, 0.0), (side, 0.0), (side, other), (0.0, other)]
-    wheel: Data = {"teeth": 20} | ({"module": "2 mm"} if modules else {})
-    return {
-        "links": {"frame": {}} | {f"L{k}": {"wheels": {f"w{k}": dict(wheel)}} for k in range(4)},
-        "axes": {f"A{k}": {"position": [f"{x} mm", f"{y} mm", "0 mm"]} for k, (x, y) in enumerate(corners)},
-        "revolutes": [{"pair": ["frame", f"L{k}"], "axis": f"A{k}"} for k in range(4)],
-        "gears": [{"pair": [f"w{k}", f"w{(k + 1) % 4}"]} for k in range(4)],
-    }
-
-
-def test_four_wheels_in_a_square_reach_each_other_and_meet() -> None:
-    data = loop_of_four(40.0, 40.0)
-    rules = rules_of(data, coaxial=False, closure=True)
-    kept = set()
-    for counts in product(range(17, 24), repeat=4):
-        w0, w1, w2, w3 = counts
-        if passed(rules, w0=w0, w1=w1, w2=w2, w3=w3):
-            kept.add(counts)
-    # opposite wheels are alike, for all sides are equal; by turning round each corner a quarter, 2 divides their sum
-    wanted = {(a, b, a, b) for a, b in product(range(17, 24), repeat=2)}
-    assert kept == {counts for counts in wanted if closes(data, {f"w{k}": z for k, z in enumerate(counts)})}
-    assert 0 < len(kept) < len(wanted)
-
-
-def test_declared_modules_fix_the_sums_of_teeth() -> None:
-    rules = rules_of(loop_of_four(40.0, 44.0, modules=True), coaxial=False, closure=True)
-    near = [rule for rule in rules if "its module" in rule.name]
-    assert len(near) == 4
-    for counts in product(range(17, 25), repeat=4):
-        w0, w1, w2, w3 = counts
-        wanted = (w0 + w1, w1 + w2, w2 + w3, w3 + w0) == (40, 44, 40, 44)
-        assert passed(near, w0=w0, w1=w1, w2=w2, w3=w3) == wanted
-
-
-def test_positions_may_be_as_far_off_as_profile_shift_bridges() -> None:
-    data = loop_of_four(40.0, 40.0, modules=True)
-    near = [rule for rule in rules_of(data, coaxial=False, closure=True, shift=1) if "its module" in rule.name]
-    assert passed(near, w0=20, w1=21, w2=20, w3=20)
-    assert not passed(near, w0=21, w1=21, w2=20, w3=20)
-
-
-def test_closure_without_positions_is_refused() -> None:
-    with pytest.raises(QuestionError, match="no loop of 'train' has known axis positions"):
-        rules_of(epicyclic(*SIMPLE, 3), closure=True)
-    with pytest.raises(QuestionError, match="no loop"):
-        rules_of(load("planetary").declaration, closure=True)
-
-
-def test_counts_outside_all_loops_are_not_requested_about() -> None:
-    data = epicyclic(*SIMPLE, 3, [(42.0, 0.0)])
-    data["links"] |= {"in": {"wheels": {"drive": 20}}}
-    data["links"]["Ls"]["wheels"]["driven"] = 40
-    data["revolutes"].append({"pair": ["frame", "in"], "axis": "in"})
-    data["gears"].append({"pair": ["drive", "driven"]})
-    assert rules_of(data, ["drive", "driven"], closure=True, coaxial=False) == ()
-    assert declared(data).wheels["drive"][1].count == 20

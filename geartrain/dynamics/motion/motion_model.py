@@ -30,18 +30,13 @@ from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.willis_system import axis_sense
-from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, imported_function
 
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-    from geartrain.dynamics.motion.compiled_composition import CompiledComposition
-    from geartrain.dynamics.motion.error_composition import ErrorSampler
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.numerics.arrays import Floats
-
-_PACE = 2e6  # positions of pairs per second evaluated by numpy in typical trains
 
 
 @dataclass(frozen=True)
@@ -126,19 +121,9 @@ class Motion(Shown):
         Equations, mean speeds, transmission functions and drivers of the pairs, as collected by `GearTrain.motion`.
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
-    tolerance : float, optional
-        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default the functions
-        are evaluated directly.
-    fast : bool, optional
-        True to use compiled kernels, which agree to 1e-12 rad. By default the kernels are used if numba is installed
-        and there are enough positions to justify loading it.
 
     Raises
     ------
-    MissingExtraError
-        If kernels are requested and numba is not installed; raised when positions are first requested.
-    QuestionError
-        If the tolerance is not between 0 and 1.
     GearTrainError
         If the real teeth of a redundant loop cannot turn together, or the train has no order of solution.
 
@@ -161,16 +146,10 @@ class Motion(Shown):
         self,
         train: MotionProblem,
         outputs: Mapping[str, tuple[str, str]],
-        tolerance: float | None = None,
-        fast: bool | None = None,
     ) -> None:
-        self._problem, self.outputs, self.tolerance, self.fast = train, outputs, tolerance, fast
-        self._errors = PairErrors(train, tolerance, {link for ends in outputs.values() for link in ends})
+        self._problem, self.outputs = train, outputs
+        self._errors = PairErrors(train, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
-        if tolerance is not None and not 0 < tolerance < 1:
-            why = "the accuracy of tables is a fraction of a pitch, between 0 and 1"
-            fix = "give a fraction such as 1e-9, or omit it"
-            raise QuestionError(Problem(f"the tolerance {tolerance!r} is out of range", why, fix))
         self._declaration: Any = None  # declaration of the train, for `print`
         self._state: str | None = None
         self._without: tuple[str, ...] = ()
@@ -315,13 +294,13 @@ class Motion(Shown):
         Returns
         -------
         Motion
-            Motion with the same outputs and tolerance.
+            Motion with the same outputs.
         """
         declared = self._problem.phases
         # the phase of a planet's second pair follows from its first pair
         free = [mesh.name for mesh in self._problem.rippling if self._problem.placed_by(mesh.name) is None]
         drawn = {name: float(random.random()) for name in free if name not in declared}
-        return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
+        return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs)
 
     # -------------------------------------------------------------------------------------------------- results
 
@@ -348,7 +327,7 @@ class Motion(Shown):
             return {}
         from geartrain.dynamics.motion.stepped_advance import mean_advance
 
-        drivers = Motion(self._problem, self._problem.without_steps({}), self.tolerance, self.fast)
+        drivers = Motion(self._problem, self._problem.without_steps({}))
         return {stepped.link: mean_advance(self._problem, drivers._forward, stepped)}
 
     def _statistics(self) -> list[RunningStatistics]:
@@ -375,30 +354,16 @@ class Motion(Shown):
         turns   revolutions of the input; negative against the declared sense, with the coast flanks driving
         first   index of the first position
         """
-        composition = self._sampler(turns, samples)
+        composition = self._composition(turns)
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
             # division first: the last position is exactly `turns`, wherever chunks begin
             yield composition.at(turns * (at / (samples - 1)))
 
-    def _sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """Return the error composition for a run of `samples` positions, or its compiled form."""
-        composition = self._forward if turns >= 0 else self._backward
-        pairs = len(composition.used)
-        if not pairs or not is_fast(self.fast, samples * pairs / _PACE):
-            return composition
-        # compiled once for each direction
-        if (turns >= 0) not in self._compiled:
-            from geartrain.dynamics.motion.compiled_composition import compiled_composition
-
-            self._compiled[turns >= 0] = compiled_composition(composition)
-        return self._compiled[turns >= 0] or composition
-
-    @cached_property
-    def _compiled(self) -> dict[bool, CompiledComposition | None]:
-        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are needed."""
-        return {}
+    def _composition(self, turns: float) -> ErrorComposition:
+        """Return the error composition of a run, with the coast flanks driving if `turns` is negative."""
+        return self._forward if turns >= 0 else self._backward
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Return transmission errors and speed deviations of the outputs at given positions of the input, which turns
@@ -415,7 +380,7 @@ class Motion(Shown):
             Transmission errors [rad] and speed deviations [1] at these positions.
         """
         turns = np.asarray(turns, dtype=float)
-        return evaluate(self._sampler(1, len(turns)), turns)
+        return evaluate(self._forward, turns)
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
         """Return the positions of the input at which a pair passes a kink of its transmission function. The errors of
@@ -449,7 +414,7 @@ class Motion(Shown):
         >>> len(kinks.turns), kinks.names().count("a~b1")
         (160, 45)
         """
-        composition = self._forward if end >= start else self._backward
+        composition = self._composition(end - start)
         return KinkSearch(composition).over(min(start, end), max(start, end))
 
     def transmission_errors(
@@ -555,7 +520,7 @@ class Motion(Shown):
 
     def _of(self, outputs: Sequence[str]) -> Motion:
         shown = {name: self.outputs[name] for name in outputs}
-        motion = Motion(self._problem, shown, self.tolerance, self.fast)
+        motion = Motion(self._problem, shown)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
         return motion
 

@@ -19,7 +19,6 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.extreme_search import count_extremes
-from geartrain.dynamics.motion.kink_positions import KinkSearch
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -84,7 +83,7 @@ def find_spectrum(
     """
     from geartrain.dynamics.motion.superposition import Superposition
 
-    superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
+    superposed = Superposition(motion._composition(turns))
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
     found = {}
     for at, name in enumerate(motion.outputs):
@@ -306,10 +305,8 @@ class MotionRun(Tabular, Pictured):
             self.done += len(passage.turns)
             on_done(len(passage.turns))
         # samples miss sharp peaks, so extremes are searched between them
-        composition = self.motion._forward if self.turns >= 0 else self.motion._backward
-        positions = int(3 * KinkSearch(composition).rate * abs(self.turns))
-        sampler = self.motion._sampler(self.turns, max(self.samples, positions))
-        self.reversing_drivers |= count_extremes([composition], sampler, self.turns, self.statistics)
+        composition = self.motion._composition(self.turns)
+        self.reversing_drivers |= count_extremes([composition], composition, self.turns, self.statistics)
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
         """Repeat the run with random phases of the pairs that declare no phase.

@@ -1,4 +1,4 @@
-"""Constraints on the tooth counts of a declared train from assembly, positions of axes, and interference.
+"""Constraints on the tooth counts of a declared train from assembly and interference.
 
 `find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
 solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
@@ -6,13 +6,13 @@ solved for the count of a wheel, a `Condition` can only be tested. Both are eval
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from decimal import ROUND_CEILING, localcontext
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import partial
 from itertools import combinations
-from math import pi, sqrt
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,8 +20,6 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
 from geartrain.kinematics.buildability.pitch_distances import tip_margin
-from geartrain.kinematics.circuits import Circuit, Tree
-from geartrain.kinematics.phasing import MeshPhasing, find_phasing
 from geartrain.numerics.graphs import joined_groups
 from geartrain.search.constraints.constraint_options import ConstraintOptions, turns
 from geartrain.search.constraints.count_conditions import (
@@ -29,9 +27,7 @@ from geartrain.search.constraints.count_conditions import (
     CountConstraint,
     CountEquation,
     LinearSum,
-    WholeSum,
     are_coprime,
-    are_divisible,
     are_owned,
     counts_of,
     decimal,
@@ -44,7 +40,6 @@ from geartrain.search.constraints.count_conditions import (
     is_positive,
     plainest,
     sine,
-    teeth_of,
     whole,
 )
 from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
@@ -62,11 +57,6 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 
-BACKLASH = 0.05
-"""Tolerance of a distance between declared positions [half modules], which allows for rounded positions and backlash.
-"""
-
-
 def find_constraints(
     train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
 ) -> tuple[CountConstraint, ...]:
@@ -74,7 +64,7 @@ def find_constraints(
 
     free   admissible counts by varied wheel; all other wheels have their declared counts
 
-    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops.
+    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets.
     Constraints that involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is
     raised if a requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
     """
@@ -99,8 +89,6 @@ class _ConstraintBuilder:
         yield from self._pairs()
         yield from self._planets()
         yield from self._owned()
-        if self.requested.closure:
-            yield from DeclaredPositions(self.fitting, self.requested.shift).conditions()
 
     def _owned(self) -> Iterator[CountConstraint]:
         """Yield a condition for each collection of owned wheels: no more wheels of a count are used than it has."""
@@ -346,158 +334,6 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
         )
     what = f"cannot require {number} equal copies of the planet set {one.title} on '{one.carrier}'"
     return Problem(what, why, fix)
-
-
-# ------------------------------------------------- declared positions: centre distances and the phasing of loops
-
-
-def is_in_proportion(teeth: WholeSum, other: WholeSum, ratio: float, most: float, columns: CandidateColumns) -> Bools:
-    """Return whether two centre distances are in the ratio of the distances between the declared axis positions.
-
-    The difference `teeth` - `ratio` x `other` must be within +-`most` [half modules].
-    """
-    return np.asarray(np.abs(teeth.of(columns) - ratio * other.of(columns)) <= most)
-
-
-def do_loops_close(
-    train: Train, tree: Tree, circuits: tuple[Circuit, ...], wheels: tuple[str, ...], columns: CandidateColumns
-) -> Bools:
-    """Return whether the teeth of all loops certainly mesh, tested candidate by candidate (about a millisecond each).
-
-    train      train in which the counts of `wheels` are placeholders
-    tree       tree of joints of that train
-    circuits   fundamental circuits in which the counts of `wheels` are placeholders
-    """
-    rows = np.stack([columns[wheel] for wheel in wheels], axis=1)
-    # each distinct combination of counts is tested once
-    each, back = np.unique(rows, axis=0, return_inverse=True)
-    counts = (dict(zip(wheels, row, strict=True)) for row in each.tolist())
-    found = [bool(find_phasing(train, tree, [circuit.with_counts(one) for circuit in circuits])) for one in counts]
-    return np.array(found, dtype=bool)[back.reshape(-1)]
-
-
-@dataclass(frozen=True)
-class DeclaredPositions:
-    """Constraints from the declared positions of axes: centre distances must fit the positions, and loops must
-    close.
-    """
-
-    fitting: TrainAssembly
-    shift: int = 0
-    """Deviation of a centre distance that profile shift can compensate [half modules]."""
-
-    @cached_property
-    def closure(self) -> MeshPhasing:
-        """Phase closure of the loops of the train with placeholder counts."""
-        return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
-
-    def conditions(self) -> Iterator[Condition]:
-        """Yield the conditions on distances, then on loops. Raise `QuestionError` if no loop has known positions."""
-        found = self.closure
-        if found.kind == "open" and not found.rigid:
-            raise QuestionError(_no_positions(self.fitting.train))
-        yield from self._distance_conditions()
-        yield from self._loop_condition()
-
-    def _distance_conditions(self) -> Iterator[Condition]:
-        """Yield the conditions on centre distances, by groups of meshes whose wheels have the same module."""
-        groups: dict[int, list[AssemblyMesh]] = {}
-        for mesh in self.fitting.meshes:
-            if mesh.spur and self._length(mesh):
-                groups.setdefault(self.fitting.kin[mesh.wheels[0]], []).append(mesh)
-        for meshes in groups.values():
-            yield from self._by_module([mesh for mesh in meshes if self._is_sized(mesh)])
-            yield from self._by_each_other([mesh for mesh in meshes if not self._is_sized(mesh)])
-
-    def _by_module(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
-        for mesh in meshes:
-            assert mesh.module is not None
-            yield from self._match(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
-
-    def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
-        fixed = [mesh for mesh in meshes if not mesh.is_free]
-        for mesh in meshes:
-            first = (fixed or meshes)[0]  # the unit is a mesh with fixed counts if there is one
-            if mesh is not first:
-                yield from self._match(
-                    mesh, teeth_of(first), self._length(mesh) / self._length(first), f"that of '{first.name}'"
-                )
-
-    def _is_sized(self, mesh: AssemblyMesh) -> bool:
-        """Return whether the module of a mesh and the positions of its axes are both lengths, or both numbers without a
-        unit.
-        """
-        if not mesh.measure or mesh.module is None:
-            return False
-        places = [self.fitting.train.axes[label].position for label in mesh.axes]
-        return {part.unit is None for place in places for part in place or () if part.value} == {
-            mesh.measure == "plain"
-        }
-
-    def _match(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
-        one, two = whole(teeth_of(mesh), other)
-        wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
-        if wheels:
-            name = f"declared positions: centre distance of '{mesh.name}' agrees with {what}"
-            yield Condition(name, wheels, partial(is_in_proportion, one, two, ratio, BACKLASH + self.shift))
-
-    def _length(self, mesh: AssemblyMesh) -> float:
-        """Return the distance between the two axes of a mesh [m, or number without a unit]; 0 if a position is not
-        declared.
-        """
-        axes = self.fitting.train.axes
-        ends = [axes[label].position for label in mesh.axes if label in axes]
-        if len(ends) < 2 or ends[0] is None or ends[1] is None:
-            return 0.0
-        way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
-        arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
-        # component along the axes, which does not count
-        along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
-        return sqrt(max(sum(x * x for x in arm) - along, 0.0))
-
-    def _loop_condition(self) -> Iterator[Condition]:
-        """Yield one condition on all loops: their divisibility rule if it is known, otherwise a test of each
-        candidate.
-        """
-        wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
-        if not wheels:
-            return
-        alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
-        # with several carriers, or with rigid loops, the set of loops depends on the counts
-        rule = replace(self.closure, alike=dict).rule if alone else None
-        name = "phase closure: teeth of all loops mesh at the declared positions"
-        if rule is None:
-            train = self.fitting.train.model_copy()
-            train._marks = None  # refers to a file, which other processes do not need
-            test = partial(do_loops_close, train, self.fitting.tree, self.fitting.circuits, wheels)
-            yield Condition(name, wheels, test)
-            return
-        sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
-        requested = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
-        if requested:
-            yield Condition(f"{name}: {rule.text}", requested, partial(are_divisible, tuple(sums)))
-
-    def _sum(self, terms: Mapping[str, int]) -> WholeSum:
-        (total,) = whole(LinearSum.of((factor, self.fitting.part(wheel)) for wheel, factor in terms.items()))
-        return total
-
-    def _in_loops(self) -> Sequence[str]:
-        """Return the wheels of all pairs that are in loops, movable or rigid."""
-        problem = self.closure.problem
-        meshes = {mesh for condition in problem.conditions for mesh in condition.row}
-        pairs = {problem.circuits[mesh].id for mesh in meshes}
-        pairs |= {pair for chord in problem.parts.breaking for pair in problem.parts.loop(chord).pairs}
-        circuits = (circuit for circuit in self.fitting.circuits if circuit.id in pairs)
-        return list(dict.fromkeys(wheel for circuit in circuits for wheel in circuit.wheels))
-
-
-def _no_positions(train: Train) -> Problem:
-    return Problem(
-        f"no loop of '{train.name}' has known axis positions",
-        "phase closure requires the positions of all axes of a loop",
-        "declare `axes` with positions, or omit phase closure",
-        train.place("axes"),
-    )
 
 
 # -------------------------------------------------- involute teeth: undercut, and tips beyond the involute of the mate

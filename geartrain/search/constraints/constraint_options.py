@@ -67,10 +67,6 @@ class ConstraintOptions:
     """Requirement that no varied wheel has the same tooth count as another wheel, except equal planets."""
     hunting: bool = False
     """Requirement that the tooth counts of meshing wheels are coprime."""
-    closure: bool = False
-    """Requirement that the centre distances of meshing wheels fit the declared axis positions, and that the teeth of
-    all loops mesh.
-    """
 
     def to_dict(self) -> dict[str, Any]:
         """Return the options as a dict for JSON, with quantities as strings. Options that are None or False are

@@ -192,7 +192,11 @@ export class World {
 
   /** Current position of a point of the crank (its foot or its knob). */
   ofCrank(point) {
-    const { body, at } = this.crank;
+    return this.placed(point, this.crank.body, this.crank.at);
+  }
+
+  /** Current position of a point of a body; in the exploded view, it is displaced like the part at `at`. */
+  placed(point, body, at = point) {
     return this.poses.apart(point, this.poses.lift(body, at)).applyMatrix4(this.nodes[body].matrixWorld);
   }
 

@@ -3,6 +3,7 @@ import { CountFormulas } from "../formulas.js";
 import { Fraction } from "../fraction.js";
 import { Machine } from "../motion.js";
 import { setTo } from "../setting.js";
+import { Callouts } from "./callouts.js";
 import { el } from "./element.js";
 import { decimal } from "./number.js";
 
@@ -34,7 +35,8 @@ export class Side {
     this.stage = this.app.open(this.index);
     const { canvas } = this.stage;
     this.nothing.hidden = canvas instanceof HTMLCanvasElement;
-    this.place.replaceChildren(canvas);
+    this.callouts = this.stage.renderer ? new Callouts(this.stage) : null;
+    this.place.replaceChildren(...[canvas, this.callouts?.node].filter(Boolean));
     this.#name(canvas);
     return true;
   }

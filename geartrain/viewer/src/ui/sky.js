@@ -9,8 +9,8 @@ import { Reading, degrees, within } from "./reading.js";
 
 const CENTURY = 36525; // days
 
-/** True if a pointer of a scene has a target. */
-export const hasTargets = (scene) => scene.pointers.some(({ targets }) => targets.length);
+/** True if a pointer of a scene has a target, or shows the sky. */
+export const hasTargets = ({ pointers, epoch }) => pointers.some(({ targets }) => targets.length) || Boolean(epoch && (epoch.settings.length || epoch.unset.length));
 
 /** What a pointer should read, turns from the start of its scale, had it turned at a target's speed since it was set. */
 export function skyOf(reading, target, turns) {

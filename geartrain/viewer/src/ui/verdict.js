@@ -45,7 +45,7 @@ export function verdict(side, many, onLoop, onElement) {
   return el(
     "div",
     { class: bad ? "verdict bad" : "verdict", "data-verdict": kind },
-    el("p", {}, many && el("span", {}, `${side.label}: `), el("strong", {}, kind), text && text !== kind && ` ${text}`),
+    bad && el("p", {}, many && el("span", {}, `${side.label}: `), el("strong", {}, kind), text && text !== kind && ` ${text}`),
     loops.length
       ? el(
           "ul",

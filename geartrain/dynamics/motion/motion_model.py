@@ -279,8 +279,7 @@ class Motion(Shown):
         Motion
             Motion with these angles.
         """
-        problem = replace(self._problem, angles={**self._problem.angles, **angles})
-        return Motion(problem, self.outputs, self.tolerance, self.fast)
+        return Motion(replace(self._problem, angles={**self._problem.angles, **angles}), self.outputs)
 
     def with_random_phases(self, random: Generator) -> Motion:
         """Return the motion in which each pair with a declared tooth form but without a declared phase has a random

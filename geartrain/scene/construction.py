@@ -38,6 +38,7 @@ from geartrain.scene.dial_pointers import (
     with_balls,
     with_titles,
 )
+from geartrain.scene.displays import drive_kind, find_displays, fusee_radii, upwards
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
@@ -413,6 +414,7 @@ def make_scene(
     wheels, profiles = find_wheels(stage, teeth, turns)
     notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
+    shapes, rods = find_shapes(stage)
     pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
@@ -424,6 +426,9 @@ def make_scene(
         front=stage.layout.front,
         driving_link=None if stage.driving_link is None else stage.body[stage.driving_link],
         crank=None if stage.crank is None else stage.body[stage.crank],
+        drive=drive_kind(stage),
+        fusee=fusee_radii(stage),
+        up=upwards(stage),
         step=fraction_text(stage.step),
         verdict=verdict,
         bodies=bodies,
@@ -432,7 +437,8 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
-        shapes=find_shapes(stage),
+        shapes=(*shapes, *find_displays(stage)),
+        hangers=rods,
         dials=with_titles(with_balls(faces, pointers), pointers),
         pointers=pointers,
         movement=moved.movement,

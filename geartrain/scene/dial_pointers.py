@@ -31,7 +31,7 @@ from geartrain.scene.layout import WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke, hand_with_ball
 from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch, SceneSetting
 from geartrain.train.outputs import looks_away
-from geartrain.train.sky import mean_elements, read_sky_angle
+from geartrain.train.sky import angle_at, mean_elements, read_sky_angle
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
@@ -415,7 +415,7 @@ def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence
     if epoch is None or unit is None or stage.driving_link is None:
         return None
     settings = tuple(_settings(stage, pointers, dials))
-    zodiac = [each.output for each in pointers if each.dial is not None and _is_zodiac(dials[each.dial])]
+    dialled = [(each.output, dials[each.dial].scale.names) for each in pointers if each.dial is not None]
     return SceneEpoch(
         julian_day=fraction_text(epoch.julian_day),
         turns=fraction_text(epoch.turns.value),
@@ -424,13 +424,13 @@ def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence
         source=epoch.source or "",
         note=epoch.note or "",
         settings=settings,
-        unset=tuple(name for name in zodiac if stage.outputs[name].at_epoch is None),
+        unset=tuple(
+            output
+            for output, names in dialled
+            if names[:1] and names[0][0] == "Aries" and not stage.outputs[output].at_epoch
+        ),
         elements=_elements() if settings else {},
     )
-
-
-def _is_zodiac(dial: DialFace) -> bool:
-    return [name for name, _, _ in dial.scale.names[:1]] == ["Aries"]
 
 
 def _elements() -> dict[str, dict[str, tuple[float, ...]]]:
@@ -445,9 +445,9 @@ def _settings(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[
         text = stage.outputs[pointer.output].at_epoch
         if text is None or pointer.speed is None:
             continue
-        angle, dial = read_sky_angle(text), None if pointer.dial is None else dials[pointer.dial]
+        (angle, body), dial = read_sky_angle(text), None if pointer.dial is None else dials[pointer.dial]
         sense = 1 if dial is None or dial.look == "ball" else pointer.sense * dial.scale.way
-        yield SceneSetting(at, sense, tuple(map(float, angle.coefficients)), angle.body)
+        yield SceneSetting(at, sense, tuple(map(float, angle)), body)
 
 
 def angles_at_start(
@@ -458,7 +458,7 @@ def angles_at_start(
     for setting in epoch.settings:
         pointer = pointers[setting.pointer]
         of, base = links[pointer.body], links[pointer.base]
-        angle = read_sky_angle(stage.outputs[pointer.output].at_epoch or "").at(Fraction(epoch.julian_day))
+        angle = angle_at(read_sky_angle(stage.outputs[pointer.output].at_epoch or "")[0], Fraction(epoch.julian_day))
         turned = read_fraction(pointer.speed or "0") * Fraction(epoch.turns)
         own = float((setting.sense * angle - turned) % (1 if pointer.dial is None else dials[pointer.dial].scale.turns))
         found[of] = 2 * pi * own + stage.sense(of) * stage.sense(base) * found.get(base, stage.start(base))

@@ -153,20 +153,15 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
 
 def set_outputs(train: Train) -> Iterator[Problem]:
     """Yield problems of links that outputs set twice at the epoch, or after an output that is relative to them."""
-    set_links: dict[str, str] = {}
-    seen = set[str]()
+    used: dict[str, str] = {}  # links that are set or referred to, with the output
     for name, output in train.outputs.items():
-        if output.at_epoch is None:
-            continue
         of, base = output.links(name, train.frame)
-        if of in set_links or of in seen:
-            first = set_links.get(of)
-            what = f"outputs '{first}' and '{name}' both set '{of}'" if first else f"'{name}' sets '{of}' too late"
-            why = "a link has one angle at the epoch" if first else "an output above it is relative to this link"
-            fix = f"remove one `at_epoch`, or move '{name}' above the outputs that are relative to '{of}'"
-            yield Problem(what, why, fix, train.place("outputs", name))
-        set_links[of] = name
-        seen.add(base)
+        if output.at_epoch is not None and of in used:
+            why = "a link has one angle at the epoch, before outputs that are relative to it"
+            fix = f"remove one `at_epoch`, or move '{name}' above '{used[of]}'"
+            yield Problem(f"'{used[of]}' and '{name}' both need '{of}'", why, fix, train.place("outputs", name))
+        if output.at_epoch is not None:
+            used |= {of: name} if base in used or base == train.frame else {of: name, base: name}
 
 
 def _suggested_unit(train: Train, per: str) -> str:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from importlib import resources
@@ -74,47 +73,27 @@ def terrestrial_centuries(julian_day: Fraction) -> Fraction:
     return (julian_day + (32 * t * t - 20) / 86400 - _J2000) / _CENTURY
 
 
-@dataclass(frozen=True, slots=True)
-class SkyAngle:
-    """Angle of an output at the epoch: a sum of mean angles of the sky and constants.
-
-    Examples
-    --------
-    >>> read_sky_angle("mars_anomaly + 180 deg").coefficients[:2]
-    (Fraction(105033457, 1000000), Fraction(168590733807, 10000000))
-    """
-
-    coefficients: Polynomial
-    """Polynomial of the angle [deg]."""
-    body: str
-    """Name of the body whose longitude the angle is; empty for any other angle."""
-
-    def at(self, julian_day: Fraction) -> Fraction:
-        """Return the angle at a Julian day in Universal Time [turns]."""
-        time = terrestrial_centuries(julian_day)
-        return sum((each * time**power for power, each in enumerate(self.coefficients)), Fraction(0)) / 360
+def angle_at(polynomial: Polynomial, julian_day: Fraction) -> Fraction:
+    """Return an angle in degrees as turns, at a Julian day in Universal Time."""
+    time = terrestrial_centuries(julian_day)
+    return sum((each * time**power for power, each in enumerate(polynomial)), Fraction(0)) / 360
 
 
-def read_sky_angle(text: str) -> SkyAngle:
+def read_sky_angle(text: str) -> tuple[Polynomial, str]:
     """Parse an angle such as `sun`, `moon - sun`, `mars_anomaly + 180 deg` or `33.1 deg`.
 
-    Raises
-    ------
-    ValueError
-        If the text is not a sum of angles; the message is followed by the fix.
+    Returns its polynomial [deg], and the body whose longitude it is (empty for any other angle). Raises `ValueError`
+    with the problem and its fix if the text is not a sum of angles.
     """
-    terms, end = list[tuple[int, Polynomial]](), 0
-    names = []
-    while found := _TERM.match(text, end):
+    terms, names, end = list[tuple[int, Polynomial]](), list[str](), 0
+    while (found := _TERM.match(text, end)) and (found[1] or not terms):
         sign, constant, name = found.groups()
-        if terms and not sign:
-            break
         if name and name not in sky_angles():
             raise ValueError(f"'{name}' is not an angle of the sky", suggest(name, sky_angles(), wide=True))
         terms.append((-1 if sign == "-" else 1, sky_angles()[name] if name else (Fraction(constant),)))
-        names.append(name)
+        names.append(name or "")
         end = found.end()
     if not terms or end < len(text):
         raise ValueError(f"'{text[:40]}' is not an angle", "write sun, moon - sun, mars_anomaly + 180 deg or 33.1 deg")
-    single = len(terms) == 1 and terms[0][0] > 0 and not str(names[0]).endswith(("_anomaly", "_perigee"))
-    return SkyAngle(_sum(*terms), names[0] if single and names[0] else "")
+    single = len(terms) == 1 and terms[0][0] > 0 and not names[0].endswith(("_anomaly", "_perigee"))
+    return _sum(*terms), names[0] if single else ""

@@ -280,19 +280,8 @@ class Motion(Shown):
                 )
             )
 
-    def with_angles(self, angles: Mapping[str, float]) -> Motion:
-        """Return the motion with other starting angles of some links.
-
-        Parameters
-        ----------
-        angles : mapping of str to float
-            Starting angles by link [rad]; other links keep their declared angles.
-
-        Returns
-        -------
-        Motion
-            Motion with these angles.
-        """
+    def _with_angles(self, angles: Mapping[str, float]) -> Motion:
+        """Return the motion with other starting angles of some links [rad]."""
         return Motion(replace(self._problem, angles={**self._problem.angles, **angles}), self.outputs)
 
     def with_random_phases(self, random: Generator) -> Motion:

@@ -429,15 +429,8 @@ def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence
             for output, names in dialled
             if names[:1] and names[0][0] == "Aries" and not stage.outputs[output].at_epoch
         ),
-        elements=_elements() if settings else {},
+        elements=mean_elements() if settings else {},
     )
-
-
-def _elements() -> dict[str, dict[str, tuple[float, ...]]]:
-    return {
-        body: {quantity: tuple(map(float, each)) for quantity, each in rows.items()}
-        for body, rows in mean_elements().items()
-    }
 
 
 def _settings(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> Iterator[SceneSetting]:
@@ -447,7 +440,7 @@ def _settings(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[
             continue
         (angle, body), dial = read_sky_angle(text), None if pointer.dial is None else dials[pointer.dial]
         sense = 1 if dial is None or dial.look == "ball" else pointer.sense * dial.scale.way
-        yield SceneSetting(at, sense, tuple(map(float, angle)), body)
+        yield SceneSetting(at, sense, angle, body)
 
 
 def angles_at_start(
@@ -458,9 +451,9 @@ def angles_at_start(
     for setting in epoch.settings:
         pointer = pointers[setting.pointer]
         of, base = links[pointer.body], links[pointer.base]
-        angle = angle_at(read_sky_angle(stage.outputs[pointer.output].at_epoch or "")[0], Fraction(epoch.julian_day))
+        angle = angle_at(setting.angle, float(Fraction(epoch.julian_day)))
         turned = read_fraction(pointer.speed or "0") * Fraction(epoch.turns)
-        own = float((setting.sense * angle - turned) % (1 if pointer.dial is None else dials[pointer.dial].scale.turns))
+        own = (setting.sense * angle - float(turned)) % (1 if pointer.dial is None else dials[pointer.dial].scale.turns)
         found[of] = 2 * pi * own + stage.sense(of) * stage.sense(base) * found.get(base, stage.start(base))
     return found | dict(_slots_at_pins(stage, found))
 

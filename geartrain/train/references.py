@@ -161,7 +161,7 @@ def set_outputs(train: Train) -> Iterator[Problem]:
             fix = f"remove one `at_epoch`, or move '{name}' above '{used[of]}'"
             yield Problem(f"'{used[of]}' and '{name}' both need '{of}'", why, fix, train.place("outputs", name))
         if output.at_epoch is not None:
-            used |= {of: name} if base in used or base == train.frame else {of: name, base: name}
+            used = {base: name} | used | {of: name}
 
 
 def _suggested_unit(train: Train, per: str) -> str:

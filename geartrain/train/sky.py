@@ -18,11 +18,11 @@ from types import MappingProxyType
 
 from geartrain.errors import suggest
 
-Polynomial = tuple[Fraction, ...]
+Polynomial = tuple[float, ...]
 """Coefficients of a polynomial, in ascending order of powers."""
 
 _J2000 = 2451545
-_DELTA_T = Fraction(4771601, 2)  # Julian day of 1820-01-01 at midnight
+_DELTA_T = 2385800.5  # Julian day of 1820-01-01 at midnight
 _CENTURY = 36525  # days
 _TERM = re.compile(r"\s*([+-]?)\s*(?:(\d+(?:\.\d+)?)\s*deg|([a-z_]+))\s*")
 
@@ -36,7 +36,7 @@ def mean_elements() -> Mapping[str, Mapping[str, Polynomial]]:
     text = resources.files(__package__).joinpath("mean_elements.csv").read_text(encoding="utf-8")
     rows: dict[str, dict[str, Polynomial]] = {}
     for row in csv.DictReader(text.splitlines()):
-        found = tuple(Fraction(row[f"c{power}"]) for power in range(5) if row[f"c{power}"])
+        found = tuple(float(Fraction(row[f"c{power}"])) for power in range(5) if row[f"c{power}"])
         rows.setdefault(row["body"], {})[row["quantity"]] = found
     return MappingProxyType(rows)
 
@@ -45,7 +45,7 @@ def mean_elements() -> Mapping[str, Mapping[str, Polynomial]]:
 def sky_angles() -> Mapping[str, Polynomial]:
     """Return the angles [deg] to which an output can be set, by name."""
     rows = mean_elements()
-    moon, sun = rows["moon"], _sum((1, rows["earth"]["longitude"]), (1, (Fraction(180),)))
+    moon, sun = rows["moon"], _sum((1, rows["earth"]["longitude"]), (1, (180.0,)))
     found = {"sun": sun, "moon": moon["longitude"], "moon_node": moon["node"], "moon_perigee": moon["perigee"]}
     found["moon_anomaly"] = _sum((1, moon["longitude"]), (-1, moon["perigee"]))
     for planet in ("mercury", "venus"):
@@ -60,23 +60,18 @@ def sky_angles() -> Mapping[str, Polynomial]:
 
 def _sum(*terms: tuple[int, Polynomial]) -> Polynomial:
     scaled = [[sign * each for each in polynomial] for sign, polynomial in terms]
-    return tuple(sum(column, Fraction(0)) for column in zip_longest(*scaled, fillvalue=Fraction(0)))
+    return tuple(sum(column) for column in zip_longest(*scaled, fillvalue=0.0))
 
 
-def terrestrial_centuries(julian_day: Fraction) -> Fraction:
-    """Return the Julian centuries of Terrestrial Time since J2000.0 of a Julian day in Universal Time.
+def angle_at(polynomial: Polynomial, julian_day: float) -> float:
+    """Return an angle in degrees as turns, at a Julian day in Universal Time.
 
-    The difference of the two times is -20 + 32 t^2 seconds, with t in centuries since 1820 (Morrison and Stephenson
-    2004, Journal for the History of Astronomy 35:327-336).
+    Terrestrial Time is 32 t^2 - 20 seconds ahead, with t in centuries since 1820 (Morrison and Stephenson 2004, Journal
+    for the History of Astronomy 35:327-336).
     """
     t = (julian_day - _DELTA_T) / _CENTURY
-    return (julian_day + (32 * t * t - 20) / 86400 - _J2000) / _CENTURY
-
-
-def angle_at(polynomial: Polynomial, julian_day: Fraction) -> Fraction:
-    """Return an angle in degrees as turns, at a Julian day in Universal Time."""
-    time = terrestrial_centuries(julian_day)
-    return sum((each * time**power for power, each in enumerate(polynomial)), Fraction(0)) / 360
+    time = (julian_day + (32 * t * t - 20) / 86400 - _J2000) / _CENTURY
+    return sum(each * time**power for power, each in enumerate(polynomial)) / 360
 
 
 def read_sky_angle(text: str) -> tuple[Polynomial, str]:
@@ -90,7 +85,7 @@ def read_sky_angle(text: str) -> tuple[Polynomial, str]:
         sign, constant, name = found.groups()
         if name and name not in sky_angles():
             raise ValueError(f"'{name}' is not an angle of the sky", suggest(name, sky_angles(), wide=True))
-        terms.append((-1 if sign == "-" else 1, sky_angles()[name] if name else (Fraction(constant),)))
+        terms.append((-1 if sign == "-" else 1, sky_angles()[name] if name else (float(constant),)))
         names.append(name or "")
         end = found.end()
     if not terms or end < len(text):

@@ -109,14 +109,14 @@ def apart(one: float, other: float) -> float:
 def test_mean_angles_agree_with_the_orbits_of_standish(date: str) -> None:
     day = julian_day(read_date(date))
     sun = mean_longitude("earth", day) + 180
-    assert apart(360 * float(angle_at(read_sky_angle("sun")[0], day)), sun) == pytest.approx(0, abs=0.05)
+    assert apart(360 * angle_at(read_sky_angle("sun")[0], float(day)), sun) == pytest.approx(0, abs=0.05)
     for body in (*INFERIOR, *SUPERIOR):
         # the elements are secular: they omit the great inequality of Jupiter and Saturn, up to 0.4 and 0.9 degrees
         within = {"jupiter": 0.5, "saturn": 1.0}.get(body, 0.1)
         own = mean_longitude(body, day)
         found = (
-            360 * float(angle_at(read_sky_angle(body)[0], day)),
-            360 * float(angle_at(read_sky_angle(f"{body}_anomaly")[0], day)),
+            360 * angle_at(read_sky_angle(body)[0], float(day)),
+            360 * angle_at(read_sky_angle(f"{body}_anomaly")[0], float(day)),
         )
         wanted = (sun, own - sun) if body in INFERIOR else (own, sun - own)
         for one, other in zip(found, wanted, strict=True):
@@ -127,11 +127,11 @@ def test_mean_angles_of_the_moon_agree_with_its_phases_and_eclipses() -> None:
     # J. Meeus, Astronomical Algorithms, 1998, example 47.a: the Moon on 1992 April 12 at 0 h Terrestrial Time
     day = Fraction("2448724.5") - Fraction(59, 86400)
     for text, longitude in (("moon", 134.290182), ("moon_anomaly", 5.150833), ("moon - sun", 113.842304)):
-        assert apart(360 * float(angle_at(read_sky_angle(text)[0], day)), longitude) == pytest.approx(0, abs=3e-3), text
+        assert apart(360 * angle_at(read_sky_angle(text)[0], float(day)), longitude) == pytest.approx(0, abs=3e-3), text
     # the total solar eclipse of 1999 August 11 (greatest at 11:03 UT): new Moon, near the node
     day = julian_day(read_date("1999-08-11 11:03"))
-    assert apart(360 * float(angle_at(read_sky_angle("moon - sun")[0], day)), 0) == pytest.approx(0, abs=8)
-    assert abs(apart(360 * float(angle_at(read_sky_angle("sun - moon_node")[0], day)) * 2, 0)) < 2 * 17
+    assert apart(360 * angle_at(read_sky_angle("moon - sun")[0], float(day)), 0) == pytest.approx(0, abs=8)
+    assert abs(apart(360 * angle_at(read_sky_angle("sun - moon_node")[0], float(day)) * 2, 0)) < 2 * 17
 
 
 def longitudes(name: str, after: float) -> tuple[Fraction, dict[str, float]]:
@@ -157,7 +157,7 @@ def test_planets_have_the_phase_of_their_epicycles_for_years_after_the_epoch(aft
 def test_the_moon_has_its_anomaly_and_its_phase() -> None:
     for after in range(0, 60, 3):
         day, found = longitudes("freeth-2021", after)
-        mean, anomaly = (360 * float(angle_at(read_sky_angle(each)[0], day)) for each in ("moon", "moon_anomaly"))
+        mean, anomaly = (360 * angle_at(read_sky_angle(each)[0], float(day)) for each in ("moon", "moon_anomaly"))
         # the slot is ahead by atan2(e sin, r - e cos) of the anomaly, with 1.1 and 9.6 mm (Freeth et al. 2006)
         swing = degrees(atan2(1.1 * sin(radians(anomaly)), 9.6 - 1.1 * cos(radians(anomaly))))
         assert apart(found["moon"], mean + swing) == pytest.approx(0, abs=0.02)

@@ -37,7 +37,7 @@ function partsOf(scene, parts, main) {
     const flat = part.outlines.length > 0;
     const upright = isParallel(direction, main.toArray());
     const cover = COVERS.includes(kind) ? vector(direction) : null;
-    const shape = flat ? flatShape(part) : SMOOTH.includes(kind) ? smoothShape(part.bands) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL ? ROUND : 40);
+    const shape = flat ? flatShape(part) : SMOOTH.includes(kind) ? smoothShape(part.bands) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL || kind === "drum" ? ROUND : 40);
     // parts along the direction in which layers move are stretched
     const at = upright && !flat ? null : vector(place);
     return { body, kind, cover, colour: colourOf(part), gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };

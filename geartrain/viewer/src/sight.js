@@ -45,7 +45,12 @@ export class Sight {
   constructor(scene) {
     this.wheels = scene.wheels.map((wheel) => {
       const disc = { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), inner: wheel.kind === "ring" ? wheel.radius : 0 };
-      return { ...disc, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
+      return { ...disc, pitch: wheel.radius, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
+    });
+    this.meshes = scene.pairs.map(({ wheels }) => {
+      const [one, other] = wheels.map((at) => this.wheels[at]).sort((a, b) => b.inner - a.inner);
+      const towards = other.at.clone().sub(one.at).setLength(one.pitch); // from the ring, if there is one
+      return { wheels: [one, other], point: one.at.clone().add(towards) };
     });
     this.walls = scene.parts.filter(({ kind }) => kind === "wall").map(barOf);
     this.points = this.wheels.flatMap(({ points }) => points);
@@ -76,19 +81,20 @@ export class Sight {
   }
 
   /**
-   * Visibility of the wheels in their initial positions from an eye point, 0 to 1: mean square root of the visible fraction
-   * of each wheel, reduced by obliquity and by wheels in front; the root gives weight to wheels that are hardly visible.
+   * Visibility of the wheels and of their meshes in their initial positions from an eye point, 0 to 1: mean square root of
+   * the visible fraction of each, reduced by obliquity and by wheels in front; the root gives weight to what is hardly visible.
    */
   seen(eye) {
     const [way, hit] = [eye.clone(), eye.clone()];
-    const before = (point, own) => this.wheels.some((wheel) => wheel !== own && meets(wheel, eye, way.copy(point).sub(eye), hit));
-    const parts = this.wheels.map((wheel) => {
+    const before = (point, own) => this.wheels.some((wheel) => !own.includes(wheel) && meets(wheel, eye, way.copy(point).sub(eye), hit));
+    const share = (points, own) => points.filter((point) => !before(point, own) && !this.walls.some((wall) => goesThrough(wall, eye, point))).length / points.length;
+    const facing = (wheel) => {
       const off = eye.clone().sub(wheel.at);
       const cosine = off.dot(vector(wheel.direction)) / off.length();
-      const facing = wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // the thread of a worm is seen from the side
-      const share = wheel.points.filter((point) => !before(point, wheel) && !this.walls.some((wall) => goesThrough(wall, eye, point))).length / wheel.points.length;
-      return Math.sqrt(facing * share);
-    });
+      return wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // the thread of a worm is seen from the side
+    };
+    const meshes = this.meshes.map(({ wheels, point }) => Math.sqrt(Math.min(...wheels.map(facing)) * share([point], wheels)));
+    const parts = [...this.wheels.map((wheel) => Math.sqrt(facing(wheel) * share(wheel.points, [wheel]))), ...meshes];
     return parts.reduce((sum, part) => sum + part, 0) / parts.length;
   }
 }

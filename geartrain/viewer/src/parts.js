@@ -8,7 +8,7 @@ import { Shape, swept } from "./shape.js";
 import { barOf, paneOf } from "./sight.js";
 import { along, endsOf, frameAt, isParallel, offAxis, vector } from "./space.js";
 
-const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4], guide: PARTS.slot, road: PARTS.arm, hub: PARTS.arm, figure: PARTS.bezel };
+const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4], guide: PARTS.slot, road: PARTS.arm, nave: PARTS.arm, figure: PARTS.bezel };
 const SMOOTH = ["figure"]; // turned parts whose bands are joined by cones
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // wall of a cup, which continues a flexible wheel

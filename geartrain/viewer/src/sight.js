@@ -45,12 +45,14 @@ export class Sight {
   constructor(scene) {
     this.wheels = scene.wheels.map((wheel) => {
       const disc = { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), inner: wheel.kind === "ring" ? wheel.radius : 0 };
-      return { ...disc, pitch: wheel.radius, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
+      return { ...disc, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
     });
-    this.meshes = scene.pairs.map(({ wheels }) => {
-      const [one, other] = wheels.map((at) => this.wheels[at]).sort((a, b) => b.inner - a.inner);
-      const towards = other.at.clone().sub(one.at).setLength(one.pitch); // from the ring, if there is one
-      return { wheels: [one, other], point: one.at.clone().add(towards) };
+    this.meshes = scene.pairs.flatMap(({ wheels }) => {
+      const [ring, other] = wheels.map((at) => this.wheels[at]).sort((a, b) => b.inner - a.inner);
+      if (!ring.inner) return []; // wheels that mesh outside of each other do not hide their teeth
+      const wave = scene.waves.find(({ wheel }) => wheels.includes(wheel)); // whose wheel is coaxial with its ring
+      const towards = wave ? vector(wave.towards) : other.at.clone().sub(ring.at);
+      return [{ wheels: [ring, other], point: ring.at.clone().add(towards.setLength(ring.inner)) }];
     });
     this.walls = scene.parts.filter(({ kind }) => kind === "wall").map(barOf);
     this.points = this.wheels.flatMap(({ points }) => points);
@@ -81,7 +83,7 @@ export class Sight {
   }
 
   /**
-   * Visibility of the wheels and of their meshes in their initial positions from an eye point, 0 to 1: mean square root of
+   * Visibility of the wheels and of their internal meshes in their initial positions from an eye point, 0 to 1: mean square root of
    * the visible fraction of each, reduced by obliquity and by wheels in front; the root gives weight to what is hardly visible.
    */
   seen(eye) {

@@ -47,13 +47,6 @@ export class Sight {
       const disc = { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), inner: wheel.kind === "ring" ? wheel.radius : 0 };
       return { ...disc, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
     });
-    this.meshes = scene.pairs.flatMap(({ wheels }) => {
-      const [ring, other] = wheels.map((at) => this.wheels[at]).sort((a, b) => b.inner - a.inner);
-      if (!ring.inner) return []; // wheels that mesh outside of each other do not hide their teeth
-      const wave = scene.waves.find(({ wheel }) => wheels.includes(wheel)); // whose wheel is coaxial with its ring
-      const towards = wave ? vector(wave.towards) : other.at.clone().sub(ring.at);
-      return [{ wheels: [ring, other], point: ring.at.clone().add(towards.setLength(ring.inner)) }];
-    });
     this.walls = scene.parts.filter(({ kind }) => kind === "wall").map(barOf);
     this.points = this.wheels.flatMap(({ points }) => points);
     this.swept = scene.wheels.flatMap((wheel, n) => discsOf(scene, wheel).map((disc) => pointsOver({ ...disc, inner: this.wheels[n].inner })));
@@ -83,20 +76,19 @@ export class Sight {
   }
 
   /**
-   * Visibility of the wheels and of their internal meshes in their initial positions from an eye point, 0 to 1: mean square root of
-   * the visible fraction of each, reduced by obliquity and by wheels in front; the root gives weight to what is hardly visible.
+   * Visibility of the wheels in their initial positions from an eye point, 0 to 1: mean square root of the visible fraction
+   * of each wheel, reduced by obliquity and by wheels in front; the root gives weight to wheels that are hardly visible.
    */
   seen(eye) {
     const [way, hit] = [eye.clone(), eye.clone()];
-    const before = (point, own) => this.wheels.some((wheel) => !own.includes(wheel) && meets(wheel, eye, way.copy(point).sub(eye), hit));
-    const share = (points, own) => points.filter((point) => !before(point, own) && !this.walls.some((wall) => goesThrough(wall, eye, point))).length / points.length;
-    const facing = (wheel) => {
+    const before = (point, own) => this.wheels.some((wheel) => wheel !== own && meets(wheel, eye, way.copy(point).sub(eye), hit));
+    const parts = this.wheels.map((wheel) => {
       const off = eye.clone().sub(wheel.at);
       const cosine = off.dot(vector(wheel.direction)) / off.length();
-      return wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // the thread of a worm is seen from the side
-    };
-    const meshes = this.meshes.map(({ wheels, point }) => Math.sqrt(Math.min(...wheels.map(facing)) * share([point], wheels)));
-    const parts = [...this.wheels.map((wheel) => Math.sqrt(facing(wheel) * share(wheel.points, [wheel]))), ...meshes];
+      const facing = wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // the thread of a worm is seen from the side
+      const share = wheel.points.filter((point) => !before(point, wheel) && !this.walls.some((wall) => goesThrough(wall, eye, point))).length / wheel.points.length;
+      return Math.sqrt(facing * share);
+    });
     return parts.reduce((sum, part) => sum + part, 0) / parts.length;
   }
 }

@@ -310,8 +310,8 @@ class Train(Declared):
 
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
-        """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. A name of several parts
-        has the first of these kinds.
+        """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. If several parts have
+        the same name, the first of these kinds.
         """
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 DEGREE = 4
 _FEWEST, _MOST = 32, 1 << 16  # minimum and maximum number of cells
 _PATIENCE = 8  # an error not halved by this factor of cells is rounding error
-_MANY = 16  # kinks: a search takes less time than that many comparisons
 _THIN = 1e-12  # periods: in narrower cells the table is constant
 _SAFETY = 2.0  # stated uncertainty divided by the maximum error found
 
@@ -83,11 +82,7 @@ class CellTable:
             u = np.mod(S, self.period)
             # every kink below the angle adds a cell to the count of uniform cells
             cell = np.asarray(u * (self.cells / self.period)).astype(np.intp)
-            if len(self.kinks) > _MANY:
-                cell = cell + np.searchsorted(self.kinks, u, side="right")
-            else:
-                for kink in self.kinks:
-                    cell = cell + (u >= kink)
+            cell = cell + np.searchsorted(self.kinks, u, side="right")
             # clipped, since rounding may lead past the last cell and NaN anywhere
             u = u - self.middles.take(cell, mode="clip")
             found = self.coefficients[-1].take(cell, mode="clip")

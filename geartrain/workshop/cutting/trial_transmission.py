@@ -111,7 +111,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
         pitch = self.pair.sizes.p1
-        u = np.mod(S, pitch)
+        u: Floats = np.mod(S, pitch)
         # whole pitches and the rest, because k p - S would lose the digits of a long run
         n = np.rint((S - u) / pitch).astype(np.int64)
         lag, first = np.full(len(S), inf), n

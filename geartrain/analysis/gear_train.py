@@ -198,6 +198,7 @@ class GearTrain:
         wanted = problem.without_steps(self.kinematics.seen_links(state, outputs), outputs)
         motion = Motion(problem, wanted)
         motion._declaration, motion._state, motion._without = self.declaration, state, tuple(without)
+        motion._shown = tuple(wanted) if outputs else self.declaration.dial_outputs(tuple(wanted))
         return motion
 
     def report(self) -> Any:

@@ -66,7 +66,10 @@ def run(
         bool, typer.Option("--spectrum", help="Add the spectral lines of each output, with exact orders and sources.")
     ] = False,
     json: Json = False,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Plot errors and speeds to this file.")] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option("--plot", help="Plot the errors of pointers to this file, or the motion of one output (--of)."),
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
     theme: Theme = "light",
     out: Out = None,
@@ -108,7 +111,7 @@ def run(
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            title = f"{train.name}: transmission errors and speeds of outputs"
+            title = f"{train.name}: motion over {requested.turns:g} turns of {motion._problem.driving_link}"
             draw(motion_figure(requested, bar.advance, title), picture)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, pairwise
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -135,9 +136,11 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def name_element(self, name: str, closed: bool, x: float, y: float) -> None:
-        """Add the name of a brake or clutch above the middle (x, y) of its plates, or further up."""
+        """Add the name of a brake or clutch above the middle (x, y) of its plates, further up, or on either side."""
         weight = "bold" if closed else "normal"
+        beside = 0.22 + text_width(name, NAME, weight) / 2
         spots = [(x + aside, y + 0.2 + step * _STEP) for step in range(4) for aside in (0.0, 0.1, -0.1)]
+        spots += [(x + side * beside, y) for side in (1, -1)]
         places = tuple(text_box([name], NAME, *spot, weight) for spot in spots)
         how = {"fontsize": NAME, "fontweight": weight}
         self.wheels.append(_Label(name, PURPLE if closed else GREY, places, how))
@@ -358,7 +361,7 @@ _MOST = 160  # maximum number of pairs on a page
 PINS = {"pin_and_slot", "pin_follower", "pins_in_holes"}  # kinds of couplings that are drawn as a pin in a slot
 _LONE = 0.55  # inches: height of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
-_KEY = 0.5  # inches for the sample of an entry of the legend
+_KEY, _ENTRY = 0.5, 0.17  # inches: sample and height of an entry of the legend
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
@@ -379,7 +382,6 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     margin += (width - needed) / 2
     figure, axes = sheet(width, skeleton.height + _HEAD + _FOOT, title_of(declared.name, declared.title))
     axes.set_xlim(-margin, width - margin)
-    axes.set_ylim(-_FOOT, skeleton.height + _HEAD)
     for text in list(axes.texts):
         text.set_position((0.15 - margin, skeleton.height + _HEAD - 0.12))
     drawing = _Drawing(axes, train, skeleton, declared.state_or_first(state))
@@ -399,6 +401,9 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     entries = list(_legend(train, any(patch.get_gid() == "ground" for patch in axes.patches)))
     widest = max(text_width(str(each.get_label()), SMALL - 1.5) for each in entries) + _KEY
     columns = min(len(entries), max(int(width / widest), 1), 5)
+    foot = _FOOT + _ENTRY * max(ceil(len(entries) / columns) - 2, 0)
+    axes.set_ylim(-foot, skeleton.height + _HEAD)
+    figure.set_size_inches(width, skeleton.height + _HEAD + foot)
     figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
     return figure
 
@@ -417,13 +422,16 @@ class _Drawing:
             ends = [mesh.meet, *(self._foot(link, mesh) for link in mesh.ends)]
             for x in (mesh.x, mesh.x + COLUMN) if mesh.ring else (mesh.x,):
                 self.words.keep_off((x, x), (min(ends), max(ends)))
+            for end in ends[1:] if mesh.kind in ("belt", "drum", "screw") else ():
+                self.words.keep_off((mesh.x - 0.11, mesh.x + 0.11), (end - 0.12, end + 0.12))
         for crank in skeleton.columns.cranks:
             far = skeleton.rows[crank.axis][0]
             self.words.keep_off((crank.x, crank.x), (skeleton.shafts[crank.carrier].y, far))
             self.words.keep_off((crank.x - BEARING, crank.x + BEARING), (far - 0.07, far + 0.07))
         for name, (x, middle) in skeleton.elements.items():
-            self.words.keep_off((x - 0.12, x + 0.2), (middle - 0.13, middle + 0.13))
-            self.words.keep_off((x - 0.1, x + 0.1), (min(self._ends(name)), middle))
+            self.words.keep_off((x - 0.2, x + 0.2), (middle - 0.13, middle + 0.13))
+            heights = [middle, *(end for end in self._ends(name) if end is not None)]
+            self.words.keep_off((x - 0.1, x + 0.1), (min(heights), max(heights)))
 
     def draw_axes(self) -> None:
         """Draw the centre lines of all axes."""
@@ -459,9 +467,13 @@ class _Drawing:
         draw_element(self.axes, name, self.train.declaration.clutches[name], closed, place, self._ends(name))
         self.words.name_element(name, closed, *place)
 
-    def _ends(self, name: str) -> list[float]:
-        """Return the height of the shaft of each link that a brake or clutch joins [in]."""
-        return [self.skeleton.shafts[link].y for link in self.train.declaration.clutches[name].links]
+    def _ends(self, name: str) -> list[float | None]:
+        """Return the height of the shafts that a brake or clutch joins [in], None for the frame, which is the first
+        member of a brake.
+        """
+        clutch = self.train.declaration.clutches[name]
+        links = clutch.locks or (self.train.declaration.frame, *clutch.links)
+        return [self.skeleton.shafts[link].y if link in self.skeleton.shafts else None for link in links]
 
     def draw_mesh(self, mesh: StickMesh) -> None:
         """Draw two wheels up to the point where they touch, or the coupling of two links."""
@@ -518,7 +530,7 @@ class _Drawing:
             draw_joint(axes, x, mesh.meet, (low, high), coupling.kind, mesh.name)
             self.words.keep_off((x - 0.1, x + 0.1), (mesh.meet - 0.1, mesh.meet + 0.1))
         if self.train.declaration.frame in mesh.ends:
-            draw_ground(axes, x, high if mesh.ends[1] == self.train.declaration.frame else low)
+            self._ground(x, high if mesh.ends[1] == self.train.declaration.frame else low)
         for wheel, foot, end in zip(mesh.wheels, (low, high), (high, low), strict=True) if circuit.by_teeth else ():
             self._name_wheel(wheel, x, (foot, (foot + end) / 2), PURPLE)
         if not circuit.by_teeth or not coupling.by_teeth:
@@ -577,7 +589,8 @@ class _Drawing:
 
 def _legend(train: GearTrain, held: bool) -> Iterator[Line2D | Patch]:
     yield Line2D([], [], color=BLACK, linewidth=LINK, label="links on their axes")
-    yield Line2D([], [], color=BLUE, linewidth=WHEEL, label="wheels")
+    if any(circuit.kind == "gear" for circuit in train.circuits):
+        yield Line2D([], [], color=BLUE, linewidth=WHEEL, label="wheels")
     if held:
         yield Patch(facecolor="white", edgecolor=GREY, hatch="//////", label="held by the frame")
     if any(circuit.carrier != train.declaration.frame for circuit in train.circuits):

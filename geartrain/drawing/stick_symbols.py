@@ -71,7 +71,7 @@ def element_width(name: str) -> float:
 
 
 def draw_element(
-    axes: Axes, name: str, clutch: Clutch, closed: bool, place: tuple[float, float], ends: Sequence[float]
+    axes: Axes, name: str, clutch: Clutch, closed: bool, place: tuple[float, float], ends: Sequence[float | None]
 ) -> None:
     """Draw the plates of a brake or clutch, which are close together if it is closed.
 
@@ -79,21 +79,21 @@ def draw_element(
     other plate.
 
     place   middle of the plates
-    ends    height of the shaft of each link; the second plate of a brake is on the frame
+    ends    height of the shafts of both links, or None for the frame
     """
     x, middle = place
     color = PURPLE if closed else GREY
     gap = (_CLOSED if closed else _OPEN) + (_ROLLER if clutch.one_way else 0.0)
-    for side, foot in zip((-1, 1), (*ends, None), strict=False):
+    for side, foot in zip((-1, 1), ends, strict=True):
         plate = x + side * gap
         draw_line(axes, [plate] * 2, [middle - _HALF, middle + _HALF], color, PLATE, zorder=4, gid=f"element {name}")
         if foot is None:
-            draw_line(axes, [plate, plate + 0.05], [middle, middle], color, STEM, zorder=3)
-            draw_ground(axes, plate + 0.095, middle, upright=True)
+            draw_line(axes, [plate, plate + 0.05 * side], [middle, middle], color, STEM, zorder=3)
+            draw_ground(axes, plate + 0.095 * side, middle, upright=True)
         else:
             draw_line(axes, [plate] * 2, [foot, middle], color, STEM, zorder=3, gid=f"stem {name}")
     if clutch.one_way is not None:
-        way = 1 if (clutch.one_way == "forward") == (len(ends) > 1) else -1
+        way = 1 if clutch.one_way == "forward" else -1
         reach, high = (gap - 0.015) * way, 0.07
         corners = [(x - reach, middle - high), (x - reach, middle + high), (x + reach, middle)]
         axes.add_artist(Polygon(corners, facecolor=color, zorder=4, gid=f"one-way {name}"))

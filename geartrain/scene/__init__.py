@@ -16,6 +16,7 @@ bodies          links and wheels with their teeth; flexible wheels of strain wav
 joints          gear pairs, and pins in slots
 movement        exact speeds and transmission errors, as tables and steps; evaluated by `pose`
 scene_run       a simulated motion as it is replayed on a page
+displays        figures, road wheels and the kind of drive
 dial_scale      scales of dials and their engraving; dials, pointers, dates and mean motions are in `dial_pointers`
 stroke_letters  letters as strokes, outlines of hands
 palette         colours of the themes
@@ -93,11 +94,11 @@ __all__ = [
     "ScenePart",
     "SceneRun",
     "SceneWave",
-    "TourStop",
     "SceneWheel",
     "SolidModel",
     "SolidPart",
     "ToothProfile",
+    "TourStop",
     "WheelPlace",
     "build_scene",
     "lay_out",

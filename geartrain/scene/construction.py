@@ -30,6 +30,7 @@ from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.coupling_shapes import find_shapes
 from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
+from geartrain.scene.displays import drive_kind, find_displays, fusee_radii, upwards
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
@@ -400,6 +401,7 @@ def make_scene(
     notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
     pointers = find_pointers(stage, dials)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
+    shapes, rods = find_shapes(stage)
     pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
@@ -411,6 +413,9 @@ def make_scene(
         front=stage.layout.front,
         driving_link=None if stage.driving_link is None else stage.body[stage.driving_link],
         crank=None if stage.crank is None else stage.body[stage.crank],
+        drive=drive_kind(stage),
+        fusee=fusee_radii(stage),
+        up=upwards(stage),
         step=fraction_text(stage.step),
         verdict=verdict,
         bodies=bodies,
@@ -419,7 +424,8 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
-        shapes=find_shapes(stage),
+        shapes=(*shapes, *find_displays(stage)),
+        hangers=rods,
         dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
         pointers=pointers,
         movement=moved.movement,

@@ -184,6 +184,10 @@ class Pointer(Shown):
     """Length of the hand relative to the radius of the scale; 0 for a pointer without a dial."""
     outline: Sequence[tuple[float, float]] = ()
     """Outline relative to the hand's length: distances from the axis and half widths; empty without a dial."""
+    hand: str = "needle"
+    """Shape of the hand, as declared."""
+    ball: float = 0.0
+    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 without a sphere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,6 +217,12 @@ class Scene(Shown):
     """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
+    drive: Literal["hand", "motor", "spring", "weight"]
+    """Drive of the body of the crank: as declared, a motor for a speed in real time, otherwise a hand."""
+    fusee: Sequence[float]
+    """Radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
+    up: Vector
+    """Upward unit vector of the picture: y, or the direction towards an observer who looks from above."""
     step: str
     """Exact turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if no link is driven."""
     verdict: Mapping[str, Any]

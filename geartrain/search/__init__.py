@@ -12,7 +12,7 @@ orrery         many periods with shared wheels: branch and bound, beam search (`
 reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
 posterior      the posterior of uncertain counts by Bayes' theorem, exact or from a sample (`infer_counts`)
 join           the exact join used by `train` and `posterior`: bucket elimination on lists of products
-constraints    further conditions on tooth counts: assembly, planets, interference
+constraints    further conditions on tooth counts: assembly, planets, limits of wheels
 
 target_ratio, tooth_count_ranges   parsers of ratios and of ranges of tooth counts (`read_ratio`, `read_counts`)
 search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates

@@ -310,8 +310,8 @@ class Train(Declared):
 
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
-        """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. A name of several parts
-        has the first of these kinds.
+        """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. If several parts have
+        the same name, the first of these kinds.
         """
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)
@@ -602,6 +602,23 @@ class Train(Declared):
             speeds = [speed for group in (self.inputs, *groups) for speed in group.values()]
         named = [speed for speed in map(as_rotation, speeds) if speed.unit]
         return next((speed.unit or "" for speed in named if speed.value), (named[0].unit or "") if named else "")
+
+    def dial_outputs(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the names of outputs with a dial; if there are none, of outputs with a target, otherwise all names.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Names of outputs or links.
+
+        Returns
+        -------
+        tuple of str
+            Names in the given order.
+        """
+        known = [(name, self.outputs[name]) for name in names if name in self.outputs]
+        dials = tuple(name for name, output in known if output.dial)
+        return dials or tuple(name for name, output in known if output.targets) or tuple(names)
 
     @property
     def unit_speed(self) -> Fraction | None:

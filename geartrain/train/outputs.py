@@ -545,10 +545,11 @@ class Output(Declared):
         (), description="Periods or speeds with which the output is compared"
     )
     dial: Id | None = Field(None, description="Name of the dial on which the output is read")
-    hand: Literal["needle", "hour", "minute", "seconds"] = Field(
+    hand: Literal["needle", "hour", "minute", "seconds", "sphere", "bead", "ecliptic", "figure", "wheel"] = Field(
         "needle",
-        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or a thin hand "
-        "with a counterpoise (seconds)",
+        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), a thin hand with a "
+        "counterpoise (seconds), a sphere on an arm, a bead on a ring of its own (bead), or the eccentric ring of an "
+        "astrolabe (ecliptic); without a dial, a pointing figure on the link, or a road wheel (wheel)",
     )
     note: str | None = Field(None, description="Remark for readers")
 

@@ -74,7 +74,7 @@ def browser(program: str) -> Iterator[Browser]:
 
 @pytest.fixture
 def open_page(browser: Browser) -> Iterator[OpenPage]:
-    """Function that opens a file after running a script, and stops it at 0 turns unless its `opening` is tested; further
+    """Function that opens a file after running a script, and stops it at 0 turns unless `opening` is True; further
     arguments are those of the window.
     """
     contexts = []

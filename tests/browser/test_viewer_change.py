@@ -46,7 +46,7 @@ outputs: {arm: {}}
 """
 
 SPEEDS = """(scene) => Object.fromEntries(geartrain.scenes[scene].bodies.map(({ id, shown }) => [id, shown]))"""
-ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs [data-output]')].map((row) =>
+ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tr[data-output]')].map((row) =>
   [row.dataset.output, (row.querySelector('.copy') ?? row.querySelector('.quiet')).textContent]))"""
 
 

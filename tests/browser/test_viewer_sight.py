@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 import pytest
-from viewing import Opening, picture, tab, unfold
+from viewing import Opening, picture, unfold
 
 if TYPE_CHECKING:
     from conftest import Shown

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -164,15 +165,26 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
     assert shown.run(SMALL) == []
 
 
+def test_a_printed_page_is_complete_and_has_the_picture(show: Opening) -> None:
+    """Folded parts are opened before the pages are counted; a drawing context is not printed."""
+    shown = show(ANTIKYTHERA)
+    printed = shown.page.pdf(format="A4")
+    shown.page.emulate_media(media="print")
+    wait(shown, "document.querySelectorAll('.more:not([open])').length === 0")
+    pages = [len(re.findall(rb"/Type /Page\b", each)) for each in (printed, shown.page.pdf(format="A4"))]
+    assert pages[0] == pages[1] > 3
+    assert b"/Subtype /Image" in printed
+
+
 def test_on_paper_are_picture_readings_and_sources_and_nothing_to_press(show: Opening) -> None:
     shown = show(SIMPLE, viewport={"width": 718, "height": 1040})
     shown.run("geartrain.setTurns('1/4')")
     assert not shown.page.locator(".outputs").is_visible()
     shown.page.emulate_media(media="print")
     wait(shown, "document.querySelector('[data-angle=carrier]').textContent !== ''")
-    for seen in (".view canvas", ".outputs", ".sources"):
+    for seen in (".view canvas.copy", ".outputs", ".sources"):
         assert shown.page.locator(seen).first.is_visible(), seen
-    for pressed in (".tools", ".go", ".grip", "[role=tablist]", ".wheels"):
+    for pressed in (".tour", ".tools", ".go", ".grip", "[role=tablist]", ".wheels"):
         assert not shown.page.locator(pressed).first.is_visible(), pressed
     # a quarter turn of the sun, and 2/7 of it
     assert shown.page.locator("[data-angle=carrier]").inner_text() == f"{360 - 90 * 2 / 7:.2f}\u00b0"

@@ -106,7 +106,7 @@ def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_pat
     panel = shown.page.get_by_role("tabpanel", name="Readings")
     assert "declares no outputs; its links are listed" in panel.inner_text()
     assert panel.locator(".dial").count() == 0
-    rows = "[...document.querySelectorAll('.outputs [data-output]')]"
+    rows = "[...document.querySelectorAll('.outputs tr[data-output]')]"
     told = shown.run(f"{rows}.map((row) => [row.dataset.output, row.querySelector('.copy').textContent])")
     solved = train.solve()
     assert {link: text.replace("\u2212", "-") for link, text in told} == {

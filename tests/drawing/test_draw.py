@@ -304,7 +304,7 @@ def shafts_of(figure: Figure) -> dict[str, tuple[float, float, float]]:
     "name", ["zf-8hp70", "ford-10r80", "mercedes-9g-tronic", "ravigneaux-set", "torqueflite", "lathe-back-gear"]
 )
 def test_brakes_and_clutches_are_between_the_members_that_they_join(name: str) -> None:
-    """A stem leads from a plate to the shaft of each link; the other plate of a brake touches the hatching."""
+    """A stem leads from a plate to the shaft of each link; the left plate of a brake is next to the hatching."""
     figure, train = drawn(name, "stick"), load(name)
     shafts = shafts_of(figure)
     for element, clutch in train.declaration.clutches.items():
@@ -316,13 +316,14 @@ def test_brakes_and_clutches_are_between_the_members_that_they_join(name: str) -
             left, right, height = shafts[link]
             assert float(np.asarray(stem.get_ydata())[0]) == pytest.approx(height), (element, link)
             assert left < float(np.asarray(stem.get_xdata())[0]) < right, (element, link)
-        right = float(np.asarray(plates[1].get_xdata())[0])
-        middle = float(np.mean(np.asarray(plates[1].get_ydata())))
+        left = float(np.asarray(plates[0].get_xdata())[0])
+        middle = float(np.mean(np.asarray(plates[0].get_ydata())))
         touching = [
             patch
             for patch in figure.axes[0].patches
             if patch.get_gid() == "ground"
-            and hypot(patch.get_x() - right, patch.get_y() + patch.get_height() / 2 - middle) < 0.06  # type: ignore[attr-defined]
+            and abs(patch.get_x() + patch.get_width() - left) < 0.06  # type: ignore[attr-defined]
+            and abs(patch.get_y() + patch.get_height() / 2 - middle) < 0.01  # type: ignore[attr-defined]
         ]
         assert len(touching) == (len(clutch.links) == 1), element
 
@@ -347,6 +348,20 @@ def test_the_triangle_of_a_one_way_clutch_points_to_the_link_that_may_run_ahead(
         if line.get_gid() == f"stem {element}" and np.isclose(np.asarray(line.get_ydata(), dtype=float)[0], height)
     )
     assert abs(tip - stem) < abs(back - stem)
+
+
+@pytest.mark.parametrize(("locks", "side"), [("[carrier, frame]", 1), ("[frame, carrier]", -1)])
+def test_a_clutch_to_the_frame_has_its_hatching_on_the_side_of_the_frame(locks: str, side: int) -> None:
+    text = (TRAINS / "engineering" / "planetary-24-18-60.yaml").read_text(encoding="utf-8")
+    start = text.index("outputs:")
+    figure = picture(geartrain.load(f"{text[:start]}clutches: {{X: {{locks: {locks}}}}}\n"), "stick")
+    plates = [float(np.asarray(line.get_xdata())[0]) for line in figure.axes[0].lines if line.get_gid() == "element X"]
+    (hatched,) = (
+        patch.get_x() + patch.get_width() / 2  # type: ignore[attr-defined]
+        for patch in figure.axes[0].patches
+        if patch.get_gid() == "ground" and patch.get_height() > patch.get_width()  # type: ignore[attr-defined]
+    )
+    assert np.sign(hatched - np.mean(plates)) == side
 
 
 @pytest.mark.parametrize(

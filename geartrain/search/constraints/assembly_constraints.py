@@ -1,4 +1,4 @@
-"""Constraints on the tooth counts of a declared train from assembly and interference.
+"""Constraints on the tooth counts of a declared train: assembly, equal planets, limits of wheels.
 
 `find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
 solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
@@ -8,20 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, localcontext
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
-from math import pi
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
-from geartrain.kinematics.buildability.pitch_distances import tip_margin
 from geartrain.numerics.graphs import joined_groups
-from geartrain.search.constraints.constraint_options import ConstraintOptions, turns
+from geartrain.search.constraints.constraint_options import ConstraintOptions
 from geartrain.search.constraints.count_conditions import (
     Condition,
     CountConstraint,
@@ -29,17 +24,13 @@ from geartrain.search.constraints.count_conditions import (
     LinearSum,
     are_coprime,
     are_owned,
-    counts_of,
-    decimal,
     distance_of,
     equality,
     free_of,
     is_bounded,
     is_different,
     is_near_zero,
-    is_positive,
     plainest,
-    sine,
     whole,
 )
 from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
@@ -47,12 +38,7 @@ from geartrain.search.tooth_count_ranges import MOST_TEETH
 from geartrain.train.mechanism import OwnedWheels, Teeth
 
 if TYPE_CHECKING:
-    from decimal import Decimal
-
-    from geartrain.kinematics.buildability.equal_planets import CountRef
-    from geartrain.numerics.arrays import Bools, Floats
     from geartrain.numerics.quantity import Quantity
-    from geartrain.search.constraints.count_conditions import CandidateColumns
     from geartrain.search.tooth_count_ranges import Counts
     from geartrain.train import Train
 
@@ -106,7 +92,6 @@ class _ConstraintBuilder:
 
     def _limits(self) -> Iterator[CountConstraint]:
         requested = self.requested
-        rack = None if requested.undercut is None else minimum_teeth(turns(requested.undercut), requested.addendum)
         for name, (_, wheel) in self.fitting.train.wheels.items():
             # the count of a worm is its number of starts, which does not determine its size
             if name not in self.fitting.free or wheel.kind == "worm":
@@ -120,9 +105,6 @@ class _ConstraintBuilder:
                 plain = "" if requested.largest_radius.unit else " modules"
                 what = f"'{name}' has a radius of at most {requested.largest_radius}{plain}"
                 yield _bounds(what, name, most=self._most(name, requested.largest_radius))
-            if rack is not None and wheel.kind == "spur" and not wheel.internal:
-                what = f"'{name}' is not undercut: at least {rack} teeth at {requested.undercut}"
-                yield _bounds(what, name, minimum=rack)
 
     def _most(self, wheel: str, radius: Quantity) -> int:
         """Return the maximum tooth count z for which the pitch radius m z/2 does not exceed `radius`."""
@@ -201,10 +183,6 @@ class _ConstraintBuilder:
 
     def _pairs(self) -> Iterator[CountConstraint]:
         requested = self.requested
-        if requested.interference is not None:
-            pressure = turns(requested.interference)
-            for mesh in self.fitting.meshes:
-                yield from interference(mesh, pressure, requested.addendum, self._ring_addendum)
         if requested.hunting:
             for mesh in self.fitting.meshes:
                 if mesh.is_free:
@@ -212,10 +190,6 @@ class _ConstraintBuilder:
                     yield Condition(words, free_of(*mesh.parts), partial(are_coprime, *mesh.parts))
         if requested.different:
             yield from self._different()
-
-    @property
-    def _ring_addendum(self) -> Fraction:
-        return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
         """Yield the conditions that the count of a varied wheel differs from all fixed counts, then from the count of
@@ -295,7 +269,7 @@ class _ConstraintBuilder:
                 )
             )
         for one, number in numbered:
-            room = PlanetClearance(number, self.requested.addendum, self._ring_addendum, self.requested.clearance)
+            room = PlanetClearance(number, self.requested.clearance)
             yield from room.conditions(one, self.fitting)
 
 
@@ -334,117 +308,3 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
         )
     what = f"cannot require {number} equal copies of the planet set {one.title} on '{one.carrier}'"
     return Problem(what, why, fix)
-
-
-# -------------------------------------------------- involute teeth: undercut, and tips beyond the involute of the mate
-
-
-def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
-    """Return the minimum tooth count of a spur wheel without undercut by a rack: z >= 2 h / sin(alpha)^2, rounded up.
-
-    pressure   pressure angle alpha [turns], 0 to 1/4
-    addendum   addendum h of the rack [modules]
-
-    Examples with h = 1: 18 teeth at 20 degrees (17.1), 32 at 14.5. The tip line of the rack lies h below the pitch
-    line; the involute ends at the point where the line of action touches the base circle, r sin(alpha)^2 below it.
-    """
-    with localcontext(prec=50):
-        limit = decimal(2 * addendum) / sine(pressure) ** 2
-        # a value that equals an integer to 25 digits is that integer, and must not be rounded up
-        return int((limit - decimal(Fraction(1, 10**25))).to_integral_value(ROUND_CEILING))
-
-
-def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), which is >= 0 if the tips of wheel 2 do not
-    interfere with wheel 1. z1 and z2 are tooth counts, alpha is the pressure angle, h the addendum of wheel 2
-    [modules].
-
-    The tip circle of 2 must intersect the line of action before the point where this line touches the base circle of
-    1: r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares
-    of z2 cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1
-    it gives the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15
-    with 45).
-    """
-    return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
-
-
-def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 if the tips of the ring do not
-    interfere with wheel 1. z1 and z2 are the tooth counts of wheel and ring, alpha is the pressure angle.
-
-    h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
-    independently: the ring's tip circle must intersect the line of action beyond the point where this line touches
-    the base circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 -
-    z1)/2.
-    """
-    return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
-
-
-def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """Return the angular clearance [rad] between the tips of each planet and ring; see `tip_margin`.
-
-    Arrays of tooth counts are broadcast to one shape.
-    """
-    planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
-    # many candidates share the same few pairs of counts
-    pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
-    rooms = np.array([tip_margin(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
-    return np.asarray(rooms[which.ravel()].reshape(planets.shape))
-
-
-def is_on_involute(
-    first: CountRef, second: CountRef, pressure: Fraction, addendum: Fraction, columns: CandidateColumns
-) -> Bools:
-    """Return whether each tip of an external pair meets its mate only on the involute, so that no tip interferes.
-
-    The test is exact.
-    """
-    z1, z2 = counts_of(columns, first), counts_of(columns, second)
-    constants = _square(pressure), decimal(addendum)
-    one = is_positive(external_terms, [z1, z2], constants, False)
-    return np.asarray(one & is_positive(external_terms, [z2, z1], constants, False))
-
-
-def is_in_ring(
-    planet: CountRef,
-    ring: CountRef,
-    pressure: Fraction,
-    addendum: Fraction,
-    ring_addendum: Fraction,
-    columns: CandidateColumns,
-) -> Bools:
-    """Return whether a planet and a ring mesh without interference of their tips with flanks or with each other.
-
-    Tips that pass each other with a clearance of less than 1e-9 rad count as interfering.
-    """
-    z1, z2 = counts_of(columns, planet), counts_of(columns, ring)
-    # the planet is smaller, and the ring's tip circle has a positive radius
-    fits = np.asarray((z2 > z1) & (z2 > float(2 * ring_addendum)))
-    fits &= is_positive(ring_terms, [z1, z2], [_square(pressure), decimal(ring_addendum)], False)
-    angle = float(pressure) * 2 * pi
-    return np.asarray(fits & (tip_margins(z1, z2, angle, float(addendum), float(ring_addendum)) > 1e-9))
-
-
-def _square(pressure: Fraction) -> Decimal:
-    with localcontext(prec=70):
-        return sine(pressure) ** 2
-
-
-def interference(
-    mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
-) -> Iterator[Condition]:
-    """Yield the interference condition of a spur pair with a varied wheel; nothing for other pairs.
-
-    pressure   pressure angle [turns]
-    addendum, ring_addendum   addenda of external wheels and of rings [modules]
-    """
-    wheels = free_of(*mesh.parts)
-    if not wheels or not mesh.spur:
-        return
-    name = f"interference: '{mesh.wheels[0]}' and '{mesh.wheels[1]}' at {float(pressure * 360):g} deg"
-    if mesh.ring is None:
-        yield Condition(name, wheels, partial(is_on_involute, *mesh.parts, pressure, addendum))
-    else:
-        planet, ring = mesh.parts[1 - mesh.ring], mesh.parts[mesh.ring]
-        test = partial(is_in_ring, planet, ring, pressure, addendum, ring_addendum)
-        yield Condition(name, wheels, test)

@@ -7,16 +7,17 @@ const LISTED = 8; // maximum number of outputs in a sentence
 const [SLOWEST, FASTEST] = [0.001, 0.1]; // turns of the driving link per second
 const POINTER = 0.15; // turns of the fastest pointer per second
 
-const speedOf = ({ speed }) => Math.abs(Number(Fraction.parse(speed) ?? 0));
+/** Turns of a pointer for one turn of the driving link, clockwise as read. */
+const speedOf = ({ speed, sense }) => sense * Number(Fraction.parse(speed) ?? 0);
 
 /** Turns of the driving link per second at which the eye can follow the fastest pointer. */
 export function pace(scene) {
-  return Math.min(FASTEST, Math.max(SLOWEST, POINTER / Math.max(1, ...scene.pointers.map(speedOf))));
+  return Math.min(FASTEST, Math.max(SLOWEST, POINTER / Math.max(1, ...scene.pointers.map((each) => Math.abs(speedOf(each))))));
 }
 
 /** The smallest part of a turn between hands with these speeds, or between a hand and the zero mark, over that of hands at equal distances. */
 function apart(speeds, turns) {
-  const places = [0, 1, ...speeds.map((speed) => (speed * turns) % 1)].sort((one, other) => one - other);
+  const places = [0, 1, ...speeds.map((speed) => (((speed * turns) % 1) + 1) % 1)].sort((one, other) => one - other);
   return Math.min(...places.slice(1).map((place, n) => place - places[n])) * (speeds.length + 1);
 }
 

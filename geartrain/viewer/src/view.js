@@ -44,6 +44,7 @@ export class Stage {
     this.setting.matrixAutoUpdate = false;
     this.setting.add(this.world.root);
     this.camera = new PerspectiveCamera(FIELD, 1, 0.02 * this.world.size, 60 * this.world.size);
+    this.camera.up.set(...machine.scene.up);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.1 * this.world.size;
     this.controls.maxDistance = 30 * this.world.size;
@@ -199,9 +200,10 @@ export class Stage {
     else this.fit(this.aside(this.opening()));
   }
 
-  /** A viewing direction, given relative to the front. */
+  /** A viewing direction, given relative to the front; for an observer above, to the side on which the front is lowest. */
   towards([x, y, z]) {
-    const front = this.machine.scene.front || 1;
+    const { front = 1, up } = this.machine.scene;
+    if (up[2] && (x || y)) return vector([x * front, -z, y * front]).normalize();
     return vector([x * front, y, z * front]).normalize();
   }
 
@@ -251,10 +253,10 @@ export class Stage {
     return { towards, ...frame(this.world.outline(), towards, ...this.slopes) };
   }
 
-  /** Tangents of half the field of view, horizontally and vertically, reduced by a margin. */
+  /** Upward direction, and tangents of half the field of view, horizontally and vertically, reduced by a margin. */
   get slopes() {
     const high = Math.tan((FIELD * DEGREE) / 2) / MARGIN;
-    return [high * this.camera.aspect, high];
+    return [this.machine.scene.up, high * this.camera.aspect, high];
   }
 
   orbited() {

@@ -140,7 +140,7 @@ def wheel_sheet(work: SolidModel) -> str:
     table, wide = _table(header, rows, _MARGIN, _MARGIN)
     size = 2 * _MARGIN + wide, 2 * _MARGIN + _LINE * (len(rows) + 1)
     remark = "modules are transverse; the outside diameter of a ring is that of its rim"
-    return _page(work, "wheels", "without teeth that cannot be cut flat", remark, size, table)
+    return _page(work, "wheels", "those that can be cut flat", remark, size, table)
 
 
 def _marks(plate: FlatPlate, origin: tuple[float, float], page: tuple[float, float, float, float]) -> Iterator[str]:

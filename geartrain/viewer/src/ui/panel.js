@@ -22,7 +22,8 @@ export class Panel {
       "panels",
     );
     this.tabs.onShow = () => this.open(true);
-    matchMedia("print").addEventListener("change", ({ matches }) => matches && this.#unfold()); // print hidden panels too
+    addEventListener("beforeprint", () => this.#print(true)); // before the pages are counted
+    matchMedia("print").addEventListener("change", ({ matches }) => this.#print(matches));
     this.grip = el(
       "button",
       {
@@ -75,7 +76,10 @@ export class Panel {
     this.contacts.set(words);
   }
 
-  #unfold() {
+  /** Prepares the pictures and hidden panels for printing. */
+  #print(printing) {
+    for (const side of this.owner.sides) side.print(printing);
+    if (!printing) return;
     for (const each of this.node.querySelectorAll(".more")) each.open = true;
     this.set(true);
   }

@@ -2,6 +2,7 @@
 import { CountFormulas } from "../formulas.js";
 import { Fraction } from "../fraction.js";
 import { Machine } from "../motion.js";
+import { copyOf } from "../still.js";
 import { Callouts } from "./callouts.js";
 import { el } from "./element.js";
 import { decimal } from "./number.js";
@@ -44,6 +45,14 @@ export class Side {
     canvas.setAttribute("tabindex", "0");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${this.label}, animated picture; the wheels are listed under Wheels`);
+  }
+
+  /** Copies the picture while the page is printed, because browsers do not print drawing contexts. */
+  print(printing) {
+    this.copy?.remove();
+    this.copy = printing && this.stage?.renderer ? copyOf([this.stage]) : null;
+    this.copy?.classList.add("copy");
+    if (this.copy) this.place.append(this.copy);
   }
 
   close() {

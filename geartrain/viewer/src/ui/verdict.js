@@ -32,7 +32,7 @@ function elements({ scene }, onElement) {
             "aria-label": `${each.text}, ${each.closed ? "closed" : "open"}`,
             onclick: () => onElement(each),
           },
-          each.id,
+          each.one_way ? `${each.id} \u21bb` : each.id, // which way it holds is in its title
         ),
       ),
     ),

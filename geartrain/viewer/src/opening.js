@@ -3,6 +3,7 @@
 import { Fraction } from "./fraction.js";
 
 const [TRIED, PART] = [400, new Fraction(13n, 64n)]; // positions that are compared, in parts of a unit of the input, or of a turn if that is less
+const NEAR = 12; // the same for a train with a weight
 const LISTED = 8; // maximum number of outputs in a sentence
 const [SLOWEST, FASTEST] = [0.001, 0.1]; // turns of the driving link per second
 const POINTER = 0.15; // turns of the fastest pointer per second
@@ -33,7 +34,8 @@ export function momentOf(scene) {
   const size = Number(step);
   const score = (n) => hands.reduce((product, group) => product * apart(group, n * size), 1);
   let [best, most] = [0, 0];
-  for (let n = 1; n <= TRIED; n += 1) if (score(n) > most) [best, most] = [n, score(n)];
+  const last = scene.hangers.length ? NEAR : TRIED; // a weight is still near its barrel
+  for (let n = 1; n <= last; n += 1) if (score(n) > most) [best, most] = [n, score(n)];
   return step.times(best);
 }
 

@@ -17,17 +17,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.judged_outputs import SpeedValue, goal_of
 from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
+from geartrain.numerics.quantity import millimetres
+from geartrain.numerics.vectors import Vector, beside, cross, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
-from geartrain.scene.layout import WheelPlace
+from geartrain.scene.layout import AxisPlace, WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke
 from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch
 from geartrain.train.outputs import looks_away
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.willis_system import WillisSystem
     from geartrain.train import Output
+    from geartrain.train.outputs import Dial
 
 
 # ---------------------------------------------------------------------------------------------------- output dependence
@@ -145,6 +147,7 @@ _NESTED = 0.74  # radius divided by that of the dial around it
 _OUT, _BALL = 0.5, 0.07  # distance of a ball from the axis, and its radius, divided by the radius of its dial
 _LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes divided by the radius of the dial
 _PARTS = 4000  # integer units of an engraving in a radius
+_SAME = 1e-6  # mm
 _MINIMUM = 0.3  # minimum width of a side for the size of its dials, divided by the train's width
 _GAP = 0.04  # gap between wheels and dials, and between dials, divided by the train's width
 
@@ -168,6 +171,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
+            placed=_is_placed(dial, stage.layout.axes.get(key[2]), cross(zero, normal), zero),
             # an upper bound, which `_fitted` reduces
             radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
@@ -176,7 +180,18 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             engraving=_engraving(scale) if dial.look == "scale" else (),
         )
     scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
+    for key, face in scales.items():
+        if (given := declared.dials[key[0]].diameter) is not None:
+            scales[key] = replace(face, radius=float(millimetres(given)) / 2)
     return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
+
+
+def _is_placed(dial: Dial, axis: AxisPlace | None, right: Vector, up: Vector) -> bool:
+    """Return True if the axis of a dial's pointers is at the declared centre of the dial."""
+    if dial.centre is None or axis is None:
+        return False
+    x, y = (float(millimetres(each)) for each in dial.centre)
+    return hypot(dot(axis.point, right) - x, dot(axis.point, up) - y) < _SAME
 
 
 @lru_cache(maxsize=64)

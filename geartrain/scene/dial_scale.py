@@ -14,16 +14,12 @@ from math import cos, floor, pi, sin
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.scene.stroke_letters import Stroke, curved_text, text_length
+from geartrain.train.outputs import INNER, RING
 
 if TYPE_CHECKING:
     from geartrain.train.outputs import Dial, Graduation
 
 Point = tuple[float, float]
-
-INNER = 0.55
-"""Radius of the inner end of a spiral divided by the radius of its outer end."""
-RING = 0.17
-"""Width of a scale around another scale, relative to the radius of the dial."""
 
 _CELL = "cell"
 _NUMERALS, _HOURS = 12, 24  # maximum count of numerals: default, declared
@@ -93,6 +89,10 @@ class DialScale:
     """Second scale, which surrounds this scale; None if there is none."""
     radial: bool = False
     """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
+    cells: tuple[str, ...] = ()
+    """Name of every division; empty if divisions have no own names."""
+    inscriptions: tuple[tuple[str, str], ...] = ()
+    """Names that are engraved as another text, each with this text."""
     counted: int = 0
     """Number of divisions after which declared numerals restart; 0 if no numerals are declared and cells are counted
     from 1.
@@ -134,7 +134,9 @@ class DialScale:
             parts.append(f"turn {read.turn}")
         if read.name:
             parts.append(read.name)
-        if read.name and len(self.names) < self.divisions:
+        if self.cells:
+            parts.append(self.cells[read.cell - 1])
+        elif read.name and len(self.names) < self.divisions:
             parts.append(f"{self.cell} {read.within}")
         elif not read.name and self.divisions > 1:
             parts.append(f"{self.cell} {self.number(read.cell)}")
@@ -165,6 +167,8 @@ def _scale(
         tuple(sorted(graduation.glyphs.items())),
         around,
         graduation.numerals is not None and graduation.numerals.style == "roman",
+        graduation.cells,
+        tuple(graduation.inscriptions.items()),
         0 if graduation.numerals is None else graduation.numerals.to or graduation.divisions,
     )
 

@@ -53,6 +53,7 @@ class Card {
         {},
         el("strong", {}, name),
         scale && el("span", { class: "quiet" }, ` ${scale}`),
+        dial && dial.look === "scale" && !dial.placed && el("span", { class: "quiet" }, `${scale && ","} layout computed`),
         dial?.note && el("span", { class: "quiet said" }, dial.note),
         el("ul", { class: "hands" }, rows),
       ),

@@ -27,11 +27,11 @@ from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, beside, cross, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
+from geartrain.scene.dial_scale import DialScale, engrave, scale_of
 from geartrain.scene.layout import AxisPlace, WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke
 from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch
-from geartrain.train.outputs import looks_away
+from geartrain.train.outputs import RING, looks_away
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit

@@ -383,8 +383,10 @@ def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
         turn = scale.turn_of(Fraction(2 * cell + 1, 2))
         middle = scale.radius(float(turn)) - pitch / 2
         above = [text for text in (_engraved(scale, starts.get(Fraction(cell), "")), glyphs.get(cell + 1)) if text]
-        found = ([*above, *_split(_engraved(scale, name), rows)] for rows in (1, 2, 3))
-        height, lines = max(((_stacked(scale, lines, middle, pitch), lines) for lines in found), key=lambda each: each[0])
+        ways = [[*above, *_split(_engraved(scale, name), rows)] for rows in (1, 2, 3)]
+        heights = [_stacked(scale, lines, middle, pitch) for lines in ways]
+        height = max(heights)
+        lines = ways[heights.index(height)]
         # the first line is the outermost where letters are upright, else the innermost
         if cos(2 * pi * float(scale.way * turn)) < -0.01:
             lines = lines[::-1]

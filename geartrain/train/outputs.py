@@ -275,8 +275,8 @@ class Graduation(Declared):
         known = {*self.cell_names, *(each.name for each in self.names)}
         for name in self.inscriptions:
             if name not in known:
-                fix = suggest(name, sorted(known), otherwise="write one of the names of the dial")
-                raise PydanticCustomError("dial", "the dial has no name '{name}'", {"name": name, "fix": fix})
+                near = suggest(name, sorted(known), otherwise="write one of the names of the dial")
+                raise PydanticCustomError("dial", "the dial has no name '{name}'", {"name": name, "fix": near})
         return self
 
     @property
@@ -322,7 +322,8 @@ INNER = 0.55
 """Radius of the inner end of a spiral divided by the radius of its outer end."""
 RING = 0.17
 """Width of a scale around another scale, relative to the radius of the dial."""
-_DEPTH = 0.26  # of the engraving of a circle, relative to the radius of the dial
+DEPTH = 0.26
+"""Depth of the engraving of a circle, relative to the radius of the dial."""
 
 Place = tuple[MeasuredLength, MeasuredLength]
 """Point of a face as seen by its reader: to the right and upwards from the origin of the axis positions."""
@@ -395,8 +396,7 @@ class Dial(Graduation):
         outer = 1.0 if self.around is None else 1.0 - RING
         if self.turns > 1:
             return outer * (INNER - (1 - INNER) / self.turns)
-        return outer - _DEPTH
-
+        return outer - DEPTH
 
     def reach(self, right: float, up: float) -> float:
         """Return the extent of its engraving in a direction, divided by the radius of the dial, which a spiral reaches

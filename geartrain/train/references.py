@@ -501,7 +501,8 @@ def _dials(train: Train) -> Iterator[Problem]:
         over = min(beside - apart, apart - inside)
         if over > 0:
             what = f"dials '{name}' and '{other}' overlap by {over:.3g} mm"
-            why = f"their centres are {apart:.4g} mm apart, and their diameters {2 * one[2]:.4g} and {2 * two[2]:.4g} mm"
+            sizes = f"{2 * one[2]:.4g} and {2 * two[2]:.4g} mm"
+            why = f"their centres are {apart:.4g} mm apart, and their diameters are {sizes}"
             fix = f"move `centre`, or reduce a `diameter` by {2 * over:.3g} mm"
             yield Problem(what, why, fix, train.place("dials", other))
 

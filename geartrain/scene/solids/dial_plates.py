@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, product
-from math import cos, dist, inf, pi, sin
+from math import cos, dist, hypot, inf, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,7 +22,9 @@ from geartrain.scene.parts.pillar_places import clear_of, far_apart, pillar_plac
 from geartrain.scene.parts.stack_discs import Point, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing, around
+from geartrain.scene.stroke_letters import text_length
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.train.outputs import DEPTH
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -64,10 +66,15 @@ class DialCircle:
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials as letters to be engraved below the hole, relative to the centre of the disc."""
+        """Yield the names of dials that fit, as letters to be engraved below the hole, relative to the centre of the
+        disc.
+        """
         height = max(_LETTER * self.radius, _SMALLEST)
+        inside = min(self.radii.values()) * (1 - DEPTH)
         for depth, name in enumerate(self.scales):
-            yield EngravedText(name, (0.0, -(self.hole / 2 + (1.2 + 1.4 * depth) * height)), height)
+            low = self.hole / 2 + (1.2 + 1.4 * depth) * height
+            if hypot(text_length(name) * height / 2, low + height / 2) < inside:
+                yield EngravedText(name, (0.0, -low), height)
 
 
 @dataclass(frozen=True, slots=True)

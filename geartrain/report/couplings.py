@@ -83,6 +83,9 @@ def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:
 
 def varying_couplings(train: GearTrain) -> Iterator[VaryingCoupling]:
     """Yield the couplings of a train with a variable ratio, without pins in slots."""
+    # the mechanics of a train import numpy
+    if not train.declaration.couplings:
+        return
     pins = {pin.coupling.name for pin in train.mechanics.pins}
     for each, law in ((joint.coupling, joint.transmission) for joint in train.mechanics.couplings):
         if each.name not in pins:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.kinematics.formulas.speed_formulas import OutputFormula, speed_formulas
 from geartrain.numerics.results import Result
+from geartrain.report.couplings import VaryingCoupling, varying_couplings, varying_section
 from geartrain.report.document import Document, Section, Table, exact, titled
 
 if TYPE_CHECKING:
@@ -52,6 +53,8 @@ class FormulaReport(Result):
     """Formulas of the outputs in each requested state."""
     sensitivities: tuple[RatioElasticity, ...] = ()
     """Elasticities of each ratio with respect to each tooth count; empty unless requested."""
+    couplings: tuple[VaryingCoupling, ...] = ()
+    """Couplings with a variable ratio, whose mean ratios the formulas contain."""
 
 
 def collect_formulas(
@@ -89,7 +92,8 @@ def collect_formulas(
         for share in each.shares
         for wheel in share.ratio.formula.wheels
     )
-    return FormulaReport(train.name, train.declaration.title, formulas, tuple(found) if sensitivities else ())
+    elasticities, varying = tuple(found) if sensitivities else (), tuple(varying_couplings(train))
+    return FormulaReport(train.name, train.declaration.title, formulas, elasticities, varying)
 
 
 def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
@@ -124,6 +128,7 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
     """
     states = dict.fromkeys(each.state for each in found.formulas)
     sections = [section for state in states for section in _state(found, state, latex, inverse)]
+    sections += [varying_section(found.couplings)] if found.couplings else []
     return Document(f"Formulas of {found.name}", (), tuple(sections))
 
 

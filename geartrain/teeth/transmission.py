@@ -370,7 +370,7 @@ class TransmissionFunction(Shown, ABC):
 
         While the speed ratio falls, a driven inertia J tends to run ahead of the driver. The teeth stay in contact at a
         driver speed w if the load torque is at least J w^2 times the returned value. None is returned if the value is
-        not known.
+        not known or infinite.
         """
         return None
 

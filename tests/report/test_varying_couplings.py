@@ -9,6 +9,7 @@ import pytest
 from geartrain import load
 from geartrain.errors import GearTrainError
 from geartrain.report import collect_report
+from geartrain.report.formula_report import collect_formulas, describe_formulas
 
 
 def test_the_report_prints_swing_range_and_closed_form() -> None:
@@ -21,6 +22,16 @@ def test_the_report_prints_swing_range_and_closed_form() -> None:
     assert (str(ellipses.ratio), str(lobes.ratio)) == ("-1", "-1/2")
     assert degrees(ellipses.swing) == pytest.approx(69.830412495, abs=1e-9)
     assert ellipses.to_dict()["formula"] == "tan(q / 2) = 1.85714 tan(S / 2)"
+
+
+def test_formulas_contain_the_transmission_functions_of_couplings() -> None:
+    found = collect_formulas(load("universal-joint-line"), [None])
+    assert "F1: tan q = tan S / cos(22.6199 deg)." in str(describe_formulas(found))
+    # cos(22.6199 deg) = 12/13 limits the speed of a joint
+    assert len(found.couplings) == 4
+    for each in found.couplings:
+        assert each.speed_ratio == pytest.approx((12 / 13, 13 / 12), rel=1e-12)
+    assert not collect_formulas(load("planetary-24-18-60"), [None]).couplings
 
 
 def test_solve_says_that_a_coupling_swings_about_its_mean() -> None:

@@ -76,6 +76,14 @@ def test_u3_points_over_a_pitch(interpolation: str, errors: str, range_: float) 
     assert degrees(high - low) == pytest.approx(range_, abs=5e-13)
 
 
+def test_an_abrupt_fall_of_the_speed_has_no_steepest_slope() -> None:
+    """Straight lines between the points have corners, where the teeth separate at every speed."""
+    assert eight("linear").steepest_fall() is None
+    smooth = eight("cubic")
+    S = np.linspace(0, smooth.period, 100_001)
+    assert smooth.steepest_fall() == pytest.approx(-np.gradient(smooth.speed(S), S).min(), rel=1e-3)
+
+
 def test_u3_slopes_of_the_spline_have_their_extremes_between_the_points() -> None:
     low, high = eight("cubic").speed_range()
     a_pitch = 2 * pi / 20

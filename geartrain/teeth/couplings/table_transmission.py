@@ -151,10 +151,10 @@ class DeviationTransmission(TransmissionFunction):
         return tuple(SpeedLeap(before, after) for before, after in pairs if after > before)
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum of -d(speed ratio)/dS between jumps [1/rad]; None for the inverse function, or if the
-        driver turns backwards.
+        """Return the maximum of -d(speed ratio)/dS [1/rad]; None for the inverse function, if the driver turns
+        backwards, or if the speed ratio decreases abruptly.
         """
-        if self.inverse or self.direction < 0:
+        if self.inverse or self.direction < 0 or self.at_once or (self.way * self._jumps(1) < 0).any():
             return None
         low, high = self.deviation.extremes(2)
         return max(0.0, -low if self.way > 0 else high)
@@ -166,7 +166,3 @@ class TableTransmission(DeviationTransmission, LosslessTransmission):
     def mirrored(self) -> TableTransmission:
         """Return the function for a driver whose forward sense is reversed."""
         return TableTransmission(self.ratio, self.deviation, self.phase, -self.way)
-
-    def steepest_fall(self) -> float | None:
-        """Return the maximum rate at which the speed ratio decreases [1/rad]; None if it decreases abruptly."""
-        return None if self.at_once or (self.way * self._jumps(1) < 0).any() else super().steepest_fall()

@@ -401,6 +401,13 @@ class Dial(Graduation):
     def reach(self, right: float, up: float) -> float:
         """Return the extent of its engraving in a direction, divided by the radius of the dial, which a spiral reaches
         only at its outer end.
+
+        Parameters
+        ----------
+        right : float
+            Component of the direction to the right of the reader; its length is arbitrary.
+        up : float
+            Component of the direction upwards.
         """
         if self.turns == 1 or self.around is not None:
             return 1.0

@@ -88,6 +88,7 @@ def test_the_plates_are_upright_rectangles_of_the_size_of_the_case() -> None:
     ("changed", "said"),
     [
         ("axes: {N: {position: [0 mm, 60 mm, 0 mm]}}", "dial 'metonic' is drawn 3 mm from its declared centre"),
+        ("outputs: {exeligmos: {dial: saros}}", "dial 'saros' is drawn"),
         ("dials: {draconic: {centre: [9 mm, 0 mm]}}", "dial 'draconic' is drawn"),
         ("dials: {games: {centre: [22 mm, 63 mm]}}", "the pitch circles of 'nO' and 'o1' overlap by 2.39 mm"),
     ],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import hypot
@@ -193,8 +193,8 @@ class DeclaredGeometry:
     """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
     belts: tuple[Mapping[str, float], ...] = ()
     """Radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
-    centres: Mapping[str, tuple[str, Vector]] = field(default_factory=dict)
-    """Dials with a declared centre: axis of the pointers, and the centre at height 0 [mm]."""
+    centres: tuple[tuple[str, str, Vector], ...] = ()
+    """Dials with a declared centre: name, axis of the pointers, and the centre at height 0 [mm]."""
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -226,11 +226,11 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
     # a positive rotation about z is clockwise only for a viewer on the side of -z
     front = -1 if declared.view.positive == "clockwise" else 1
     lines = {line.label: line for line in _lines(declared, tree)}
-    centres = dict(_dial_centres(declared, tree, front))
-    for axis_label, centre in centres.values():
-        line = lines[axis_label]
+    centres = tuple(dict.fromkeys(_dial_centres(declared, tree, front)))
+    for label, centre in {dial: (label, centre) for dial, label, centre in reversed(centres)}.values():
+        line = lines[label]
         if line.given is None and len(line.bearers) == 1 and 1 - abs(line.direction[2]) < _ACROSS:
-            lines[axis_label] = replace(line, given=centre)
+            lines[label] = replace(line, given=centre)
     axis: dict[str, str] = {}
     contacts, ties, strays = [], [], []
     pins = {coupling.name: coupling for coupling in declared.pin_couplings}
@@ -333,7 +333,7 @@ def _stretches(train: GearTrain) -> dict[str, Fraction]:
     return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}
 
 
-def _dial_centres(declared: Train, tree: Tree, front: int) -> Iterator[tuple[str, tuple[str, Vector]]]:
+def _dial_centres(declared: Train, tree: Tree, front: int) -> Iterator[tuple[str, str, Vector]]:
     """Yield dials of the frame with a declared centre: name, axis of the pointers, and centre at height 0 [mm]."""
     for case in declared.cases:
         for name, output in case.outputs.items():
@@ -344,7 +344,7 @@ def _dial_centres(declared: Train, tree: Tree, front: int) -> Iterator[tuple[str
             x, y = (float(millimetres(each)) for each in dial.centre)
             # the right of a reader who looks along +z is -x
             side = -front if looks_away(dial.face, declared.view.from_) else front
-            yield output.dial or "", (axis, (side * x, y, 0.0))
+            yield output.dial or "", axis, (side * x, y, 0.0)
 
 
 def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front: int) -> dict[str, DialEnds]:

@@ -121,7 +121,7 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
 def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
     """Yield notices on dials whose pointers turn about another point than the declared centre."""
     declared = found.geometry.declared
-    for name, (axis, centre) in declared.centres.items():
+    for name, axis, centre in declared.centres:
         off = size(across(minus(found.points[axis], centre), declared.lines[axis].direction))
         if off > _NONE:
             yield Problem(

@@ -78,10 +78,10 @@ def teeth() -> None:
 
 
 def pointers() -> None:
-    """The pointers of the reconstruction of 2021 over a year, and Mars over its whole period."""
+    """The anomalies of pointers of the reconstruction of 2021, and Mars over its whole period."""
     train = geartrain.load("freeth-2021")
     planets = ("mercury", "venus", "mars", "jupiter", "saturn")
-    for name, outputs, turns in (("pointers-year", ("moon", *planets), 1.0), ("mars-period", ("mars",), 284.0)):
+    for name, outputs, turns in (("pointers", ("moon", *planets), 79.0), ("mars-period", ("mars",), 284.0)):
         figure = motion_figure(MotionRun(train.motion(outputs=outputs), turns, 100_001))
         (IMAGES / f"{name}.svg").write_bytes(render(figure, ".svg"))
         print(f"wrote docs/images/{name}.svg")

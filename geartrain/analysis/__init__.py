@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.analysis.accuracy import MethodAccuracy as MethodAccuracy
@@ -25,25 +25,12 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import load as load
     from geartrain.analysis.train_graph import build_train_graph as build_train_graph
 
-__all__ = [
-    "GearTrain",
-    "MethodAccuracy",
-    "TrainAccuracy",
-    "build_train_graph",
-    "find_accuracy",
-    "find_gears",
-    "load",
-]
-
-__getattr__ = lazy_names(
+__getattr__, __all__ = public_names(
     __name__,
     {
-        "GearTrain": "gear_train",
-        "MethodAccuracy": "accuracy",
-        "TrainAccuracy": "accuracy",
-        "build_train_graph": "train_graph",
-        "find_accuracy": "accuracy",
-        "find_gears": "gear_series",
-        "load": "gear_train",
+        "accuracy": "MethodAccuracy TrainAccuracy find_accuracy",
+        "gear_series": "find_gears",
+        "gear_train": "GearTrain load",
+        "train_graph": "build_train_graph",
     },
 )

@@ -1,8 +1,8 @@
-"""Error and run time of the methods on one train: speeds, transmission functions, motion, torques.
+"""Error and run time of the methods on one train: speeds, motion, torques.
 
-Each method is compared with the most accurate method of its stage: exact speeds, transmission functions evaluated
-directly, motion composed from them, torque over a revolution at many positions. The scripts in docs/scripts/studies/
-measure whole families of trains.
+Each method is compared with the most accurate method of its stage: exact speeds, motion composed from transmission
+functions, torque over a revolution at many positions. The scripts in docs/scripts/studies/ measure whole families of
+trains.
 """
 
 from __future__ import annotations
@@ -22,12 +22,10 @@ if TYPE_CHECKING:
     from geartrain.dynamics import Motion
     from geartrain.kinematics.answer import Answer
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.transmission import TransmissionFunction
 
-Stage = Literal["speeds", "transmission functions", "motion", "torques"]
+Stage = Literal["speeds", "motion", "torques"]
 
 _TURNS = 20.0  # revolutions of the input over which motion is computed
-_TOLERANCES = (1e-6, 1e-12)  # tolerances of tables [pitch]
 _SAMPLES = (20_000, 2_000, 200, 20)  # numbers of positions per revolution for torque; the first is the reference
 _PASSAGES = 6_000  # tooth engagements in a run, times the number of evaluated pairs
 _ENOUGH, _LONG = 0.1, 5.0  # [s] total time after which a task is not repeated; the second even after one run
@@ -52,12 +50,12 @@ class MethodAccuracy(Shown):
     """Run time of the method [s]."""
     error: float | None
     """Maximum error of the results relative to `reference`, in `unit`; None for the reference method itself."""
-    unit: Literal["relative", "pitches", "deg"]
+    unit: Literal["relative", "deg"]
     """Unit of `error`."""
     reference: str
     """Reference of the error: another method, the error estimate of the method itself, or the power balance."""
     prepared: float | None = None
-    """Time spent on preparations before the run, such as the computation of tables [s]; None without preparations."""
+    """Time spent on preparations before the run, such as the computation of teeth [s]; None without preparations."""
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -83,7 +81,7 @@ class TrainAccuracy(Tabular, TrainResult):
     state: str | None
     """Name of the declared state; None if the train has no states."""
     positions: int
-    """Number of angles at which each pair is evaluated, and of input positions at which motion is computed."""
+    """Number of input positions at which motion is computed."""
     methods: tuple[MethodAccuracy, ...]
     """Measured methods, ordered by stage."""
     neglected: dict[str, str]
@@ -100,8 +98,7 @@ class TrainAccuracy(Tabular, TrainResult):
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
-    """Measure the run time and the error of every method that computes speeds, transmission functions, motion or
-    torques.
+    """Measure the run time and the error of every method that computes speeds, motion or torques.
 
     Parameters
     ----------
@@ -110,7 +107,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     state : str, optional
         A declared state; None only if the train has no states.
     positions : int
-        Number of angles at which each pair is evaluated, and of input positions at which motion is computed.
+        Number of input positions at which motion is computed.
 
     Returns
     -------
@@ -126,7 +123,6 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     """
     stages: Mapping[Stage, Callable[[GearTrain, str | None, int], Iterator[MethodAccuracy]]] = {
         "speeds": _measure_speeds,
-        "transmission functions": _measure_functions,
         "motion": _measure_motion,
         "torques": _measure_torques,
     }
@@ -180,59 +176,17 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
     yield MethodAccuracy("speeds", "floats", seconds, float(max(off, default=0.0)), "relative", reference)
 
 
-def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield rows on transmission functions: direct evaluation, and interpolation in tables of two tolerances."""
-    functions: dict[str, TransmissionFunction] = {
-        mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid
-    }
-    functions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.couplings}
-    if not functions:
-        raise QuestionError(Problem("every pair with a tooth form keeps its exact ratio" if train.meshes else _NO_FORM))
-    import numpy as np
-
-    from geartrain.teeth.transmission_table import TabulatedTransmission
-
-    # equal steps could coincide with the nodes of the tables, where their error is 0; seeded, so that results repeat
-    random = np.random.default_rng(1)
-    S = {name: random.uniform(0, 10 * each.period, positions) for name, each in functions.items()}
-
-    def evaluate(each: Mapping[str, Any]) -> dict[str, Floats]:
-        return {name: function.error(S[name]) for name, function in each.items()}
-
-    def tabulate(tolerance: float) -> dict[str, TabulatedTransmission]:
-        tables = {name: TabulatedTransmission(each, tolerance) for name, each in functions.items()}
-        for table in tables.values():
-            _ = table.error_table
-        return tables
-
-    stage: Stage = "transmission functions"
-    seconds, direct = _best_of(partial(evaluate, functions))
-    yield MethodAccuracy(stage, f"direct, {len(functions)} functions", seconds, None, "pitches", _REFERENCE)
-    for tolerance in _TOLERANCES:
-        prepared, tables = _best_of(partial(tabulate, tolerance))
-        seconds, read = _best_of(partial(evaluate, tables))
-        off = {
-            name: float(np.nanmax(np.abs(read[name] - direct[name]))) / (abs(float(each.ratio) or 1.0) * each.period)
-            for name, each in functions.items()
-        }
-        worst = max(off, key=off.__getitem__)
-        method, reference = f"tabulated, {tolerance:.0e}", f"direct, pair {worst}"
-        yield MethodAccuracy(stage, method, seconds, off[worst], "pitches", reference, prepared)
-
-
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield rows on motion: composition (with numpy, compiled, from tables) and first-order superposition."""
+    """Yield rows on motion: composition and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
 
-    from geartrain.dynamics.motion.compiled_composition import compiled_composition
     from geartrain.dynamics.motion.superposition import Superposition
-    from geartrain.numerics.kernels import usable
 
-    def compose(tolerance: float | None = None) -> Motion:
-        motion = train.motion(state, tolerance=tolerance)
-        motion._unset.at(np.zeros(2))  # functions and tables are built at the first use
+    def compose() -> Motion:
+        motion = train.motion(state)
+        motion._unset.at(np.zeros(2))  # transmission functions are built at the first use
         return motion
 
     prepared, motion = _best_of(compose)
@@ -250,12 +204,6 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
         reference = f"composed, output {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
         return MethodAccuracy("motion", method, seconds, float(off[at]), "deg", reference, prepared)
 
-    if usable() and (kernel := compiled_composition(motion._unset)) is not None:
-        kernel.at(turns[:1])  # compiled, or loaded from disk
-        prepared, _ = _best_of(partial(compiled_composition, motion._unset))
-        yield row("composed, compiled", lambda: kernel.at(turns).error, prepared)
-    prepared, tabulated = _best_of(partial(compose, _TOLERANCES[-1]))
-    yield row("composed, tabulated functions", lambda: tabulated._unset.at(turns).error, prepared)
     prepared, superposed = _best_of(partial(Superposition, motion._forward))
     yield row("superposed with lag", partial(superposed.at, turns, lagged=True), prepared)
     yield row("superposed", partial(superposed.at, turns, lagged=False), prepared)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, final, overload
 
-from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
+from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError, check_choice
 from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.results import imported_function
@@ -168,8 +168,6 @@ class GearTrain:
         state: str | None = None,
         outputs: Sequence[str] = (),
         without: Sequence[str] = (),
-        tolerance: float | None = None,
-        fast: bool | None = None,
     ) -> Motion:
         """Compute the motion of outputs or links with the transmission errors of teeth and pins, by composition of
         transmission functions.
@@ -182,13 +180,6 @@ class GearTrain:
             Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
             Pairs to ignore in loops that the transmission errors of the teeth would overconstrain.
-        tolerance : float, optional
-            Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
-            evaluation.
-        fast : bool, optional
-            True to use compiled kernels, which agree to 1e-12 rad and are about ten times as fast. By default the
-            kernels are used if numba is installed and there are enough positions to justify loading it. Pairs that
-            depend on each other never use them.
 
         Returns
         -------
@@ -205,8 +196,9 @@ class GearTrain:
 
         problem = find_motion_problem(self.mechanics, state, without, steps=True)
         wanted = problem.without_steps(self.kinematics.seen_links(state, outputs), outputs)
-        motion = Motion(problem, wanted, tolerance, fast)
+        motion = Motion(problem, wanted)
         motion._declaration, motion._state, motion._without = self.declaration, state, tuple(without)
+        motion._shown = tuple(wanted) if outputs else self.declaration.dial_outputs(tuple(wanted))
         return motion
 
     def report(self) -> Any:
@@ -804,9 +796,16 @@ class GearTrain:
             return error.problems[0].what
 
     def _repr_html_(self) -> str:
-        declared = self.declaration
-        title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
-        return title + "".join(answer._repr_html_() for answer in self.answers())
+        page = imported_function("report.train_report", "describe_in_short")(self)
+        try:
+            text: str = imported_function("report.html_page", "to_fragment")([page])
+        except MissingExtraError:
+            text = f"<pre>{html.escape(str(page))}</pre>"
+        try:
+            picture: str = imported_function("drawing.train_pictures", "thumbnail")(self)
+        except GearTrainError:  # without matplotlib, or for a train that cannot be drawn
+            picture = ""
+        return text + picture
 
 
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:

@@ -148,15 +148,13 @@ def bench(
     state: StateName = None,
     samples: Annotated[
         int,
-        typer.Option(
-            "--samples", min=2, max=1_000_000, help="Number of driver angles per pair, and number of input positions."
-        ),
+        typer.Option("--samples", min=2, max=1_000_000, help="Number of input positions."),
     ] = 10_000,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Measure the accuracy and run time of each method on a train: speeds, transmission functions, motion, torques.
+    """Measure the accuracy and run time of each method on a train: speeds, motion, torques.
 
     Example: `geartrain inspect bench moon-triangular`.
     """

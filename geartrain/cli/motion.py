@@ -12,7 +12,6 @@ import typer
 from geartrain.cli.common import (
     INTERRUPTED,
     STANDARD,
-    Fast,
     File,
     Force,
     Json,
@@ -60,22 +59,17 @@ def run(
         int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of additional runs with random tooth phases.")
     ] = 0,
     seed: Seed = 1,
-    tolerance: Annotated[
-        float | None,
-        typer.Option(
-            "--tabulated",
-            help="Interpolate transmission functions in tables with this accuracy, in pitches, such as 1e-9.",
-        ),
-    ] = None,
     estimates: Annotated[
         bool, typer.Option("--estimates", help="Add first-order estimates of peak and rms values, and their errors.")
     ] = False,
     spectrum: Annotated[
         bool, typer.Option("--spectrum", help="Add the spectral lines of each output, with exact orders and sources.")
     ] = False,
-    fast: Fast = None,
     json: Json = False,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Plot errors and speeds to this file.")] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option("--plot", help="Plot the errors of pointers to this file, or the motion of one output (--of)."),
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
     theme: Theme = "light",
     out: Out = None,
@@ -101,7 +95,7 @@ def run(
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     # an output that is also a link is reported once
-    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance, fast)
+    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()))
     requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
         _write_table(requested, to.path, resume, force)
@@ -117,7 +111,7 @@ def run(
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            title = f"{train.name}: transmission errors and speeds of outputs"
+            title = f"{train.name}: motion over {requested.turns:g} turns of {motion._problem.driving_link}"
             draw(motion_figure(requested, bar.advance, title), picture)
 
 

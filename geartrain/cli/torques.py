@@ -156,7 +156,7 @@ def _friction_trials(
     drawn   number of trials, and random seed
     """
     wing("workshop.monte_carlo.trial_run").check_trials(drawn[0])
-    plan = wing("workshop").find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
+    plan = wing("workshop").FrictionPlan(train.declaration, over_turn.span, run[0], over_turn.state, run[1])
     with long_run("torques", plan.question(*drawn), out, options) as given:
         found = wing("workshop").try_frictions(plan, *drawn, given)
         close_journal(given.journal, cut=not found.complete)

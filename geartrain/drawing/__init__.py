@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.drawing.flat_files import outline_text as outline_text
@@ -46,31 +46,17 @@ if TYPE_CHECKING:
     from geartrain.drawing.transmission_curves import transmission_figure as transmission_figure
     from geartrain.drawing.transmission_curves import triangular_figure as triangular_figure
 
-__all__ = [
-    "motion_figure",
-    "outline_text",
-    "picture",
-    "power_figure",
-    "render",
-    "shapes_figure",
-    "sphere_figure",
-    "sweep_figure",
-    "teeth_figure",
-    "torque_cycle_figure",
-    "transmission_figure",
-    "triangular_figure",
-]
-
-_PLACES = {
-    "render": "style",
-    "outline_text": "flat_files",
-    **dict.fromkeys(("motion_figure", "torque_cycle_figure"), "output_error_plots"),
-    "sweep_figure": "parameter_sweep_plot",
-    "power_figure": "power_sankey",
-    "sphere_figure": "spherical_gears",
-    "teeth_figure": "tooth_contact",
-    "picture": "train_pictures",
-    **dict.fromkeys(("shapes_figure", "transmission_figure", "triangular_figure"), "transmission_curves"),
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "flat_files": "outline_text",
+        "output_error_plots": "motion_figure torque_cycle_figure",
+        "parameter_sweep_plot": "sweep_figure",
+        "power_sankey": "power_figure",
+        "spherical_gears": "sphere_figure",
+        "style": "render",
+        "tooth_contact": "teeth_figure",
+        "train_pictures": "picture",
+        "transmission_curves": "shapes_figure transmission_figure triangular_figure",
+    },
+)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import pi
+from math import cos, pi
 
 import numpy as np
 
@@ -36,6 +37,7 @@ _MOST = 60  # maximum number of faces on a page
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
 _OUTER = _FACE / 2 - 0.2  # inches: radius of a face
 _FINEST = 0.3  # points: minimum line width
+_MOON = 0.75  # inches: radius of the ball of a Moon's phase
 _DECIMALS = 9  # decimals of a turn to which an error is rounded, as its floats carry noise
 _PLAIN = len(HANDS["needle"].stations)  # outlines with more points than a needle are filled
 _SAMPLE, _DASHED = 0.45, 0.75  # inches: sample of a plain hand for the key, and of a dashed one
@@ -76,6 +78,8 @@ class DialPicture:
     pointers: tuple[int, ...]
     title: str = ""
     """Text above the face; empty if it is the name."""
+    ball: bool = False
+    """True for a half-black ball that shows the Moon's phase."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
@@ -110,8 +114,9 @@ def dials_figure(
     columns = min(len(faces), 4)
     rows = [faces[at : at + columns] for at in range(0, len(faces), columns)]
     tall = [_FACE + 0.35 + (_ROW * max(len(face.pointers) for face in row) if labels else 0.0) for row in rows]
+    usual = _usual_sense([scene.pointers[at] for face in faces for at in face.pointers])
     keys = [
-        _sample_length(face) + text_width(_reading_text(scene.pointers[at], readings[at], face))
+        _sample_length(face) + text_width(_reading_text(scene.pointers[at], readings[at], face, usual))
         for face in faces
         for at in face.pointers
     ]
@@ -126,8 +131,10 @@ def dials_figure(
             centre = (x, top - _FACE / 2 - 0.2)
             _draw_face(axes, face, readings, centre)
             if labels:
-                _draw_key(axes, face, scene, readings, centre)
+                _draw_key(axes, face, scene, readings, centre, usual)
         top -= high
+    if labels and usual:
+        axes.text(0.15, 0.08, f"Hands turn {usual} unless noted.", fontsize=FINE, color=GREY, gid="sense")
     return figure
 
 
@@ -148,7 +155,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         if dial is not None:
             on.setdefault(dial, []).append(at)
     faces = [
-        DialPicture(face.id, face.scale, tuple(pointers), face.title)
+        DialPicture(face.id, face.scale, tuple(pointers), face.title, face.look == "ball")
         for face, pointers in ((scene.dials[dial], pointers) for dial, pointers in on.items())
     ]
     if outputs or not faces:
@@ -174,22 +181,56 @@ def place(centre: tuple[float, float], radius: float, turn: float | Fraction) ->
 def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading], centre: tuple[float, float]) -> None:
     """Draw the scale, the hands and the name of a face."""
     outer = _OUTER
-    _draw_scale(axes, face, centre, outer)
-    for order, at in enumerate(face.pointers):
+    if face.ball:
+        _draw_moon(axes, readings[face.pointers[0]], centre)
+    else:
+        _draw_scale(axes, face, centre, outer)
+    for order, at in enumerate(() if face.ball else face.pointers):
         # hands of one dial differ in length, so that a hand does not hide another with the same reading
         share = 1.0 if face.scale.turns > 1 else (readings[at].reach or 0.97) - 0.07 * (order % 10)
         _draw_pointer(axes, face, readings[at], centre, outer * share, order)
-    axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
+    if not face.ball:
+        axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
     name = face.name or readings[face.pointers[0]].output
     title, y = face.title or name, centre[1] + _FACE / 2 + 0.02
     write(axes, centre[0], y, title, fontsize=SMALL, fontweight="bold", gid=f"dial {name}")
 
 
+def _draw_moon(axes: Axes, reading: PointerReading, centre: tuple[float, float]) -> None:
+    """Draw the ball of a Moon's phase with its axis upright, and its white half as seen from the front.
+
+    The black half faces the reader at 0. The terminator is half an ellipse, as the projection of a great circle.
+    """
+    axes.add_patch(Circle(centre, _MOON, facecolor=BLACK, edgecolor=BLACK, zorder=3, gid="moon"))
+    turn = 2 * pi * float(reading.at % 1)
+    side = 1 if turn <= pi else -1
+    angle = np.linspace(-pi / 2, pi / 2, 61)
+    limb = np.column_stack([side * np.cos(angle), np.sin(angle)])
+    terminator = limb[::-1] * (np.cos(turn), 1.0)
+    lit = np.array(centre) + _MOON * np.concatenate([limb, terminator])
+    axes.add_patch(Polygon(lit, facecolor="white", edgecolor="none", zorder=4, gid="lit"))
+
+
+def _usual_sense(pointers: Sequence[Pointer]) -> str:
+    """Return the sense in which most of the hands turn as read; empty if none turns."""
+    senses = Counter(_sense(pointer) for pointer in pointers if pointer.speed)
+    return senses.most_common(1)[0][0] if senses else ""
+
+
+def _sense(pointer: Pointer) -> str:
+    return pointer.text.removesuffix(" as read")
+
+
 def _draw_key(
-    axes: Axes, face: DialPicture, scene: Scene, readings: Sequence[PointerReading], centre: tuple[float, float]
+    axes: Axes,
+    face: DialPicture,
+    scene: Scene,
+    readings: Sequence[PointerReading],
+    centre: tuple[float, float],
+    usual: str,
 ) -> None:
     """Draw a key below a face: one line for each hand, with its style and its reading."""
-    reading_text = [_reading_text(scene.pointers[at], readings[at], face) for at in face.pointers]
+    reading_text = [_reading_text(scene.pointers[at], readings[at], face, usual) for at in face.pointers]
     sample = _sample_length(face)
     left = centre[0] - (max(map(text_width, reading_text)) + sample) / 2
     for order, words in enumerate(reading_text):
@@ -247,8 +288,10 @@ def _fill_hand(
     axes.add_patch(Polygon([*right, *left[::-1]], closed=True, facecolor=colour, edgecolor="none", zorder=6))
 
 
-def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
-    """Return the name of an output, the position of its pointer, its reading and its sense of rotation, as a string."""
+def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, usual: str) -> str:
+    """Return the name of an output, the position of its pointer, its reading, and its sense of rotation unless it is
+    the usual one, as a string.
+    """
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
     scale = face.scale
@@ -257,8 +300,9 @@ def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture) 
     error = reading.error * scale.way
     if abs(error) > 5e-7:  # turns, below the printed precision of six decimals
         text += f" {'+' if error > 0 else '-'} {abs(error) * 360:.3g}°"
-    if face.name and (shown := scale.reading_text(reading.at * scale.way)):  # a plain face has ticks but no cells
+    if face.ball:
+        text += f", {50 * (1 - cos(2 * pi * float(reading.at))):.0f} % lit"
+    elif face.name and (shown := scale.reading_text(reading.at * scale.way)):  # a plain face has ticks but no cells
         text += f", {shown}"
-    way = pointer.text.removesuffix(" as read")
-    sense = f", turning {way}" if way and pointer.speed else f", {way}" if way else ""
-    return f"{pointer.output}: {text}{sense}"
+    way = _sense(pointer)
+    return f"{pointer.output}: {text}{f', {way}' if way and (way != usual or not pointer.speed) else ''}"

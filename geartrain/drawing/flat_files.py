@@ -30,14 +30,15 @@ def to_svg(drawing: FlatDrawing) -> str:
     """Return a drawing as an SVG string, with one path to cut and a group for each layer that is not cut."""
     (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
     width, height = right - left, high - low
+    cut = " ".join(map(path_data, drawing.cut))
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.4f}mm" height="{height:.4f}mm" '
         f'viewBox="{left:.4f} {-high:.4f} {width:.4f} {height:.4f}">',
         f"<title>{escape(drawing.title)}</title>",
-        f'<path id="{CUT}" fill="none" stroke="#000000" stroke-width="0.1" d="{" ".join(map(_path, drawing.cut))}"/>',
+        f'<path id="{CUT}" fill="none" stroke="#000000" stroke-width="0.1" d="{cut}"/>',
     ]
     if drawing.pitch:
-        guides = (_circle(each) if each.is_circle else f'<path d="{_path(each)}"/>' for each in drawing.pitch)
+        guides = (_circle(each) if each.is_circle else f'<path d="{path_data(each)}"/>' for each in drawing.pitch)
         style = 'fill="none" stroke="#0060c0" stroke-width="0.05" stroke-dasharray="1 0.5"'
         lines.append(f'<g id="{PITCH}" {style}>{"".join(guides)}</g>')
     if drawing.marks or drawing.lines:
@@ -48,7 +49,8 @@ def to_svg(drawing: FlatDrawing) -> str:
     return printable("\n".join([*lines, "</svg>", ""]))
 
 
-def _path(contour: Contour) -> str:
+def path_data(contour: Contour) -> str:
+    """Return a contour as the data of an SVG path, with arcs, and y downwards."""
     points = [*contour.points, contour.points[0]]
     parts = [f"M {points[0][0]:.6f} {-points[0][1]:.6f}"]
     for start, end, bulge in zip(points, points[1:], contour.bulges.tolist(), strict=False):

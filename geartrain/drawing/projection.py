@@ -35,7 +35,6 @@ from geartrain.drawing.style import (
 from geartrain.numerics.polylines import simplified
 from geartrain.scene import Scene, SceneCoupling, ScenePart, SceneWave, SceneWheel
 from geartrain.scene.layout.wheel_reach import CROWN, height_on_cone, taper
-from geartrain.scene.palette import series_colour
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.fixed_teeth import bent_line
 
@@ -275,6 +274,7 @@ def broken_wheels(scene: Scene) -> set[str]:
 # ----------------------------------------------------------------------------------------------- oblique and side views
 
 
+_DARK, _LIGHT = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))  # colours of a face in shade and in light
 _SEAM = 0.3  # points: line width that closes the gap between two tiles of one surface
 _FACES_RIGHT = 0.99  # cosine between the right and a wheel's axis beyond which the side view shows its teeth
 _SECTIONS = 48  # intervals along a worm between whose sections its thread is drawn
@@ -338,7 +338,7 @@ def _draw_faces(
     axes: Axes, faces: Sequence[tuple[SceneWheel, _Face]], place: Place, red: set[str], order: float
 ) -> None:
     """Draw faces in order, the last face on top; wheels whose name is in `red` have red edges."""
-    tints = [_tint(wheel, face.light) for wheel, face in faces]
+    tints = [_DARK + (_LIGHT - _DARK) * face.light for _, face in faces]
     edges = [
         (RED if wheel.id in red else BLACK)
         if face.edge
@@ -356,12 +356,6 @@ def _draw_faces(
         ),
         autolim=False,
     )
-
-
-def _tint(wheel: SceneWheel, light: float) -> Floats:
-    """Return the colour (3,) of a wheel's body, lighter for faces that are turned to the reader."""
-    own = np.array(to_rgb(series_colour(wheel.body)))
-    return np.asarray(own + (1 - own) * (0.3 + 0.6 * light))
 
 
 def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
@@ -422,7 +416,8 @@ def _draw_arbors(axes: Axes, projected: ProjectedScene, place: Place) -> None:
         axes.plot(*line.T, color=ORANGE, linewidth=4.0, zorder=4, gid=f"arm {projected.scene.bodies[body].id}")
 
 
-_FACE = (np.array(to_rgb(SHADE)) + np.array(to_rgb(FILL))) / 2  # colour of a bar
+_FACE = (_DARK + _LIGHT) / 2  # colour of a bar
+_SLANTS = (-1, 0, 1)  # lines that show the hand of a helix on a bar, as in ISO 2203
 
 
 class SideScale:
@@ -437,10 +432,10 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw the train from its right side, as high as the plan, layers side by side, with the reader on the right."""
+    """Draw the train from its left side, as high as the plan, layers side by side, with the reader on the right."""
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
-    for wheel in sorted(projected.scene.wheels, key=lambda each: float(projected.seen(projected.centre(each))[0])):
+    for wheel in sorted(projected.scene.wheels, key=lambda each: -float(projected.seen(projected.centre(each))[0])):
         edge = RED if wheel.id in red else BLACK
         style: dict[str, Any] = {"facecolor": (*_FACE, 0.7), "edgecolor": edge, "linewidth": 0.6, "zorder": 3}
         if not projected.faces(wheel):
@@ -452,11 +447,30 @@ def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> 
         left, right = depth.at(z - wheel.thickness / 2), depth.at(z + wheel.thickness / 2)
         box = Rectangle((left, middle - half), right - left, 2 * half, gid=f"side {wheel.id}", **style)
         page.axes.add_artist(box)
+        if wheel.helix:
+            _draw_slants(page.axes, wheel, (left, right), (middle, half), edge)
         stacks.setdefault((round(x, 4), round(middle, 4)), []).extend((left, right))
     for (_, middle), ends in stacks.items():
         page.axes.plot([min(ends) - 0.06, max(ends) + 0.06], [middle, middle], color=BLACK, linewidth=1.4, zorder=4)
-    text = "from the right" if abs(depth.scale / page.scale - 1) < 0.01 else "from the right, layers spread"
+    text = "from the left" if abs(depth.scale / page.scale - 1) < 0.01 else "from the left, layers spread"
     page.axes.text(depth.left - 0.25, page.foot, text, fontsize=FINE, color=GREY)
+
+
+def _draw_slants(
+    axes: Axes, wheel: SceneWheel, ends: tuple[float, float], height: tuple[float, float], color: str
+) -> None:
+    """Draw three lines on the bar of a helical wheel or worm, along its teeth on the side towards the reader.
+
+    ends     left and right end of the bar [in]
+    height   middle and half the height of the bar [in]
+    """
+    # right-hand teeth fall towards the right, because the axis is level
+    rise = -float(np.tan(wheel.helix)) * (ends[1] - ends[0])
+    middle, half = height
+    rise = min(max(rise, -half), half)  # the thread of a worm rises by more than the bar
+    for at in _SLANTS:
+        start = middle + at * half / 3 - rise / 2
+        axes.plot(ends, [start, start + rise], color=color, linewidth=0.5, zorder=3.5, gid=f"helix {wheel.id}")
 
 
 def _draw_across_side(

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
+from itertools import chain, pairwise
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ import numpy as np
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import Box, LabelSpace, arrange, text_box, text_width
 from geartrain.drawing.stick_grid import (
+    COLUMN,
+    StickColumns,
     StickCrank,
     StickShaft,
     axis_in,
@@ -22,6 +25,29 @@ from geartrain.drawing.stick_grid import (
     find_levels,
     find_planes,
     ring_of,
+)
+from geartrain.drawing.stick_symbols import (
+    BAR,
+    BEARING,
+    CARRIER,
+    COUPLING,
+    LINK,
+    NAME,
+    PLATE,
+    STEM,
+    TICK,
+    TOUCH,
+    WHEEL,
+    draw_bearing,
+    draw_belt,
+    draw_drum,
+    draw_element,
+    draw_ground,
+    draw_joint,
+    draw_line,
+    draw_pin,
+    draw_rack,
+    draw_screw,
 )
 from geartrain.drawing.style import (
     BLACK,
@@ -37,70 +63,12 @@ from geartrain.drawing.style import (
     Figure,
     Line2D,
     Patch,
-    Rectangle,
     sheet,
     title_of,
     too_many,
     write,
 )
 from geartrain.kinematics.circuits import Circuit
-
-STEP = 0.62  # inches: minimum distance between two elements
-PLATE, STEM = 2.6, 1.6
-"""Line widths of a plate and of its stem [pt]."""
-_HALF, _PLATE = 0.42, 0.11  # inches: half the height of an element, half a plate
-_CLOSED, _OPEN = 0.012, 0.045  # inches: half the gap between the plates of an element
-_ELEMENT_NAME = 8.0  # points: font size of an element's name
-
-
-def width_of(train: GearTrain) -> float:
-    """Return the total width of the symbols of all brakes and clutches of a train [in]; 0 if it has none."""
-    count = len(train.declaration.clutches)
-    return count * _element_width(train) + 0.2 if count else 0.0
-
-
-def _element_width(train: GearTrain) -> float:
-    """Return the width of the column of a brake or clutch [in], in which names of links and elements fit."""
-    every = train.declaration.clutches.items()
-    names = [link for _, clutch in every for link in (*(clutch.locks or ()), clutch.fixes or "")]
-    # the name of an element is next to its plates, on one side
-    letters = max([len(link) for link in names] + [2 * len(name) + 3 for name, _ in every], default=0)
-    return max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1)
-
-
-def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
-    """Draw each brake or clutch as a pair of plates between a link and the frame, or between two links.
-
-    The plates of brakes and clutches that are closed in the state are drawn in contact. A triangle marks a one-way
-    clutch; it points to the right if the clutch overruns forward.
-
-    left     left end of the first element [in]
-    middle   height of all plates [in]
-    """
-    declared = train.declaration
-    closed = train.kinematics.cases[state].engaged
-    step = _element_width(train)
-    for at, (name, clutch) in enumerate(declared.clutches.items()):
-        x, gap = left + step * (at + 0.5), _CLOSED if name in closed else _OPEN
-        color = PURPLE if name in closed else GREY
-        below, above = clutch.locks or (clutch.fixes or "", declared.frame)
-        for side in (-1, 1):
-            plate = middle + side * gap
-            axes.plot([x - _PLATE, x + _PLATE], [plate, plate], color=color, linewidth=PLATE, gid=f"element {name}")
-            axes.plot([x, x], [plate, middle + side * _HALF], color=color, linewidth=STEM)
-        if clutch.one_way is not None:
-            sense = ">" if clutch.one_way == "forward" else "<"
-            axes.plot([x - _PLATE - 0.1], [middle], sense, color=color, markersize=5, gid=f"one-way {name}")
-        if clutch.fixes is not None:
-            box = Rectangle((x - 0.11, middle + _HALF), 0.22, 0.1, hatch="//////", zorder=4)
-            box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)
-            axes.add_artist(box)
-        else:
-            write(axes, x, middle + _HALF + 0.1, above, ha="center", fontsize=_ELEMENT_NAME, fontweight="bold")
-        write(axes, x, middle - _HALF - 0.1, below, ha="center", fontsize=_ELEMENT_NAME, fontweight="bold")
-        weight = "bold" if name in closed else "normal"
-        write(axes, x + _PLATE + 0.06, middle, name, color, ha="left", fontsize=_ELEMENT_NAME, fontweight=weight)
-
 
 _LINK_NAME = 8.5  # points of a link's name
 _BESIDE = 0.12  # inches from a vertical line to the middle of the text along it
@@ -145,6 +113,9 @@ class StickLabels:
         spots = [*before, *((x, y + _AWAY) for x in along), (right + 0.04 + wide / 2, y + _AWAY)]
         spots += [*((x, y - _AWAY) for x in along), (left - 0.04 - wide / 2, y + _AWAY)]
         spots += [(right + 0.04 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, -_AWAY) for step in range(6)]
+        spots += [
+            (left - 0.04 - wide / 2 - step * _STEP, y + lift) for lift in (0.0, -_AWAY, _AWAY) for step in range(9)
+        ]
         tight = [text_box([link], _LINK_NAME, float(x), float(height), "bold") for x, height in spots]
         places = (*((x, height, across + 2 * _APART, tall) for x, height, across, tall in tight), *tight)
         self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
@@ -163,6 +134,16 @@ class StickLabels:
         spots += [(right - wide / 2 - step * _STEP, y + lift) for lift in (0.12, -0.12) for step in range(9)]
         places = tuple(text_box([axis], FINE, x, height) for x, height in spots)
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
+
+    def name_element(self, name: str, closed: bool, x: float, y: float) -> None:
+        """Add the name of a brake or clutch above the middle (x, y) of its plates, further up, or on either side."""
+        weight = "bold" if closed else "normal"
+        beside = 0.22 + text_width(name, NAME, weight) / 2
+        spots = [(x + aside, y + 0.2 + step * _STEP) for step in range(4) for aside in (0.0, 0.1, -0.1)]
+        spots += [(x + side * beside, y) for side in (1, -1)]
+        places = tuple(text_box([name], NAME, *spot, weight) for spot in spots)
+        how = {"fontsize": NAME, "fontweight": weight}
+        self.wheels.append(_Label(name, PURPLE if closed else GREY, places, how))
 
     def write(self, axes: Axes) -> None:
         """Place and write all labels, those with the fewest positions first.
@@ -187,6 +168,7 @@ def _along(text: str, x: float, ends: tuple[float, float]) -> Iterator[Box]:
 
 
 LANE, GAP = 0.17, 1.7  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
+_RISE = 0.36  # inches from the shafts of an axis to the plates of a brake or clutch above them
 _TRIES = 6  # maximum number of iterations between columns and levels
 _SHORTEST = 0.32  # minimum share of a wheel in the height between two axes
 _ROOM = 0.24  # inches between the ends of the text along a wheel, its shaft and its mate
@@ -221,10 +203,9 @@ class StickSkeleton:
     """Axis -> heights of its lowest and highest shaft [in]."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
-    cranks: list[StickCrank]
-    lone: list[tuple[str, float]]
-    """Wheels that have no mate, each with the abscissa of its column [in]."""
-    width: float
+    columns: StickColumns
+    elements: dict[str, tuple[float, float]]
+    """Brake or clutch -> middle of its plates [in]."""
     height: float
 
 
@@ -236,24 +217,40 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
     tries: list[tuple[int, StickSkeleton]] = []
     for _ in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
         shafts = {link: StickShaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
-        columns, cranks, lone, width = find_columns(train, planes, row, axis_of, shafts)
-        _reach_cranks(shafts, cranks)
+        columns = find_columns(train, planes, row, axis_of, shafts)
+        _reach_cranks(shafts, columns.cranks)
         spans = [
             *(
                 (axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier), x)
-                for c, x in columns
+                for c, x in columns.meshes
             ),
-            *((axis_of[crank.carrier], crank.axis, crank.x) for crank in cranks),
+            *((axis_of[crank.carrier], crank.axis, crank.x) for crank in columns.cranks),
+            *((one, other, x) for name, x in columns.elements for one, other in pairwise(_element_axes(train, name))),
         ]
         levels = find_levels(order, shafts, spans)
         row = {axis: level for level, axes in enumerate(levels) for axis in axes}
         rows, height = _set_heights(levels, shafts)
-        meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
-        tries.append((_overlaps(spans, row), StickSkeleton(rows, shafts, meshes, cranks, lone, width, height)))
+        meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns.meshes]
+        elements = {name: (x, _element_height(_element_axes(train, name), rows)) for name, x in columns.elements}
+        tries.append((_overlaps(spans, row), StickSkeleton(rows, shafts, meshes, columns, elements, height)))
         if not tries[-1][0]:
             break
     # the iteration may alternate between arrangements, so the one with the fewest overlaps is used
     return min(tries, key=lambda each: each[0])[1]
+
+
+def _element_axes(train: GearTrain, name: str) -> list[str]:
+    """Return the axes of the links that a brake or clutch joins, each once."""
+    axes = (train.kinematics.tree.axis(link) for link in train.declaration.clutches[name].links)
+    return list(dict.fromkeys(axis for axis in axes if axis))
+
+
+def _element_height(axes: Sequence[str], rows: dict[str, tuple[float, float]]) -> float:
+    """Return the height of the plates of a brake or clutch: above the shafts of its axis, or between two axes [in]."""
+    if len({rows[axis] for axis in axes}) == 1:
+        return rows[axes[0]][1] + _RISE
+    low, high = sorted(rows[axis] for axis in axes)
+    return (low[1] + high[0]) / 2
 
 
 def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
@@ -279,6 +276,7 @@ def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -
 def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
     labels = list(dict.fromkeys(label for label in axis_of.values() if label))
     pairs = [(axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier)) for c in train.circuits]
+    pairs += [pair for name in train.declaration.clutches for pair in pairwise(_element_axes(train, name))]
     pairs += [
         (axis_of[train.kinematics.tree.top[link]], label)
         for link, label in axis_of.items()
@@ -360,14 +358,10 @@ def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> f
 
 
 _MOST = 160  # maximum number of pairs on a page
-_TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
-_NAME = 8.5  # points: font size
-_LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: line widths distinguish parts without colour
-_TOUCH = 0.032  # inches from where two wheels meet to the middle of either's mark
-_PINS = {"pin_and_slot", "pin_follower", "pins_in_holes"}  # kinds of couplings that are drawn as a pin in a slot
-_BEARING = 0.08  # inches: half of the mark of a carrier's bearing
+PINS = {"pin_and_slot", "pin_follower", "pins_in_holes"}  # kinds of couplings that are drawn as a pin in a slot
 _LONE = 0.55  # inches: height of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
+_KEY, _ENTRY = 0.5, 0.17  # inches: sample and height of an entry of the legend
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
@@ -383,32 +377,33 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     skeleton = find_skeleton(train)
     margin = 0.5 + max((len(link) for link in declared.links), default=1) * 8 * LETTER
     declared.check_state(state)
-    elements = width_of(train)
-    needed = skeleton.width + margin + 0.6 + elements
+    needed = skeleton.columns.width + margin + 0.6
     width = max(needed, 5.5)
     margin += (width - needed) / 2
     figure, axes = sheet(width, skeleton.height + _HEAD + _FOOT, title_of(declared.name, declared.title))
     axes.set_xlim(-margin, width - margin)
-    axes.set_ylim(-_FOOT, skeleton.height + _HEAD)
     for text in list(axes.texts):
         text.set_position((0.15 - margin, skeleton.height + _HEAD - 0.12))
-    drawing = _Drawing(axes, train, skeleton)
+    drawing = _Drawing(axes, train, skeleton, declared.state_or_first(state))
     drawing.draw_axes()
     for mesh in skeleton.meshes:
         drawing.draw_mesh(mesh)
-    for crank in skeleton.cranks:
+    for crank in skeleton.columns.cranks:
         drawing.draw_crank(crank)
-    for wheel, x in skeleton.lone:
+    for wheel, x in skeleton.columns.lone:
         drawing.draw_lone(wheel, x)
     for shaft in skeleton.shafts.values():
         drawing.draw_shaft(shaft)
+    for name in skeleton.elements:
+        drawing.draw_element(name)
     if labels:
         drawing.words.write(axes)
-    if elements:
-        right = max(max(shaft.xs) for shaft in skeleton.shafts.values()) + 0.9
-        draw_elements(axes, train, train.declaration.state_or_first(state), right, skeleton.height / 2)
-    entries = list(_legend(train))
-    columns = min(len(entries), int(width / 1.35), 5)
+    entries = list(_legend(train, any(patch.get_gid() == "ground" for patch in axes.patches)))
+    widest = max(text_width(str(each.get_label()), SMALL - 1.5) for each in entries) + _KEY
+    columns = min(len(entries), max(int(width / widest), 1), 5)
+    foot = _FOOT + _ENTRY * max(ceil(len(entries) / columns) - 2, 0)
+    axes.set_ylim(-foot, skeleton.height + _HEAD)
+    figure.set_size_inches(width, skeleton.height + _HEAD + foot)
     figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
     return figure
 
@@ -416,8 +411,8 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
 class _Drawing:
     """Drawing of a diagram in progress; wheels that appear in several columns are named once."""
 
-    def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton) -> None:
-        self.axes, self.train, self.skeleton = axes, train, skeleton
+    def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton, state: str | None) -> None:
+        self.axes, self.train, self.skeleton, self.case = axes, train, skeleton, train.declaration.case(state)
         self.couplings = {
             row.id: each for each in train.declaration.couplings for row in each.rows(train.declaration.wheels)
         }
@@ -425,30 +420,60 @@ class _Drawing:
         self.words = StickLabels()
         for mesh in skeleton.meshes:
             ends = [mesh.meet, *(self._foot(link, mesh) for link in mesh.ends)]
-            for x in (mesh.x, mesh.x + _COLUMN) if mesh.ring else (mesh.x,):
+            for x in (mesh.x, mesh.x + COLUMN) if mesh.ring else (mesh.x,):
                 self.words.keep_off((x, x), (min(ends), max(ends)))
-        for crank in skeleton.cranks:
+            for end in ends[1:] if mesh.kind in ("belt", "drum", "screw") else ():
+                self.words.keep_off((mesh.x - 0.11, mesh.x + 0.11), (end - 0.12, end + 0.12))
+        for crank in skeleton.columns.cranks:
             far = skeleton.rows[crank.axis][0]
             self.words.keep_off((crank.x, crank.x), (skeleton.shafts[crank.carrier].y, far))
-            self.words.keep_off((crank.x - _BEARING, crank.x + _BEARING), (far - 0.07, far + 0.07))
+            self.words.keep_off((crank.x - BEARING, crank.x + BEARING), (far - 0.07, far + 0.07))
+        for name, (x, middle) in skeleton.elements.items():
+            self.words.keep_off((x - 0.2, x + 0.2), (middle - 0.13, middle + 0.13))
+            heights = [middle, *(end for end in self._ends(name) if end is not None)]
+            self.words.keep_off((x - 0.1, x + 0.1), (min(heights), max(heights)))
 
     def draw_axes(self) -> None:
         """Draw the centre lines of all axes."""
         for axis, (low, _) in self.skeleton.rows.items():
             xs = [x for shaft in self.skeleton.shafts.values() if shaft.axis == axis for x in shaft.xs]
             ends = [min(xs) - 0.2, max(xs) + 0.25]
-            self._line(ends, [low, low], PALE, 0.8, linestyle="-.", zorder=1, gid=f"axis {axis}")
+            draw_line(self.axes, ends, [low, low], PALE, 0.8, linestyle="-.", zorder=1, gid=f"axis {axis}")
             self.words.name_axis(axis, ends[1], low)
 
     def draw_shaft(self, shaft: StickShaft) -> None:
         """Draw a link's shaft with its name, in a bearing if it turns in the frame."""
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
-        self._line([left, right], [shaft.y, shaft.y], "white", _LINK + 3.0, zorder=5)
-        self._line([left, right], [shaft.y, shaft.y], BLACK, _LINK, zorder=6, gid=f"link {shaft.link}")
-        if self.train.kinematics.tree.top[shaft.link] == self.train.declaration.frame:
-            self._ground(left + 0.04, shaft.y - 0.075)
+        draw_line(self.axes, [left, right], [shaft.y, shaft.y], "white", LINK + 3.0, zorder=5)
+        draw_line(self.axes, [left, right], [shaft.y, shaft.y], BLACK, LINK, zorder=6, gid=f"link {shaft.link}")
+        joint, frame = left + BEARING, self.train.declaration.frame
+        if self.train.kinematics.tree.top[shaft.link] == frame:
+            draw_bearing(self.axes, joint, shaft.y, slides=shaft.link in self.train.declaration.sliding)
+            self.words.keep_off((joint - BEARING, joint + BEARING), (shaft.y - BAR, shaft.y + BAR))
+        if self._is_held(shaft.link):
+            draw_ground(self.axes, right + 0.045, shaft.y, upright=True)
+            right += 0.09
         self.words.keep_off((left, right), (shaft.y, shaft.y))
         self.words.name_link(shaft.link, left, right, shaft.y)
+
+    def _is_held(self, link: str) -> bool:
+        """Return True if a link is fixed by the declaration or by an input of 0, not by a brake."""
+        braked = {self.train.declaration.clutches[name].fixes for name in self.case.engaged}
+        return (link in self.case.fixed and link not in braked) or self.case.inputs.get(link) == 0
+
+    def draw_element(self, name: str) -> None:
+        """Draw a brake or clutch between its members, with its name above its plates."""
+        place, closed = self.skeleton.elements[name], name in self.case.engaged
+        draw_element(self.axes, name, self.train.declaration.clutches[name], closed, place, self._ends(name))
+        self.words.name_element(name, closed, *place)
+
+    def _ends(self, name: str) -> list[float | None]:
+        """Return the height of the shafts that a brake or clutch joins [in], None for the frame, which is the first
+        member of a brake.
+        """
+        clutch = self.train.declaration.clutches[name]
+        links = clutch.locks or (self.train.declaration.frame, *clutch.links)
+        return [self.skeleton.shafts[link].y if link in self.skeleton.shafts else None for link in links]
 
     def draw_mesh(self, mesh: StickMesh) -> None:
         """Draw two wheels up to the point where they touch, or the coupling of two links."""
@@ -459,7 +484,7 @@ class _Drawing:
             self._draw_coupling(mesh, low, high)
         else:
             for wheel, link, foot, side in zip(mesh.wheels, mesh.ends, (low, high), (-1, 1), strict=True):
-                end = mesh.meet + _TOUCH * side
+                end = mesh.meet + TOUCH * side
                 self._draw_wheel_line(mesh.x, foot, end, wheel, link)
                 self._tick(mesh.x, end, mesh.kind)
 
@@ -475,45 +500,58 @@ class _Drawing:
         ring = mesh.wheels.index(mesh.ring)
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
-        end = mesh.meet - _TOUCH * side
+        end = mesh.meet - TOUCH * side
         self._draw_wheel_line(mesh.x, foot[planet], end, mesh.wheels[planet], mesh.ends[planet])
         self._tick(mesh.x, end, "spur")
-        over, beside = mesh.meet + _TOUCH * side, mesh.x + _COLUMN
-        self._line([mesh.x - _TICK, beside], [over, over], BLUE, _WHEEL, zorder=4)
+        over, beside = mesh.meet + TOUCH * side, mesh.x + COLUMN
+        draw_line(self.axes, [mesh.x - TICK, beside], [over, over], BLUE, WHEEL, zorder=4)
         self._draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw a pin in its slot; for links that a coupling keeps parallel, two bars side by side."""
-        coupling = self.couplings[mesh.name]
-        pin = getattr(coupling, "pin", None)
-        parallel = coupling.kind == "parallel" or pin is None
-        for link, foot, side in zip(mesh.ends, (low, high), (-1, 1), strict=True):
-            end = mesh.meet + 0.03 * side * parallel
-            self._line([mesh.x, mesh.x], [foot, end], PURPLE, _COUPLING, zorder=3, gid=f"coupling {mesh.name}")
-            if parallel:
-                self._line([mesh.x - _TICK, mesh.x + _TICK], [end, end], PURPLE, _COUPLING, zorder=5)
-            elif link == pin:
-                self.axes.plot([mesh.x], [mesh.meet], "o", color=PURPLE, markersize=5, zorder=5)
-            else:
-                box = Rectangle((mesh.x - 0.05, mesh.meet - 0.1), 0.1, 0.2, zorder=4)
-                box.set(facecolor="white", edgecolor=PURPLE, linewidth=1.4)
-                self.axes.add_artist(box)
-                self.words.keep_off((mesh.x - 0.06, mesh.x + 0.06), (mesh.meet - 0.12, mesh.meet + 0.12))
-        self.words.name_upright(mesh.name, mesh.x, (low, high), PURPLE)
+        """Draw a coupling by the symbol of its kind, with its name and the names of its pulleys."""
+        coupling, axes, x = self.couplings[mesh.name], self.axes, mesh.x
+        circuit = next(circuit for circuit in self.train.circuits if circuit.id == mesh.name)
+        # the driving link of a coupling is j
+        turns, slides = (low, high) if mesh.ends[0] == circuit.j else (high, low)
+        if coupling.kind == "belt":
+            draw_belt(axes, x, (low, high), circuit.a * circuit.b > 0, mesh.name)
+        elif coupling.kind == "screw":
+            draw_screw(axes, x, turns, slides, mesh.name)
+        elif coupling.kind == "rack":
+            draw_rack(axes, x, mesh.meet, (turns, slides), mesh.name)
+        elif coupling.kind == "drum":
+            draw_drum(axes, x, turns, slides, mesh.name)
+        elif coupling.kind in PINS or coupling.kind == "parallel":
+            pins = tuple(link == getattr(coupling, "pin", None) and coupling.kind in PINS for link in mesh.ends)
+            draw_pin(axes, x, mesh.meet, (low, high), pins, mesh.name)
+            if any(pins):
+                self.words.keep_off((x - 0.06, x + 0.06), (mesh.meet - 0.12, mesh.meet + 0.12))
+        else:
+            draw_joint(axes, x, mesh.meet, (low, high), coupling.kind, mesh.name)
+            self.words.keep_off((x - 0.1, x + 0.1), (mesh.meet - 0.1, mesh.meet + 0.1))
+        if self.train.declaration.frame in mesh.ends:
+            self._ground(x, high if mesh.ends[1] == self.train.declaration.frame else low)
+        for wheel, foot, end in zip(mesh.wheels, (low, high), (high, low), strict=True) if circuit.by_teeth else ():
+            self._name_wheel(wheel, x, (foot, (foot + end) / 2), PURPLE)
+        if not circuit.by_teeth or not coupling.by_teeth:
+            self.words.name_upright(mesh.name, x, (low, high), PURPLE)
+
+    def _name_wheel(self, wheel: str, x: float, ends: tuple[float, float], color: str) -> None:
+        """Add the name and tooth count of a wheel along its line, unless it is named at another line."""
+        if wheel not in self.feet:
+            self.feet[wheel] = (x, ends[0])
+            self.words.name_upright(f"{wheel} {self.train.declaration.wheels[wheel][1].count}", x, ends, color)
 
     def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
         """Draw a wheel from its shaft to its mate, connected to an earlier line of the same wheel if there is one."""
-        self._line([x, x], [foot, end], BLUE, _WHEEL, zorder=3, gid=f"wheel {wheel}")
+        draw_line(self.axes, [x, x], [foot, end], BLUE, WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
         known = self.feet.get(wheel)
         if known is not None and abs(known[0] - x) > 1e-9:  # another column, not a rounding difference
             level = foot + (0.09 if end > foot else -0.09)
-            self._line([known[0], x], [level, level], BLUE, _WHEEL, zorder=3)
-        if known is None:
-            count = self.train.declaration.wheels[wheel][1].count
-            self.words.name_upright(f"{wheel} {count}", x, (foot, end), BLUE)
-        self.feet.setdefault(wheel, (x, foot))
+            draw_line(self.axes, [known[0], x], [level, level], BLUE, WHEEL, zorder=3)
+        self._name_wheel(wheel, x, (foot, end), BLUE)
 
     def draw_lone(self, wheel: str, x: float) -> None:
         """Draw a wheel that has no mate."""
@@ -526,47 +564,49 @@ class _Drawing:
         """Draw a carrier's arm, which ends in a bearing on the axis that the carrier carries."""
         y = self.skeleton.shafts[crank.carrier].y
         far = self.skeleton.rows[crank.axis][0]
-        self._line([crank.x, crank.x], [y, far], ORANGE, _CARRIER, zorder=3, gid=f"crank {crank.carrier}")
-        for side in (-1, 1):
-            level = far + 0.05 * side
-            self._line(
-                [crank.x - _BEARING, crank.x + _BEARING], [level, level], ORANGE, _WHEEL, zorder=7, gid="bearing"
-            )
+        draw_line(self.axes, [crank.x, crank.x], [y, far], ORANGE, CARRIER, zorder=3, gid=f"crank {crank.carrier}")
+        slides = any(
+            link in self.train.declaration.sliding
+            for link, shaft in self.skeleton.shafts.items()
+            if shaft.axis == crank.axis
+        )
+        draw_bearing(self.axes, crank.x, far, ORANGE, slides)
 
     def _tick(self, x: float, y: float, kind: str) -> None:
         """Draw the mark of teeth at a wheel's end: level, slanted for bevel or contrate, long and dashed for a worm."""
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
-        reach = _TICK * (1.6 if kind == "worm" else 1.0)
+        reach = TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"
         self.words.keep_off((x - reach, x + reach), (y - lean, y + lean))
-        self._line([x - reach, x + reach], [y - lean, y + lean], BLUE, _WHEEL, zorder=4, linestyle=style, gid="teeth")
+        draw_line(
+            self.axes, [x - reach, x + reach], [y - lean, y + lean], BLUE, WHEEL, zorder=4, linestyle=style, gid="teeth"
+        )
 
     def _ground(self, x: float, y: float) -> None:
         self.words.keep_off((x - 0.09, x + 0.09), (y - 0.045, y + 0.045))
-        box = Rectangle((x - 0.09, y - 0.045), 0.18, 0.09, hatch="//////", zorder=4)
-        box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)
-        self.axes.add_artist(box)
-
-    def _line(self, xs: list[float], ys: list[float], color: str, width: float, **how: object) -> None:
-        self.axes.plot(xs, ys, color=color, linewidth=width, solid_capstyle="butt", **how)  # type: ignore[arg-type]
+        draw_ground(self.axes, x, y)
 
 
-def _legend(train: GearTrain) -> Iterator[Line2D | Patch]:
-    yield Line2D([], [], color=BLACK, linewidth=_LINK, label="links on their axes")
-    yield Line2D([], [], color=BLUE, linewidth=_WHEEL, label="wheels")
-    yield Patch(facecolor="white", edgecolor=GREY, hatch="//////", label="frame")
+def _legend(train: GearTrain, held: bool) -> Iterator[Line2D | Patch]:
+    yield Line2D([], [], color=BLACK, linewidth=LINK, label="links on their axes")
+    if any(circuit.kind == "gear" for circuit in train.circuits):
+        yield Line2D([], [], color=BLUE, linewidth=WHEEL, label="wheels")
+    if held:
+        yield Patch(facecolor="white", edgecolor=GREY, hatch="//////", label="held by the frame")
     if any(circuit.carrier != train.declaration.frame for circuit in train.circuits):
-        yield Line2D([], [], color=ORANGE, linewidth=_CARRIER, label="carriers")
+        yield Line2D([], [], color=ORANGE, linewidth=CARRIER, label="carriers")
     kinds = {coupling.kind for coupling in train.declaration.couplings}
-    pins, others = kinds & _PINS, kinds - _PINS
+    pins, others = kinds & PINS, kinds - PINS
     if pins:
         holes = "pins in holes" if pins == {"pins_in_holes"} else "pins in slots"
-        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, marker="o", label=holes)
+        yield Line2D([], [], color=PURPLE, linewidth=COUPLING, marker="o", label=holes)
     if others:
-        ends = {"marker": "|", "markersize": 8, "markeredgewidth": 2.0}
-        label = "kept parallel" if others == {"parallel"} else "couplings"
-        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, label=label, **ends)  # type: ignore[arg-type]
+        label = "kept parallel" if others == {"parallel"} else "belts" if others == {"belt"} else "couplings"
+        ends = {"marker": "|", "markersize": 8, "markeredgewidth": 2.0} if others == {"parallel"} else {}
+        yield Line2D([], [], color=PURPLE, linewidth=COUPLING, label=label, **ends)  # type: ignore[arg-type]
     if train.declaration.clutches:
-        ends = {"linewidth": PLATE, "marker": "|", "markersize": 10, "markeredgewidth": STEM}
+        ends = {"linewidth": STEM, "marker": "|", "markersize": 10, "markeredgewidth": PLATE}
         for color, words in ((PURPLE, "closed brakes and clutches"), (GREY, "open ones")):
             yield Line2D([], [], color=color, label=words, **ends)  # type: ignore[arg-type]
+    if any(clutch.one_way for clutch in train.declaration.clutches.values()):
+        yield Line2D([], [], color=GREY, linestyle="", marker=">", markersize=6, label="one-way clutches")

@@ -11,6 +11,7 @@ from itertools import pairwise
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import arrange, breadth_first, neighbours
+from geartrain.drawing.stick_symbols import element_width
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.graphs import joined_groups
 
@@ -90,6 +91,7 @@ def _cost(
 
 COLUMN, _PLANE = 0.3, 0.34  # inches between meshes of a group that shares wheels, and between groups
 _CRANK = 0.3  # inches for a carrier's crank before a group
+_SIDE = 0.1  # inches between the columns of a group and of a brake or clutch
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,13 +103,28 @@ class StickCrank:
     x: float
 
 
+@dataclass(slots=True)
+class StickColumns:
+    """Columns of a diagram, each with its abscissa [in], and the total width [in]."""
+
+    meshes: list[tuple[Circuit, float]] = field(default_factory=list)
+    cranks: list[StickCrank] = field(default_factory=list)
+    lone: list[tuple[str, float]] = field(default_factory=list)
+    """Wheels that have no mate."""
+    elements: list[tuple[str, float]] = field(default_factory=list)
+    """Brakes and clutches."""
+    width: float = 0.0
+
+
 def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) -> str:
     """Return the axis on which a link is drawn in a mesh; the frame is drawn on the axis of the mesh's carrier."""
     return axis_of[link] or axis_of[carrier]
 
 
-def find_planes(train: GearTrain) -> list[list[Circuit]]:
-    """Return groups of meshes that share wheels, ordered so that the groups of each link are close together."""
+def find_planes(train: GearTrain) -> list[list[Circuit] | str]:
+    """Return groups of meshes that share wheels, and names of brakes and clutches, ordered so that the groups and
+    clutches of each link are close together.
+    """
     circuits = {circuit.id: circuit for circuit in train.circuits}
     by_wheel: dict[str, list[str]] = {}
     for circuit in train.circuits:
@@ -122,27 +139,39 @@ def find_planes(train: GearTrain) -> list[list[Circuit]]:
         for link in (circuit.i, circuit.j):
             if link != train.declaration.frame:
                 by_link.setdefault(link, []).append(home[circuit.id])
-    order = arrange(list(planes), [pair for names in by_link.values() for pair in pairwise(names)])
-    return [[circuits[name] for name in planes[plane]] for plane in order]
+    elements = {f" {name}": name for name in train.declaration.clutches}  # no name of a mesh begins with a blank
+    for element, name in elements.items():
+        for link in train.declaration.clutches[name].links:
+            by_link.setdefault(link, []).append(element)
+    order = arrange([*planes, *elements], [pair for names in by_link.values() for pair in pairwise(names)])
+    return [elements.get(each) or [circuits[name] for name in planes[each]] for each in order]
 
 
 def find_columns(
     train: GearTrain,
-    planes: Sequence[Sequence[Circuit]],
+    planes: Sequence[Sequence[Circuit] | str],
     row: dict[str, int],
     axis_of: dict[str, str],
     shafts: dict[str, StickShaft],
-) -> tuple[list[tuple[Circuit, float]], list[StickCrank], list[tuple[str, float]], float]:
-    """Return the columns of all meshes, the cranks, the columns of wheels without a mesh, and the total width [in].
+) -> StickColumns:
+    """Return the columns of all meshes, brakes, clutches, cranks, and wheels without a mesh.
 
     A crank is placed before the first group in which its carried axis meshes. Abscissae are appended to `shafts` in
     place.
     """
-    columns: list[tuple[Circuit, float]] = []
-    cranks: list[StickCrank] = []
+    found = StickColumns()
     borne: set[str] = set()
     x = 0.0
     for plane in planes:
+        if isinstance(plane, str):
+            half = element_width(plane) / 2
+            x += half + _SIDE
+            found.elements.append((plane, x))
+            for link in train.declaration.clutches[plane].links:
+                if link in shafts:
+                    shafts[link].xs.append(x)
+            x += half - _SIDE
+            continue
         taken: list[list[tuple[float, float]]] = []
         for circuit in plane:
             for axis in (axis_of[circuit.i], axis_of[circuit.j]):
@@ -150,26 +179,26 @@ def find_columns(
                 if axis and axis not in borne and bearer is not None:
                     borne.add(axis)
                     x += _CRANK
-                    cranks.append(StickCrank(bearer, axis, x))
+                    found.cranks.append(StickCrank(bearer, axis, x))
         x += _PLANE
         for circuit in plane:
             column = _free_column(taken, circuit, train, axis_of, row)
             here = x + column * COLUMN
-            columns.append((circuit, here))
+            found.meshes.append((circuit, here))
             for link in (circuit.i, circuit.j):
                 if link in shafts:
                     ring = ring_of(train, circuit)
                     own = ring and train.declaration.wheels[ring][0] == link
                     shafts[link].xs.append(here + (COLUMN if own else 0.0))
         x += len(taken) * COLUMN
-    meshing = {wheel for circuit in train.circuits for wheel in circuit.wheels if circuit.kind == "gear"}
-    lone = []
+    meshing = {wheel for circuit in train.circuits for wheel in circuit.wheels if circuit.by_teeth}
     for name, (link, _) in train.declaration.wheels.items():
         if name not in meshing and link in shafts:
             x += _PLANE + COLUMN
-            lone.append((name, x))
+            found.lone.append((name, x))
             shafts[link].xs.append(x)
-    return columns, cranks, lone, x + _PLANE
+    found.width = x + _PLANE
+    return found
 
 
 def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:

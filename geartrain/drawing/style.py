@@ -6,11 +6,11 @@ Importing this module without matplotlib raises an error that names the extra `p
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from io import BytesIO
-from textwrap import fill, shorten
+from textwrap import fill, shorten, wrap
 from threading import Lock
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError, printable
 from geartrain.scene.palette import THEMES, ThemeName, series_colour, series_dash
@@ -153,6 +153,10 @@ BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
 SCALE = SCALES["light"]
 """Colour scale of values on a map in the light theme."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
+_STEP, _CELL = 0.3, 58.0  # height of a row [in], and width of a column of cells [pt]
+_WIDTHS = (1.4, 5.0)  # widths of the lines of intervals [pt], the widest interval first
+MOST_ROWS = 20
+"""Maximum number of rows of a chart of intervals, which then fits on a screen."""
 LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
@@ -193,21 +197,77 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
     return figure, list(panels)
 
 
-def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tuple[Figure, Axes]:
-    """Return a figure of the given height and width [in] with one panel for horizontal bars, the first name on top."""
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = figure.add_subplot()
-    plain(axes)
+class Row(NamedTuple):
+    """Row of a chart of intervals."""
+
+    name: str
+    marks: Mapping[str, float]
+    """Value of each mark, by series."""
+    spans: Sequence[tuple[float, float]] = ()
+    """Ends of intervals, the widest first; each is drawn as a thicker line than the interval before it."""
+    beside: Sequence[str] = ()
+    """Cells to the right of the row."""
+
+
+DOT: Mapping[str, Any] = {"marker": "o", "markersize": 6, "color": BLACK, "markeredgecolor": WHITE}
+"""Mark of a chart with one series."""
+
+
+def interval_chart(
+    panels: Mapping[str, Sequence[Row]],
+    looks: Mapping[str, Mapping[str, Any]],
+    heads: Sequence[str] = (),
+    title: str = "",
+    log: bool = False,
+) -> Figure:
+    """Return a chart of marks and intervals with a panel for each axis label, the first row of each at the top.
+
+    looks   matplotlib properties of the marks, by series
+    heads   heads of the cells next to the rows
+    log     True for logarithmic axes
+    """
+    panels = {label: rows for label, rows in panels.items() if rows}
+    heights = [0.9 + _STEP * len(rows) for rows in panels.values()]
+    figure, axes = curve_panels(heights, 0.7, share=False)
+    for panel, (label, rows) in zip(axes, panels.items(), strict=True):
+        if log:
+            panel.set_xscale("log")
+            panel.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        draw_rows(panel, rows, looks, heads)
+        name_axes(panel, label, size=SMALL, parse_math=False)
+    if len(looks) > 1:
+        known = {line.get_label(): line for panel in axes for line in panel.lines if line.get_label() in looks}
+        legend_below(figure, len(known), list(known.values()))
+    return headed(figure, title)
+
+
+def draw_rows(
+    axes: Axes, rows: Sequence[Row], looks: Mapping[str, Mapping[str, Any]], heads: Sequence[str] = ()
+) -> None:
+    """Draw marks and intervals in rows of a panel, with cells to the right of the panel."""
     axes.grid(False, axis="y")
-    axes.set_yticks(range(len(names)), names)
-    axes.set_ylim(len(names) - 0.4, -0.6)
-    return figure, axes
+    axes.set_yticks(range(len(rows)), [short(row.name, 30) for row in rows], parse_math=False)
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    for at, row in enumerate(rows):
+        for width, ends in zip(_WIDTHS, row.spans, strict=False):
+            look: dict[str, Any] = {"linewidth": width, "solid_capstyle": "butt", "zorder": 1 + width / 10}
+            axes.plot(ends, [at, at], color=SHADE if width == _WIDTHS[1] else GREY, gid="interval", **look)
+    for name, own in looks.items():
+        places = [(row.marks[name], at) for at, row in enumerate(rows) if name in row.marks]
+        if places:
+            axes.plot(*zip(*places, strict=True), linewidth=0, label=name, gid=name, zorder=3, clip_on=False, **own)
+    for at, cells in enumerate((heads, *(row.beside for row in rows)), -1):
+        for column, text in enumerate(cells, 1):
+            axes.annotate(
+                text, (1.0, max(at, -0.75)), xycoords=axes.get_yaxis_transform(), xytext=(_CELL * column, 0),
+                textcoords="offset points", ha="right", va="center", fontsize=SMALL, color=BLACK if at >= 0 else GREY,
+                annotation_clip=False, parse_math=False, gid="cell",
+            )  # fmt: skip
 
 
-def draw_interval(axes: Axes, at: float, ends: tuple[float, float] | None) -> None:
-    """Draw an interval as a whisker across the bar with the position `at`; draw nothing if the interval is None."""
-    if ends is not None:
-        axes.plot(ends, [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=7, gid="within")
+def figures(value: float, digits: int = 3) -> str:
+    """Return a value as text with significant digits, and large values as integers, without a power of ten."""
+    return f"{value:.{digits}g}" if not 10**digits <= abs(value) < 1e9 else f"{value:.0f}"
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:
@@ -299,7 +359,9 @@ def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
 
 
 def headed(figure: Figure, title: str) -> Figure:
-    """Return the figure with a title above all its panels."""
+    """Return the figure with a title above all its panels, in as many lines as its width requires."""
+    letters = int(figure.get_size_inches()[0] / (TEXT * LETTER))
+    title = "\n".join(line for part in title.splitlines() for line in wrap(part, letters))
     figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
     return figure
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Sequence
 from fractions import Fraction
+from html import escape
 from typing import TYPE_CHECKING, Literal, get_args
 
 from geartrain.errors import Problem, QuestionError
@@ -11,6 +13,8 @@ from geartrain.errors import Problem, QuestionError
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.drawing.style import Figure
+
+_WIDTH, _MOST = 420, 34_000  # maximum width [pixels] and size [bytes] of a thumbnail
 
 PictureKind = Literal["plan", "stick", "graph", "lever", "dials"]
 KINDS: tuple[PictureKind, ...] = get_args(PictureKind)
@@ -83,3 +87,21 @@ def picture(
     from geartrain.drawing.dial_faces import dials_figure
 
     return dials_figure(scene, turns, outputs, labels)
+
+
+def thumbnail(train: GearTrain) -> str:
+    """Return a small plan of a train as an HTML image for a notebook; the stick diagram if it has no plan.
+
+    Raise `MissingExtraError` if matplotlib is not installed, and `QuestionError` if neither picture can be drawn.
+    """
+    from geartrain.drawing.style import render
+
+    try:
+        figure = picture(train, "plan", labels=False)
+    except QuestionError:
+        figure = picture(train, "stick", labels=False)
+    inches, width = float(figure.get_size_inches()[0]), _WIDTH
+    while len(data := render(figure, ".png", width / inches)) > _MOST:
+        width = int(0.95 * width * (_MOST / len(data)) ** 0.5)  # the size grows about as the area
+    name = escape(train.name, quote=True)
+    return f'<img alt="plan of {name}" width="{width}" src="data:image/png;base64,{b64encode(data).decode()}"/>'

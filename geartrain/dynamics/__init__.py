@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples as ErrorSamples
@@ -48,55 +48,21 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.torque_cycle import TorqueExtreme as TorqueExtreme
     from geartrain.dynamics.turn.train_turn import find_torque_period as find_torque_period
 
-__all__ = [
-    "BearingTorque",
-    "CycleEnergy",
-    "DrivenWay",
-    "ErrorEstimates",
-    "ErrorSamples",
-    "HoldingTorque",
-    "KinkPositions",
-    "Motion",
-    "MotionRun",
-    "NeglectedEffect",
-    "PairCycle",
-    "PairTorque",
-    "PlaceInRun",
-    "PowerFlow",
-    "PowerLoss",
-    "PowerNode",
-    "PowerStream",
-    "RecirculatingPower",
-    "RunningStatistics",
-    "SpectrumLine",
-    "ToothImpact",
-    "TorqueCycle",
-    "TorqueExtreme",
-    "TorqueVerdict",
-    "Torques",
-    "TrainMechanics",
-    "TransmissionErrorCurve",
-    "find_power_flow",
-    "find_torque_period",
-]
-
-_PLACES = {
-    "KinkPositions": "motion.kink_positions",
-    "ErrorSamples": "motion.error_composition",
-    **dict.fromkeys(("Motion", "TransmissionErrorCurve"), "motion.motion_model"),
-    "MotionRun": "motion.motion_run",
-    "SpectrumLine": "motion.motion_run",
-    "ToothImpact": "motion.pair_impacts",
-    "RunningStatistics": "motion.run_statistics",
-    "ErrorEstimates": "motion.superposition",
-    **dict.fromkeys(("BearingTorque", "HoldingTorque", "PairTorque"), "torques.torque_results"),
-    **dict.fromkeys(("PowerNode", "PowerStream", "RecirculatingPower"), "torques.power_flow"),
-    **dict.fromkeys(("PowerFlow", "PowerLoss", "find_power_flow"), "torques.power_flow"),
-    **dict.fromkeys(("DrivenWay", "NeglectedEffect", "TorqueVerdict", "Torques"), "torques.torque_results"),
-    "TrainMechanics": "train_mechanics",
-    **dict.fromkeys(("CycleEnergy", "PairCycle", "PlaceInRun", "TorqueExtreme"), "turn.torque_cycle"),
-    "TorqueCycle": "turn.torque_cycle",
-    "find_torque_period": "turn.train_turn",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "motion.error_composition": "ErrorSamples",
+        "motion.kink_positions": "KinkPositions",
+        "motion.motion_model": "Motion TransmissionErrorCurve",
+        "motion.motion_run": "MotionRun SpectrumLine",
+        "motion.pair_impacts": "ToothImpact",
+        "motion.run_statistics": "RunningStatistics",
+        "motion.superposition": "ErrorEstimates",
+        "torques.power_flow": "PowerFlow PowerLoss PowerNode PowerStream RecirculatingPower find_power_flow",
+        "torques.torque_results": "BearingTorque DrivenWay HoldingTorque NeglectedEffect PairTorque TorqueVerdict "
+        "Torques",
+        "train_mechanics": "TrainMechanics",
+        "turn.torque_cycle": "CycleEnergy PairCycle PlaceInRun TorqueCycle TorqueExtreme",
+        "turn.train_turn": "find_torque_period",
+    },
+)

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer as Answer
@@ -58,65 +58,20 @@ if TYPE_CHECKING:
     from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
     from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
 
-__all__ = [
-    "Answer",
-    "Circuit",
-    "DivisibilityRule",
-    "FloatSpeeds",
-    "Gridlock",
-    "Lever",
-    "LockedSubgraph",
-    "Loop",
-    "LoopPhase",
-    "MeshPhasing",
-    "MeshRemoval",
-    "Mobility",
-    "OutputResult",
-    "Sensitivity",
-    "TargetResult",
-    "TrainKinematics",
-    "Verdict",
-    "WillisEquation",
-    "WillisMatrix",
-    "WillisSystem",
-    "adjacency_labels",
-    "adjacency_matrix",
-    "find_divisibility_rule",
-    "find_levers",
-    "to_dot",
-    "to_graphml",
-    "to_json",
-]
-
-__getattr__ = lazy_names(
+__getattr__, __all__ = public_names(
     __name__,
     {
-        "Answer": "answer",
-        "Circuit": "circuits.fundamental",
-        "DivisibilityRule": "phasing.mesh_phasing",
-        "FloatSpeeds": "speeds.float_speeds",
-        "Gridlock": "gridlock.removal",
-        "Lever": "levers",
-        "LockedSubgraph": "gridlock.removal",
-        "Loop": "answer",
-        "LoopPhase": "phasing.mesh_phasing",
-        "MeshPhasing": "phasing.mesh_phasing",
-        "MeshRemoval": "gridlock.removal",
-        "Mobility": "speeds.mobility",
-        "OutputResult": "judged_outputs",
-        "Sensitivity": "judged_outputs",
-        "TargetResult": "judged_outputs",
-        "TrainKinematics": "train_kinematics",
-        "Verdict": "answer",
-        "WillisEquation": "circuits.fundamental",
-        "WillisMatrix": "willis_matrix",
-        "WillisSystem": "willis_system",
-        "adjacency_labels": "graph",
-        "adjacency_matrix": "graph",
-        "find_divisibility_rule": "phasing.mesh_phasing",
-        "find_levers": "levers",
-        "to_dot": "graph",
-        "to_graphml": "graph",
-        "to_json": "graph",
+        "answer": "Answer Loop Verdict",
+        "circuits.fundamental": "Circuit WillisEquation",
+        "graph": "adjacency_labels adjacency_matrix to_dot to_graphml to_json",
+        "gridlock.removal": "Gridlock LockedSubgraph MeshRemoval",
+        "judged_outputs": "OutputResult Sensitivity TargetResult",
+        "levers": "Lever find_levers",
+        "phasing.mesh_phasing": "DivisibilityRule LoopPhase MeshPhasing find_divisibility_rule",
+        "speeds.float_speeds": "FloatSpeeds",
+        "speeds.mobility": "Mobility",
+        "train_kinematics": "TrainKinematics",
+        "willis_matrix": "WillisMatrix",
+        "willis_system": "WillisSystem",
     },
 )

@@ -8,8 +8,7 @@ from fractions import Fraction
 from typing import Literal, NamedTuple, Required, TypedDict
 
 from geartrain.kinematics.circuits import Circuit
-from geartrain.numerics.exact import as_float, decimal, fraction_text
-from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
+from geartrain.numerics.exact import as_float, decimal, fraction_text, pi_text, touches_pi
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train

@@ -48,8 +48,7 @@ from geartrain.kinematics.speeds import (
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.multiples_of_pi import touches_pi, with_other_pi
+from geartrain.numerics.exact import as_float, touches_pi, with_other_pi
 from geartrain.numerics.results import Shown
 from geartrain.train import GearPair, StateCase, Train
 

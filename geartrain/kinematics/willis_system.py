@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, overload
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.circuits.fundamental import WillisEquation
-from geartrain.numerics.exact import decimal, fraction_text
-from geartrain.numerics.multiples_of_pi import integer_factors
+from geartrain.numerics.exact import decimal, fraction_text, integer_factors
 from geartrain.numerics.results import Shown
 from geartrain.train import StateCase
 

@@ -36,7 +36,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.numerics.confidence_intervals import IntervalEstimate as IntervalEstimate
@@ -50,30 +50,15 @@ if TYPE_CHECKING:
     from geartrain.numerics.work.task_runner import Execution as Execution
     from geartrain.numerics.work.task_runner import run as run
 
-__all__ = [
-    "Execution",
-    "Figure",
-    "IntervalEstimate",
-    "Journal",
-    "LabelledArray",
-    "ProbabilityEstimate",
-    "Quantity",
-    "decimal",
-    "open_executor",
-    "run",
-]
-
-__getattr__ = lazy_names(
+__getattr__, __all__ = public_names(
     __name__,
     {
-        "Execution": "work.task_runner",
-        "Figure": "quantity",
-        **dict.fromkeys(("IntervalEstimate", "ProbabilityEstimate"), "confidence_intervals"),
-        "Journal": "work.journal",
-        "LabelledArray": "labelled_array",
-        "Quantity": "quantity",
-        "decimal": "exact",
-        "open_executor": "work.executors",
-        "run": "work.task_runner",
+        "confidence_intervals": "IntervalEstimate ProbabilityEstimate",
+        "exact": "decimal",
+        "labelled_array": "LabelledArray",
+        "quantity": "Figure Quantity",
+        "work.executors": "open_executor",
+        "work.journal": "Journal",
+        "work.task_runner": "Execution run",
     },
 )

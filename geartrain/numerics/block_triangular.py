@@ -116,7 +116,7 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
     Each round visits every column at most once.
     """
     row_of: dict[int, int] = {}
-    free = _match_forced_rows(rows, row_of)
+    free = list(rows)
     while True:
         # shared by all rows of a round: a column without an augmenting path has none until the matching changes
         seen: set[int] = set()
@@ -124,32 +124,6 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
         if len(left) == len(free):
             return row_of
         free = left
-
-
-def _match_forced_rows(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
-    """Match rows that have only one free column, repeatedly (Karp-Sipser heuristic), in place; return the unmatched
-    rows.
-
-    This matches trees in linear time.
-    """
-    users: dict[int, list[int]] = {}
-    for row, held in rows.items():
-        for column in held:
-            users.setdefault(column, []).append(row)
-    missing = {row: len(held) for row, held in rows.items()}
-    matched: set[int] = set()
-    queue = [row for row, count in missing.items() if count == 1]
-    for row in queue:
-        free = next((column for column in rows[row] if column not in row_of), None)
-        if free is None:
-            continue
-        row_of[free] = row
-        matched.add(row)
-        for other in users[free]:
-            missing[other] -= 1
-            if missing[other] == 1 and other not in matched:
-                queue.append(other)
-    return [row for row in rows if row not in matched]
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:

@@ -19,3 +19,12 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
         return getattr(import_module(f".{homes[name]}", package), name)
 
     return find
+
+
+def public_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], list[str]]:
+    """Return the function `__getattr__` and the sorted names `__all__` of a package.
+
+    modules   module below `package` -> names that it defines, separated by blanks; dots as in `lazy_names`
+    """
+    homes = {name: module for module, names in modules.items() for name in names.split()}
+    return lazy_names(package, homes), sorted(homes)

@@ -90,16 +90,6 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
     return found, slope
 
 
-def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
-    """Return the same value as `value`, bit for bit, without the derivative."""
-    single = coefficients.shape[1] == 1
-    found = np.zeros(u.shape)
-    for row in coefficients[::-1]:
-        found *= u
-        found += row[0] if single else row.take(piece)
-    return found
-
-
 def ends(coefficients: Floats) -> Floats:
     """Return the values at both ends of the pieces, shape (2, pieces)."""
     # all powers of u are 1 or -1 there, so that sums are sufficient

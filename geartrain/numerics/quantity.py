@@ -13,7 +13,7 @@ from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from geartrain.errors import nearest_names
-from geartrain.numerics.multiples_of_pi import PI
+from geartrain.numerics.exact import PI
 
 TURN = "turn"
 RADIANS_PER_TURN = 6.283185307179586

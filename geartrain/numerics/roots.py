@@ -70,36 +70,9 @@ _MOST_STEPS = 200  # bisection only needs about 60 unless the root is near 0
 _DEEPEST = 40  # bisections of a bracket whose slope keeps changing sign
 
 
-def bracketed_root(value: Function, slope: Function, low: float, high: float) -> float:
-    """Return the root of `value` between `low` and `high`, where it changes sign, by Newton's method with bisection.
-
-    The iteration ends when the bracket consists of two neighbouring floats, or when a step does not move either end.
-    """
-    at_low = value(low)
-    if at_low == 0:
-        return low
-    rising = at_low < 0
-    x = (low + high) / 2  # Newton starts in the middle, because the slope may vanish at an end
-    for _ in range(_MOST_STEPS):
-        here = value(x)
-        if here == 0:
-            return x
-        if (here < 0) == rising:
-            low = x
-        else:
-            high = x
-        steep = slope(x)
-        step = x - here / steep if steep else low  # an end of the bracket leads to bisection
-        width = high - low
-        if not low < step < high or abs(step - x) > width / 2:  # bisection is better than such a step
-            step = low + width / 2
-        elif abs(step - x) < 1e-8 * width:
-            # the step is much smaller than the bracket: overshoot a little, so that the other end moves too
-            step = min(max(step + 4 * (step - x), low), high)
-        if step in (low, high):  # neighbouring floats: no further step exists
-            break
-        x = step
-    return x
+def bracketed_root(value: Function, low: float, high: float) -> float:
+    """Return the root of `value` between `low` and `high`, where it changes sign, by Chandrupatla's method."""
+    return root(value, low, high, value(low), value(high))
 
 
 def sign_changes(
@@ -138,6 +111,8 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
     Steps are by inverse quadratic interpolation where its condition is satisfied, else by bisection. T. R.
     Chandrupatla, Advances in Engineering Software 28 (1997) 145-149.
     """
+    if at_low == 0 or at_high == 0:
+        return low if at_low == 0 else high
     a, b, at_a, at_b = low, high, at_low, at_high
     share = 0.5
     for _ in range(_MOST_STEPS):

@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.report.document import Branch as Branch
@@ -59,50 +59,19 @@ if TYPE_CHECKING:
     from geartrain.report.train_report import describe_shared_page as describe_shared_page
     from geartrain.report.train_report import describe_train as describe_train
 
-__all__ = [
-    "Branch",
-    "Document",
-    "FormulaReport",
-    "MotionFigures",
-    "Picture",
-    "Section",
-    "Table",
-    "TorqueReport",
-    "TrainReport",
-    "answer_schema",
-    "collect_formulas",
-    "collect_motion",
-    "collect_report",
-    "collect_torque_report",
-    "describe_answer",
-    "describe_comparison",
-    "describe_formulas",
-    "describe_gear_search",
-    "describe_gearbox",
-    "describe_motion",
-    "describe_shared_page",
-    "describe_torques",
-    "describe_train",
-    "to_html",
-    "to_markdown",
-    "to_text",
-]
-
-_PLACES = {
-    **dict.fromkeys(("Branch", "Document", "Picture", "Section", "Table"), "document"),
-    **dict.fromkeys(("FormulaReport", "collect_formulas", "describe_formulas"), "formula_report"),
-    **dict.fromkeys(("describe_gear_search", "describe_gearbox"), "gearbox_report"),
-    "to_html": "html_page",
-    **dict.fromkeys(("answer_schema", "describe_answer"), "json_schema"),
-    **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_report"),
-    "describe_motion": "motion_report",
-    "describe_comparison": "reconstruction_comparison",
-    "describe_shared_page": "train_report",
-    **dict.fromkeys(("to_markdown", "to_text"), "text"),
-    **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_report"),
-    "describe_torques": "torque_report",
-    **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
-    "describe_train": "train_report",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "document": "Branch Document Picture Section Table",
+        "formula_report": "FormulaReport collect_formulas describe_formulas",
+        "gearbox_report": "describe_gear_search describe_gearbox",
+        "html_page": "to_html",
+        "json_schema": "answer_schema describe_answer",
+        "motion_report": "MotionFigures collect_motion describe_motion",
+        "reconstruction_comparison": "describe_comparison",
+        "text": "to_markdown to_text",
+        "torque_report": "TorqueReport collect_torque_report describe_torques",
+        "train_data": "TrainReport collect_report",
+        "train_report": "describe_shared_page describe_train",
+    },
+)

@@ -13,8 +13,7 @@ from itertools import islice, zip_longest
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import abridged_text, decimal, fraction_text
-from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
+from geartrain.numerics.exact import abridged_text, decimal, fraction_text, pi_text, touches_pi
 from geartrain.numerics.results import Shown, field_docs, imported_function, summary_line
 
 MOST_ROWS = 120

@@ -168,7 +168,9 @@ def inline(svg: str, number: int) -> str:
 def _anchors(document: Document, prefix: str) -> _Anchors:
     aside = document.aside
     sections = [section.title for section in (*document.sections, *aside.sections)]
-    first = [WORDS[key] for key in ("viewer", "pictures") if getattr(aside, key)]
+    # the first picture of a report with a badge is in its opening
+    shown = {"viewer": aside.viewer, "pictures": aside.pictures[1 if aside.badge and document.sections else 0 :]}
+    first = [WORDS[key] for key, content in shown.items() if content]
     titles = [*first, *sections, *([WORDS["sources"]] if aside.references else [])]
     marks = list(_marks(titles, prefix))
     where = dict(zip(first, marks, strict=False))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import degrees, tau
+from math import degrees
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.errors import GearTrainError
@@ -73,8 +73,8 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state; angles
-    in rad.
+    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state;
+    angles in rad, and travels of links that slide in mm.
 
     See Also
     --------
@@ -327,7 +327,7 @@ def motion_document(found: Motion | MotionRun) -> Document | None:
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
     """Yield sections on the outputs, on the pairs that cause their deviations, and on the requested further results."""
-    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics, run.motion._problem.deviation),))
+    yield Section("Outputs", tuple(_remarks(run)), tuple(_outputs(run.statistics, run.motion._problem.deviation)))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
         yield from _steps(run.motion)
@@ -360,7 +360,7 @@ def moving_sections(
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
         rippling = [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
-        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(rippling, run.motion._problem.deviation),))
+        yield Section(head, (text, *holds, *_remarks(run)), tuple(_outputs(rippling, run.motion._problem.deviation)))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
@@ -377,14 +377,23 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
     return f"These pairs keep their ratio at every instant and contribute no transmission error: {words}."
 
 
-def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
-    rows = []
-    for tally in tallies:
-        # a mean speed of 0 cannot be the divisor
-        speeds = _speeds(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
-        mean = figure(tally.ratio, 9) + (" mm" if tally.slides else "")
-        rows.append((tally.name, mean, *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds))
-    return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
+def _outputs(tallies: list[RunningStatistics], deviation: str) -> Iterator[Table]:
+    """Yield a table of outputs that turn, and one of links that slide, if there are any."""
+    for slides, own in _by_unit(tallies):
+        rows = []
+        for tally in own:
+            # a mean speed of 0 cannot be the divisor
+            speeds = _speeds(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
+            rows.append((tally.name, figure(tally.ratio, 9), *_amounts(slides, tally.peak_to_peak, tally.rms), speeds))
+        mean = "mean travel (mm per turn)" if slides else "mean speed"
+        yield Table(("output", mean, *_deviation_heads(deviation, slides), "speed / mean speed"), rows)
+
+
+def _by_unit(tallies: Sequence[RunningStatistics]) -> Iterator[tuple[bool, list[RunningStatistics]]]:
+    """Yield the outputs that turn with False, and those that slide with True; nothing for an empty group."""
+    for slides in (False, True):
+        if own := [tally for tally in tallies if tally.slides == slides]:
+            yield slides, own
 
 
 def _speeds(low: float, high: float) -> str:
@@ -392,8 +401,12 @@ def _speeds(low: float, high: float) -> str:
     return f"{round(low, 5) + 0.0:.5f}..{round(high, 5) + 0.0:.5f}"
 
 
-def _deviation_heads(deviation: str) -> tuple[str, str]:
-    return f"{deviation} p-p (deg)", f"{deviation} rms (deg)"
+def _unit(slides: bool) -> str:
+    return "mm" if slides else "deg"
+
+
+def _deviation_heads(deviation: str, slides: bool) -> tuple[str, str]:
+    return f"{deviation} p-p ({_unit(slides)})", f"{deviation} rms ({_unit(slides)})"
 
 
 def _remarks(run: MotionRun) -> Iterator[str]:
@@ -404,7 +417,7 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"holds it. Not computed: the position of {', '.join(sorted(run.motion._problem.behind))} within a step."
         )
     if run.reversing_drivers:
-        composition = run.motion._forward if run.turns >= 0 else run.motion._backward
+        composition = run.motion._composition(run.turns)
         names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)
         yield (
             f"The driver of {names} temporarily turns backwards. Then the other flanks drive, and the crossing of the "
@@ -415,8 +428,11 @@ def _remarks(run: MotionRun) -> Iterator[str]:
     if not all(tally.searched for tally in run.statistics):
         from geartrain.dynamics.motion.superposition import Superposition
 
-        bounds = Superposition(run.motion._forward if run.turns >= 0 else run.motion._backward).bounds
-        limits = (f"{name} {degrees(most):.5g} deg" for name, most in zip(run.motion.outputs, bounds, strict=True))
+        bounds = Superposition(run.motion._composition(run.turns)).bounds
+        limits = (
+            f"{tally.name} {tally.degrees_or_mm * most:.5g} {_unit(tally.slides)}"
+            for tally, most in zip(run.statistics, bounds, strict=True)
+        )
         yield (
             "The run is too long to search every pitch, so extremes are those of the computed positions; a shorter run "
             f"is searched completely. The {run.motion._problem.deviation} p-p is at most {', '.join(limits)}."
@@ -439,7 +455,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """Return a table of the peak-to-peak contribution [deg] of each pair to the deviation of some outputs."""
+    """Return a table of the peak-to-peak contribution [deg or mm] of each pair to the deviation of some outputs."""
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]
@@ -447,7 +463,13 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
         reaches = {name: abs(motion.sensitivity[name][source.id]) * (high - low) for name in outputs}
         given = [_amount(name in motion._sliding, reach, 4) for name, reach in reaches.items()]
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
-    header = ("pair", "driving wheel", "basis", "periods a turn", *(f"{name} (deg)" for name in outputs))
+    header = (
+        "pair",
+        "driving wheel",
+        "basis",
+        "periods a turn",
+        *(f"{name} ({_unit(name in motion._sliding)})" for name in outputs),
+    )
     return Table(header, rows, wide=True)
 
 
@@ -466,36 +488,44 @@ def _steps(motion: Motion) -> Iterator[Section]:
 
 
 def _random_phases(run: MotionRun) -> Section:
-    rows = []
-    for at, tally in enumerate(run.statistics):
-        sets = [tallies[at] for tallies in run.phase_statistics]
-        errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
-        lows, highs = zip(*(each.speeds for each in sets), strict=True)
-        rows.append((tally.name, *errors, _speeds(min(lows), max(highs))))
-    header = ("output", *_deviation_heads(run.motion._problem.deviation), "speed / mean speed")
+    tables = []
+    for slides, own in _by_unit(run.statistics):
+        rows = []
+        for tally in own:
+            sets = [tallies[run.statistics.index(tally)] for tallies in run.phase_statistics]
+            ranges = _phase_range(sets) or ()
+            errors = ("..".join(f"{tally.degrees_or_mm * end:.5g}" for end in ends) for ends in ranges)
+            lows, highs = zip(*(each.speeds for each in sets), strict=True)
+            rows.append((tally.name, *errors, _speeds(min(lows), max(highs))))
+        heads = _deviation_heads(run.motion._problem.deviation, slides)
+        tables.append(Table(("output", *heads, "speed / mean speed"), rows))
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
-    return Section("Random phases", (text,), (Table(header, rows),))
+    return Section("Random phases", (text,), tuple(tables))
 
 
 def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
-    rows = []
-    for name, each in found.items():
-        true = each.true
-        rows += [
-            (name, "composed", *_amounts(true.slides, true.peak_to_peak, true.rms), "0", "0"),
-            ("", "bound by the sum", *_amounts(true.slides, each.bound), "-", "-", "-"),
-            ("", "independent phases", "-", *_amounts(true.slides, each.independent), "-", "-"),
-        ]
-        for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
-            own, off = superposed.own, superposed.off
-            rows.append(("", how, *_amounts(true.slides, own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
-    differences = ("maximum difference (deg)", "rms difference (deg)")
-    header = ("output", "method", f"{deviation} p-p (deg)", "rms (deg)", *differences)
+    tables = []
+    for slides, own in _by_unit([each.true for each in found.values()]):
+        rows = []
+        for true in own:
+            each = found[true.name]
+            rows += [
+                (true.name, "composed", *_amounts(slides, true.peak_to_peak, true.rms), "0", "0"),
+                ("", "bound by the sum", *_amounts(slides, each.bound), "-", "-", "-"),
+                ("", "independent phases", "-", *_amounts(slides, each.independent), "-", "-"),
+            ]
+            for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
+                mine, off = superposed.own, superposed.off
+                amounts = mine.peak_to_peak, mine.rms, superposed.maximum, off.rms
+                rows.append(("", how, *_amounts(slides, *amounts)))
+        differences = (f"maximum difference ({_unit(slides)})", f"rms difference ({_unit(slides)})")
+        heads = (f"{deviation} p-p ({_unit(slides)})", f"rms ({_unit(slides)})", *differences)
+        tables.append(Table(("output", "method", *heads), rows))
     text = (
         "Approximations compared with the composed motion, all at the sampled positions only. Differences are "
         "pointwise, after subtraction of each mean."
     )
-    return Section("Estimates", (text,), (Table(header, rows),))
+    return Section("Estimates", (text,), tuple(tables))
 
 
 def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
@@ -503,10 +533,10 @@ def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
 
 
 def _amount(slides: bool, value: float, digits: int = 6) -> str:
-    """Return an angle in degrees as a string, or the travel of a link that slides with its unit."""
+    """Return an angle in degrees as a string, or the travel of a link that slides in mm."""
     # joints that cancel leave rounding errors
     value = value if abs(value) > _ROUNDING else 0.0
-    return f"{value / tau:.{digits}g} mm" if slides else f"{degrees(value):.{digits}g}"
+    return f"{value if slides else degrees(value):.{digits}g}"
 
 
 def _spectrum(name: str, lines: list[SpectrumLine], slides: bool) -> Section:
@@ -515,6 +545,12 @@ def _spectrum(name: str, lines: list[SpectrumLine], slides: bool) -> Section:
         sources = ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares)
         amplitudes = _amounts(slides, line.expected, line.measured)
         rows.append((str(line.order), figure(float(line.order), 8), sources, *amplitudes))
-    header = ("order", "per turn of the input", "pair and harmonic", "expected (deg)", "measured (deg)")
+    header = (
+        "order",
+        "per turn of the input",
+        "pair and harmonic",
+        f"expected ({_unit(slides)})",
+        f"measured ({_unit(slides)})",
+    )
     text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))

@@ -11,6 +11,7 @@ from geartrain.wings import WingResult, has_wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics.clock_rate import Timekeeping
     from geartrain.errors import Problem
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.buildability import BuildFinding
@@ -101,7 +102,7 @@ class TrainReport(TrainAnswers):
         *("name", "title", "unit", "mobility", "states", "gridlock", "closure", "sources"),
         Key("circuits", keys=("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")),
         *("adjacency", "build_findings", Key("remarks", keys=("place", "what", "why")), "sensitivity"),
-        *("teeth", "pins", "couplings", "torques", "strength", "motion", "errata"),
+        *("teeth", "pins", "couplings", "torques", "timekeeping", "strength", "motion", "errata"),
     )
 
     gridlock: Gridlock
@@ -130,6 +131,8 @@ class TrainReport(TrainAnswers):
     """Other couplings with a variable ratio, such as universal joints."""
     torques: tuple[TorqueFigures, ...]
     """Torques in every state with loads or bearing friction."""
+    timekeeping: tuple[Timekeeping, ...]
+    """Energy, amplitude and rate of a clock in every state with a load or a drive; empty without an escapement."""
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
@@ -191,6 +194,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in uncertainties),
         **_teeth_and_motion(train, whole),
         torques=_torques(train, loaded),
+        timekeeping=_timekeeping(train) if whole and declared.escapement is not None else (),
         strength=tuple(train.strength(state) for state in loaded if _has_strength(declared, state)),
         errata=tuple(declared.errata),
     )
@@ -202,6 +206,14 @@ def _torques(train: GearTrain, loaded: Sequence[str | None]) -> tuple[TorqueFigu
     from geartrain.report.torque_report import collect_torques
 
     return tuple(collect_torques(train, train.torques(state)) for state in loaded)
+
+
+def _timekeeping(train: GearTrain) -> tuple[Timekeeping, ...]:
+    from geartrain.dynamics.clock_rate import find_timekeeping
+
+    cases = (train.mechanics.unfolded.load_case(state) for state in train.kinematics.usable_states)
+    found = (find_timekeeping(case) for case in cases if case is not None)
+    return tuple(each for each in found if each is not None)
 
 
 def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:

@@ -38,13 +38,13 @@ from geartrain.report.document import (
 from geartrain.report.formula_report import formula_section
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Link, Source, Train, Wheel
-from geartrain.train.fusees import FuseeSpring
 from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
+    from geartrain.train.fusees import FuseeSpring
 
 
 _CIRCUITS_ABREAST = 6  # columns of circuits that fit into one table
@@ -54,6 +54,8 @@ _LETTERS = {"": ".", "revolute": "R", "prismatic": "P", "gear": "G", "several": 
 SOURCES = "Sources"
 """Title of the section of references; an HTML page has a list of links instead."""
 
+_MOST_SHORT = 30  # rows of the table of a notebook
+_MATRIX = "Adjacency matrix"
 _SIDES = ("above", "below", "behind")  # viewing sides that are written without an article
 
 
@@ -97,6 +99,16 @@ def describe_train(found: TrainReport) -> Document:
 def describe_answers(found: TrainReport) -> Document:
     """Return the report on a train without its detail sections (formulas, circuits, structure, errata, sources)."""
     return without_details(describe_train(found))
+
+
+def describe_in_short(train: GearTrain) -> Document:
+    """Return the verdict on a train with the table of its outputs or states, for a notebook."""
+    answers, declared = list(train.answers()), train.declaration
+    name = f"{declared.name}: {declared.title}" if declared.title else declared.name
+    summary = [line for line in _summary(train, answers) if "Verdict:" in line or line.startswith("Speeds are")]
+    first = next(_answers(train, answers))
+    tables = [replace(table, rows=cut(table.rows, most=_MOST_SHORT)) for table in first.tables]
+    return Document(name, summary, [replace(first, tables=tables)])
 
 
 def _details(found: TrainReport) -> Iterator[Section]:
@@ -164,6 +176,10 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
         from geartrain.report.torque_report import loaded_sections
 
         yield from loaded_sections(found.torques)
+    for clock in found.timekeeping:
+        from geartrain.report.clock_report import timekeeping_section
+
+        yield timekeeping_section(clock)
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
     if found.motion or found.teeth:
@@ -180,7 +196,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
         if drive is not None and drive.spring is not None and (chained := drive.spring.chained) is not None:
             runs.setdefault(chained, state)
     for chained, state in runs.items():
-        run, turns = chained.run(), chained.fusee.turns
+        run = chained.run()
         rows = [
             ("torque, fully wound", f"{run.first:.6g} N m"),
             ("torque at the end", f"{run.last:.6g} N m"),
@@ -188,7 +204,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
             ("minimum torque", f"{run.minimum:.6g} N m after {run.minimum_at:.4g} turns"),
             ("mean torque", f"{run.mean:.6g} N m"),
         ]
-        if chained.fusee.torque is not None:
+        if chained.constant is not None:
             rows = [("torque", f"{run.mean:.6g} N m")]
         rows += [
             ("radius of the fusee", f"{1000 * run.radii[0]:.5g} mm to {1000 * run.radii[1]:.5g} mm"),
@@ -196,7 +212,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
             ("winding left", f"{run.left:.5g} turns"),
             ("energy", f"{run.energy:.6g} J"),
         ]
-        text = f"Torque of the spring at its fusee over {turns} turns of the fusee, without friction."
+        text = f"Torque of the spring at its fusee over {chained.turns:g} turns of the fusee, without friction."
         yield Section(titled(state, "fusee"), (text,), (Table(("quantity", "value"), rows),))
 
 
@@ -267,7 +283,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
     couplings = ", C coupling" if train.declaration.couplings else ""
     slides = ", P sliding pair" if train.declaration.slides else ""
     text = f"R turning pair{slides}, G gear pair{couplings}, + several; columns by last digit."
-    yield Section("Adjacency matrix", (text,), (Table(("link", head), rows, wide=True),))
+    yield Section(_MATRIX, (text,), (Table(("link", head), rows, wide=True),))
 
 
 def _note(link: Link) -> str:
@@ -450,8 +466,10 @@ def describe_shared_page(
     references = {
         key: SourceReference(each.cite, each.url or "", each.note or "") for key, each in declared.sources.items()
     }
-    aside = PageExtras(badge, sound, tuple(notes), tuple(pictures), viewer, wheels, references)
+    folded = tuple(replace(section, detail=True) for section in wheels)
+    aside = PageExtras(badge, sound, tuple(notes), tuple(pictures), viewer, folded, references)
     shown = [section for section in document.sections if section.title != SOURCES]
+    shown = [replace(section, detail=section.detail or section.title == _MATRIX) for section in shown]
     return replace(document, sections=shown, aside=aside)
 
 

@@ -16,6 +16,7 @@ bodies          links and wheels with their teeth; flexible wheels of strain wav
 joints          gear pairs, and pins in slots
 movement        exact speeds and transmission errors, as tables and steps; evaluated by `pose`
 scene_run       a simulated motion as it is replayed on a page
+displays        figures, road wheels and the kind of drive
 dial_scale      scales of dials and their engraving; dials, pointers, dates and mean motions are in `dial_pointers`
 stroke_letters  letters as strokes, outlines of hands
 palette         colours of the themes
@@ -66,6 +67,7 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import PointerTarget as PointerTarget
     from geartrain.scene.train_scene import Scene as Scene
     from geartrain.scene.train_scene import SceneEpoch as SceneEpoch
+    from geartrain.scene.train_scene import TourStop as TourStop
 
 __all__ = [
     "AxisPlace",
@@ -96,6 +98,7 @@ __all__ = [
     "SolidModel",
     "SolidPart",
     "ToothProfile",
+    "TourStop",
     "WheelPlace",
     "build_scene",
     "lay_out",
@@ -114,7 +117,7 @@ _PLACES = {
     "ManufacturingSizes": "solids.manufacturing_sizes",
     "SolidModel": "solids.solid_assembly",
     "SolidPart": "solids.solid_part",
-    **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch"), "train_scene"),
+    **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch", "TourStop"), "train_scene"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

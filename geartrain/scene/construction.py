@@ -30,12 +30,13 @@ from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.coupling_shapes import find_shapes
 from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
+from geartrain.scene.displays import drive_kind, find_displays, fusee_radii, upwards
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
 from geartrain.scene.movement import MovementStart, find_movement
 from geartrain.scene.scene_run import find_run
-from geartrain.scene.train_scene import Scene
+from geartrain.scene.train_scene import Scene, TourStop
 from geartrain.train import Output
 
 if TYPE_CHECKING:
@@ -400,6 +401,7 @@ def make_scene(
     notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
     pointers = find_pointers(stage, dials)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
+    shapes, rods = find_shapes(stage)
     pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
@@ -411,6 +413,9 @@ def make_scene(
         front=stage.layout.front,
         driving_link=None if stage.driving_link is None else stage.body[stage.driving_link],
         crank=None if stage.crank is None else stage.body[stage.crank],
+        drive=drive_kind(stage),
+        fusee=fusee_radii(stage),
+        up=upwards(stage),
         step=fraction_text(stage.step),
         verdict=verdict,
         bodies=bodies,
@@ -419,7 +424,8 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
-        shapes=find_shapes(stage),
+        shapes=(*shapes, *find_displays(stage)),
+        hangers=rods,
         dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
         pointers=pointers,
         movement=moved.movement,
@@ -429,6 +435,7 @@ def make_scene(
         unit_days=exact(declared.unit_days),
         elements=find_elements(stage, state),
         epoch=find_epoch(stage),
+        tour=tuple(TourStop(declared.tour_parts[step.look_at], step.look_at, step.text) for step in declared.tour),
         formulas=find_count_formulas(folded, state, bodies, wheels, pointers) if formulas and run is None else None,
         asks=bool(stage.case.outputs),
         run=None if run is None else find_run(stage, run, moves, moved.movement, wheels, pairs, couplings),

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.arrays import packed
-from geartrain.numerics.exact import decimal, fraction_text
-from geartrain.numerics.multiples_of_pi import pi_text, touches_pi
+from geartrain.numerics.exact import decimal, fraction_text, pi_text, touches_pi
 from geartrain.numerics.quantity import turns_in
 from geartrain.numerics.results import Key
 from geartrain.numerics.vectors import Vector, dot, unit_or_z
@@ -116,8 +115,8 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def line(self, axis: str) -> Vector:
-        """Return the unit direction in which links slide on an axis: as declared, along the axis of a screw, otherwise
-        along x.
+        """Return the unit direction in which links slide on an axis: as declared, along the axis of a screw, vertical
+        for the weight of a drum so that it falls as the train runs, otherwise along x.
         """
         declared = self.train.declaration.axes.get(axis)
         if declared is not None and "direction" in declared.model_fields_set:
@@ -126,7 +125,16 @@ class SceneContext:
         screws = (each for each in self.train.circuits if each.kind == "screw")
         found = (seen_from(each.carrier, each.j) for each in screws if seen_from(each.carrier, each.i) == axis)
         screw = next(found, None)
-        return (1.0, 0.0, 0.0) if screw is None else self.reference(screw)
+        if screw is not None:
+            return self.reference(screw)
+        from geartrain.teeth.couplings.travel import Drum
+
+        tree = self.train.kinematics.tree
+        drums = (each for each in self.train.declaration.couplings if isinstance(each, Drum))
+        drum = next((each for each in drums if tree.axis(each.slides) == axis), None)
+        if drum is None or abs(self.reference(tree.axis(drum.turns))[1]) > 0.5:  # an axis that is not horizontal
+            return (1.0, 0.0, 0.0)
+        return (0.0, 1.0 if (self.speed(drum.slides) or 0) < 0 else -1.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:
         """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel

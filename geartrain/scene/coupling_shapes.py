@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.numerics.quantity import Quantity
 from geartrain.numerics.vectors import Vector, across, cross, dot, foot, minus, plus, scaled, size, unit, unit_or_z
-from geartrain.scene.elements import ScenePart
+from geartrain.scene.elements import SceneHanger, ScenePart
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
@@ -74,6 +74,18 @@ class _CouplingPlace:
         name, body = f"{self.circuit.id} {kind}", self.stage.body[link]
         return ScenePart(body, name, kind, at, direction, beside_axis(direction), ((low, high, radius, 0.0),))
 
+    def rod(self, link: str, to: str, at: Vector, way: Vector, length: float, radius: float) -> SceneHanger:
+        """Return a rod or a rope from a point of one link along `way` to a point of another link."""
+        body = self.stage.body
+        return SceneHanger("rod", body[link], at, self.axis, way, length, 0.0, radius, to=body[to])
+
+    def guides(self, at: Vector, way: Vector, aside: float, reach: float) -> Iterator[ScenePart]:
+        """Yield two bars on the carrier along a slide, on both sides of its line and at the distance `aside` [mm]."""
+        up, high = cross(self.axis, way), 0.15 * aside
+        for side in (1, -1):
+            bar = _bar((-reach, 0.0), (reach, 0.0), 2 * high)
+            yield self.flat(self.circuit.carrier, "guide", plus(at, up, side * (aside + high)), way, bar)
+
 
 def beside_axis(axis: Vector) -> Vector:
     """Return a unit vector perpendicular to an axis."""
@@ -81,10 +93,11 @@ def beside_axis(axis: Vector) -> Vector:
     return unit(across(start, axis))
 
 
-def find_shapes(stage: SceneContext) -> tuple[ScenePart, ...]:
-    """Return the shapes of all couplings other than pins, in the order declared."""
+def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[SceneHanger, ...]]:
+    """Return the shapes of all couplings other than pins, in the order declared, and their rods and ropes."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     found: list[ScenePart] = []
+    rods: list[SceneHanger] = []
     for coupling in stage.train.declaration.couplings:
         draw = _SHAPES.get(coupling.kind)
         if draw is None:
@@ -92,8 +105,9 @@ def find_shapes(stage: SceneContext) -> tuple[ScenePart, ...]:
         level = len({part.place for part in found})
         rows = [circuits[row.id] for row in coupling.rows(stage.train.declaration.wheels)]
         places = [_placed(stage, coupling, circuit, level) for circuit in rows]
-        found += draw(places)
-    return tuple(found)
+        for each in draw(places):
+            (rods if isinstance(each, SceneHanger) else found).append(each)
+    return tuple(found), tuple(rods)
 
 
 def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: int) -> _CouplingPlace:
@@ -172,7 +186,9 @@ def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier."""
+    """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier; a belt
+    with an idle pulley is off.
+    """
     first = places[0]
     ends = (first.circuit.j, *(place.circuit.i for place in places))
     points = (first.driver_at, *(place.driven_at for place in places))
@@ -187,9 +203,21 @@ def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
             circle(0.14 * radius, (0.55 * radius * cos(turn), 0.55 * radius * sin(turn))) for turn in (0, 2.1, 4.2)
         ]
         yield first.flat(link, "pulley", point, x, circle(rim), *holes)
+    if any(_is_idle(first.stage, link) for link in ends):
+        return
     width = max(0.08 * min(radii), 0.8)
     for outline in belt_outlines(flat, radii, senses, width):
         yield first.flat(first.circuit.carrier, "belt", origin, x, outline, height=0.8 * _THICK)
+
+
+def _is_idle(stage: SceneContext, link: str) -> bool:
+    """Return True if a link turns with one coupling only, and the clutches that could lock it are open in the state."""
+    declared, case = stage.train.declaration, stage.case
+    clutches = {name: each for name, each in declared.clutches.items() if link in (*(each.locks or ()), each.fixes)}
+    locked = any(name in case.engaged or each.one_way for name, each in clutches.items())
+    if not clutches or locked or link in case.inputs:
+        return False
+    return sum(link in (circuit.i, circuit.j) for circuit in stage.train.circuits) == 1
 
 
 def _pulley_radii(stage: SceneContext, declared: Any, ends: Sequence[str], flat: Sequence[Point]) -> list[float]:
@@ -401,6 +429,9 @@ def _rack(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
         teeth += [((at + share) * p, -side * height * module) for share, height in shape]
     ends = [(teeth[-1][0], side * 3.5 * module), (teeth[0][0], side * 3.5 * module)]
     yield place.flat(declared.slides, "rack", line, way, [*teeth, *ends])
+    # the rail behind the rack, which the pinion pushes against it
+    rail = _bar((-0.6 * many * p, side * 4.2 * module), (0.6 * many * p, side * 4.2 * module), 1.2 * module)
+    yield place.flat(place.circuit.carrier, "guide", line, way, rail, height=1.5 * _THICK)
 
 
 def _screw(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
@@ -417,24 +448,41 @@ def _screw(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     name, body = f"{place.circuit.id} screw", place.stage.body[declared.turns]
     yield ScenePart(body, name, "screw", place.driver_at, place.axis, beside_axis(place.axis), tuple(bands))
     nut = [(1.8 * radius * cos(pi * at / 3), 1.8 * radius * sin(pi * at / 3)) for at in range(6)]
-    yield place.flat(declared.slides, "nut", place.driver_at, place.towards, nut, circle(radius), height=2 * lead)
+    rods = [(1.45 * radius * cos(turn), 1.45 * radius * sin(turn)) for turn in (0.0, pi)]
+    holes = (circle(0.16 * radius, rod) for rod in rods)
+    yield place.flat(
+        declared.slides, "nut", place.driver_at, place.towards, nut, circle(radius), *holes, height=2 * lead
+    )
+    for x, _ in rods:  # which keep the nut from turning
+        middle, end = plus(place.driver_at, place.towards, x), turns * lead / 2
+        yield place.turned(place.circuit.carrier, "guide", middle, 0.14 * radius, -end, end)
 
 
-def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a drum, the cord that leaves it, and a block for the sliding link."""
+def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]:
+    """Yield a drum, the falls of rope that leave it, and the weight of the sliding link, with its pulley if there are
+    several falls.
+    """
     place = places[0]
     declared, way = place.declared, _along_slide(place)
     radius = millimetres_of(declared.diameter, 20.0) / 2
     yield place.turned(declared.turns, "drum", place.driver_at, radius, -2 * _THICK, 2 * _THICK)
-    side = cross(way, place.axis)
-    start = plus(place.driver_at, side, -radius if declared.reversed else radius)
-    end = plus(start, way, 4 * radius)
-    yield place.turned(declared.slides, "cord", start, 0.04 * radius + 0.2, 0.0, 4 * radius, way)
-    yield place.turned(declared.slides, "weight", end, 0.6 * radius, 0.0, 1.6 * radius, way)
+    side = scaled(cross(way, place.axis), -1.0 if declared.reversed else 1.0)
+    hang = scaled(way, -1.0 if (place.stage.speed(declared.slides) or 0) < 0 else 1.0)
+    start, apart, long = plus(place.driver_at, side, radius), 0.5 * radius, 4 * radius
+    last = (declared.falls - 1) * apart
+    for fall in range(declared.falls):
+        at, link = plus(start, side, fall * apart), place.circuit.carrier
+        yield place.rod(link, declared.slides, at, hang, long, 0.04 * radius + 0.2)
+    middle = plus(plus(start, side, last / 2), hang, long)
+    if last:
+        yield place.turned(declared.slides, "pulley", middle, last / 2, -0.4 * _THICK, 0.4 * _THICK)
+    top = last / 2 + 0.1 * radius
+    yield place.turned(declared.slides, "cord", middle, 0.04 * radius + 0.2, 0.0, top, hang)
+    yield place.turned(declared.slides, "weight", plus(middle, hang, top), 0.6 * radius, 0.0, 1.6 * radius, hang)
 
 
-def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the crank of a crank slider with its pin, and the block of the sliding link; the rod is not drawn."""
+def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]:
+    """Yield the crank of a crank slider with its pin, its rod, and the block of the sliding link between its guides."""
     place = places[0]
     declared, way = place.declared, _along_slide(place)
     radius, rod = (millimetres_of(length, 10.0) for length in (declared.radius, declared.rod))
@@ -442,6 +490,10 @@ def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     yield place.turned(declared.turns, "pin", plus(place.driver_at, way, radius), 0.1 * radius, -_THICK, _THICK)
     block = plus(place.driver_at, way, radius + rod)
     w, h = 0.5 * radius, 0.35 * radius
+    front = plus(place.driver_at, place.axis, _THICK)
+    yield place.rod(declared.turns, declared.slides, plus(front, way, radius), way, rod, 0.08 * radius)
+    yield place.turned(declared.slides, "pin", block, 0.1 * radius, -_THICK, 1.5 * _THICK)
+    yield from place.guides(plus(block, way, -radius), way, h, radius + w)
     yield place.flat(declared.slides, "block", block, way, [(-w, -h), (w, -h), (w, h), (-w, h)])
 
 
@@ -492,7 +544,7 @@ def _fork(
     return ScenePart(stage.body[link], name, "fork", centre, unit(cross(way, pin)), way, (), [flat], 0.35 * wide)
 
 
-_SHAPES: Mapping[str, Callable[[Sequence[_CouplingPlace]], Iterator[ScenePart]]] = {
+_SHAPES: Mapping[str, Callable[[Sequence[_CouplingPlace]], Iterator[Any]]] = {
     "belt": _belt,
     "ratio": _box,
     "elliptical": _rolling,

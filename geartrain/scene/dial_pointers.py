@@ -29,7 +29,7 @@ from geartrain.numerics.vectors import Vector, beside, cross, dot, minus, plus, 
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.dial_scale import DialScale, engrave, scale_of
 from geartrain.scene.layout import AxisPlace, WheelPlace
-from geartrain.scene.stroke_letters import HANDS, Stroke
+from geartrain.scene.stroke_letters import HANDS, Stroke, hand_with_ball
 from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch
 from geartrain.train.outputs import RING, looks_away
 
@@ -145,6 +145,8 @@ _APART = 0.96  # maximum sum of the radii of two neighbours, divided by their di
 _SPIRAL = 1.8  # radius of a spiral divided by that of a circle next to it
 _NESTED = 0.74  # radius divided by that of the dial around it
 _OUT, _BALL = 0.5, 0.07  # distance of a ball from the axis, and its radius, divided by the radius of its dial
+_SPHERE, _INWARDS = (0.78, 0.05), 0.12  # reach of a sphere and its radius over that of its scale; less for the next one
+_RINGS, _BEAD = (0.12, 0.7), 0.035  # radii of the rings of beads, and maximum radius of a bead, in the same way
 _LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes divided by the radius of the dial
 _PARTS = 4000  # integer units of an engraving in a radius
 _SAME = 1e-6  # mm
@@ -156,7 +158,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
     """Return each declared dial with outputs, once for each link that carries it and each pointer axis."""
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
-    width = _train_width(stage)
+    width = train_width(stage)
     for name, output in stage.outputs.items():
         dial = declared.dials.get(output.dial or "")
         key = dial_key(stage, name)
@@ -263,7 +265,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
     return scaled(normal, -1.0) if away else normal
 
 
-def _train_width(stage: SceneContext) -> float:
+def train_width(stage: SceneContext) -> float:
     """Return the maximum minus the minimum of all x and y coordinates of the wheels [mm]."""
     places = stage.layout.wheels.values()
     if not places:
@@ -280,7 +282,7 @@ def _side_width(stage: SceneContext, normal: Vector) -> float:
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
-    return max(min((_extent(stage, way) for way in ways), default=inf), _MINIMUM * _train_width(stage))
+    return max(min((_extent(stage, way) for way in ways), default=inf), _MINIMUM * train_width(stage))
 
 
 def _extent(stage: SceneContext, way: Vector) -> float:
@@ -343,17 +345,36 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
     order.
     """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
-    found = []
+    found, spheres = [], 0
     for name in stage.outputs:
         pointer = _pointer(stage, name, keys, paths.get(name, ()))
         if pointer.dial is not None:
             face = dials[keys[pointer.dial]]
-            hand = HANDS[stage.outputs[name].hand]
+            shape = stage.outputs[name].hand
+            orbit = _orbit(stage, name, face) if shape == "bead" else (_SPHERE[0] - spheres * _INWARDS, _SPHERE[1])
+            spheres += shape == "sphere"
+            ball = {"sphere": _SPHERE[1], "bead": orbit[1]}.get(shape, 0.0)
+            hand = hand_with_ball(*orbit) if ball else HANDS.get(shape, HANDS["needle"])
             level = face.radius * (_LOWEST + _STEP * taken[face.id])
-            pointer = replace(pointer, level=level, reach=hand.reach, outline=hand.stations)
+            pointer = replace(
+                pointer, level=level, reach=hand.reach, outline=hand.stations, hand=shape, ball=ball * face.scale.outer
+            )
             taken[face.id] += 1
         found.append(pointer)
     return tuple(found)
+
+
+def _orbit(stage: SceneContext, name: str, face: DialFace) -> tuple[float, float]:
+    """Return the outer reach and the radius of a bead, relative to the radius of the scale.
+
+    The beads of a dial have equidistant rings within the scale, the first output innermost.
+    """
+    dial = stage.outputs[name].dial
+    rings = [each for each, output in stage.outputs.items() if output.hand == "bead" and output.dial == dial]
+    inner, outer = _RINGS
+    step = (outer - inner) / len(rings)
+    ball = min(_BEAD, 0.4 * step)
+    return inner + step * (rings.index(name) + 0.5) + ball, ball
 
 
 def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:

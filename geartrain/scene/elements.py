@@ -52,19 +52,21 @@ class ScenePart(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneHanger(Shown):
-    """Part that hangs on a train: a pendulum, the line of a weight, or the weight.
+    """Part that hangs on a train, such as a pendulum, the line of a weight or the weight, or that connects two bodies.
 
     See Also
     --------
     build_scene : returns it in `Scene.hangers`.
     """
 
-    kind: Literal["pendulum", "line", "weight"]
-    """Kind of the part: a pendulum swings with its escape wheel; a weight falls on its line as the barrel turns."""
+    kind: Literal["pendulum", "line", "weight", "rod"]
+    """Kind of the part: a pendulum swings with its escape wheel; a weight falls on its line as the barrel turns; a
+    rod or a rope extends from a point of one body to a point of another.
+    """
     body: int
-    """Index of the body whose rotation moves the part."""
+    """Index of the body whose rotation moves the part, or of the body at the start of a rod."""
     point: Vector
-    """Point of suspension [mm]."""
+    """Point of suspension, or start of a rod [mm]."""
     direction: Vector
     """Unit vector along the axis about which the pendulum swings or the barrel turns."""
     down: Vector
@@ -77,6 +79,8 @@ class SceneHanger(Shown):
     """Radius of the bob, the weight or the line [mm]."""
     parts: Sequence[ScenePart] = ()
     """Turned parts in their positions in the zero pose: rod and bob, or the weight."""
+    to: int | None = None
+    """Index of the body at the end of a rod, which is `point` + `length` `down` in the zero pose; otherwise None."""
 
 
 # Not in every train: `SceneCoupling.slot_turn` (starting angles), heights instead of radii in the profiles of bevel

@@ -187,11 +187,13 @@ def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
     """
     import numpy as np
 
-    from geartrain.teeth.transmission_table import TabulatedTransmission
+    from geartrain.teeth.transmission_table import fit, folded_kinks
 
-    tables = (TabulatedTransmission(transmission, TOLERANCE, degree).error_table for degree in _DEGREES)
     # a follower that swings has mean ratio 0: its tolerance is relative to the period of the driver
-    pitch = (float(transmission.ratio) or 1.0) * transmission.period
+    ratio = float(transmission.ratio) or 1.0
+    pitch, kinks = ratio * transmission.period, folded_kinks(transmission)
+    fine = TOLERANCE * ratio * transmission.pitch
+    tables = [fit(transmission.error, transmission.period, kinks, fine, degree) for degree in _DEGREES]
     # if rounding errors keep all tables above the tolerance, the most accurate one is used
     table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
     # cells are split at kinks, because a polynomial must not cross one

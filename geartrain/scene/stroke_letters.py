@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
-from math import cos, sin
+from math import cos, pi, sin
 
 # ---------------------------------------------------------------------------------------------------------------- hands
 
@@ -47,7 +47,19 @@ def _hand(reach: float, places: str, halves: str) -> HandOutline:
 
 
 HANDS: Mapping[str, HandOutline] = {name: _hand(*drawn) for name, drawn in _HANDS.items()}
-"""Outlines of hands by the name used in a declaration."""
+"""Outlines of hands by the name used in a declaration; other hands are needles or `hand_with_ball`."""
+
+
+def hand_with_ball(reach: float, ball: float) -> HandOutline:
+    """Return the outline of an arm with a round end.
+
+    reach   distance of the far side of the end from the axis, and `ball`, its radius, relative to the radius of the
+            scale
+    """
+    arm, radius = 0.12 * ball / reach, ball / reach
+    steps = [pi * at / 12 for at in range(1, 13)]
+    end = [(1 - radius - radius * cos(angle), max(radius * sin(angle), arm / 10)) for angle in steps]
+    return HandOutline(reach, ((-2 * radius, arm), (1 - 2 * radius, arm), *end))
 
 
 # -------------------------------------------------------------------------------------------------------------- letters

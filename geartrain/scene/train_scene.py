@@ -125,6 +125,23 @@ class SceneEpoch(Shown):
 
 
 @dataclass(frozen=True, slots=True)
+class TourStop(Shown):
+    """Step of the tour of a scene.
+
+    See Also
+    --------
+    make_scene : returns it in `Scene.tour`.
+    """
+
+    kind: str
+    """Kind of the part: output, link, wheel, dial or coupling."""
+    name: str
+    """Name of the part."""
+    text: str
+    """Text about the part, as declared."""
+
+
+@dataclass(frozen=True, slots=True)
 class Pointer(Shown):
     """Pointer of a scene, which shows one output of the train.
 
@@ -169,6 +186,10 @@ class Pointer(Shown):
     """Length of the hand relative to the radius of the scale; 0 for a pointer without a dial."""
     outline: Sequence[tuple[float, float]] = ()
     """Outline relative to the hand's length: distances from the axis and half widths; empty without a dial."""
+    hand: str = "needle"
+    """Shape of the hand, as declared."""
+    ball: float = 0.0
+    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 without a sphere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,6 +219,12 @@ class Scene(Shown):
     """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
+    drive: Literal["hand", "motor", "spring", "weight"]
+    """Drive of the body of the crank: as declared, a motor for a speed in real time, otherwise a hand."""
+    fusee: Sequence[float]
+    """Radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
+    up: Vector
+    """Upward unit vector of the picture: y, or the direction towards an observer who looks from above."""
     step: str
     """Exact turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if no link is driven."""
     verdict: Mapping[str, Any]
@@ -234,6 +261,8 @@ class Scene(Shown):
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
     """Date at a number of turns of the driving link; None without a date, a time unit or a driven link."""
+    tour: Sequence[TourStop] = ()
+    """Tour of the train, as declared."""
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
     asks: bool = True

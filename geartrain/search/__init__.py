@@ -12,7 +12,7 @@ orrery         many periods with shared wheels: branch and bound, beam search (`
 reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
 posterior      the posterior of uncertain counts by Bayes' theorem, exact or from a sample (`infer_counts`)
 join           the exact join used by `train` and `posterior`: bucket elimination on lists of products
-constraints    further conditions on tooth counts: assembly, planets, interference
+constraints    further conditions on tooth counts: assembly, planets, limits of wheels
 
 target_ratio, tooth_count_ranges   parsers of ratios and of ranges of tooth counts (`read_ratio`, `read_counts`)
 search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates
@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.search.constraints.constraint_options import ConstraintOptions as ConstraintOptions
@@ -61,57 +61,24 @@ if TYPE_CHECKING:
     from geartrain.search.train.train_findings import TrainFindings as TrainFindings
     from geartrain.search.train.train_search import search_train as search_train
 
-__all__ = [
-    "Approximant",
-    "Assignment",
-    "ConstraintOptions",
-    "CountCombination",
-    "CountProbability",
-    "CountRuns",
-    "EpicyclicSet",
-    "GearStages",
-    "Orrery",
-    "SetFindings",
-    "Shortfall",
-    "StageConstraints",
-    "StageFindings",
-    "TargetRatio",
-    "ToothCountPosterior",
-    "TrainFindings",
-    "WheelPosterior",
-    "approximants",
-    "counts_figure",
-    "describe_posterior",
-    "find_orrery",
-    "find_sets",
-    "find_stages",
-    "infer_counts",
-    "joint_posterior",
-    "most_informative_wheels",
-    "read_counts",
-    "read_ratio",
-    "search_train",
-]
-
-_PLACES = {
-    "ConstraintOptions": "constraints.constraint_options",
-    **dict.fromkeys(("EpicyclicSet", "SetFindings"), "epicyclic.epicyclic_sets"),
-    "find_sets": "epicyclic.set_search",
-    **dict.fromkeys(("Orrery", "find_orrery"), "orrery.orrery_search"),
-    "counts_figure": "posterior.corner_plot",
-    **dict.fromkeys(("infer_counts", "joint_posterior", "most_informative_wheels"), "posterior.inference"),
-    "describe_posterior": "posterior.posterior_report",
-    **dict.fromkeys(
-        ("CountCombination", "CountProbability", "ToothCountPosterior", "WheelPosterior"), "posterior.posterior_result"
-    ),
-    "StageConstraints": "ratio.stage_problem",
-    **dict.fromkeys(("StageFindings", "find_stages"), "ratio.stage_search"),
-    **dict.fromkeys(("GearStages", "Shortfall"), "search_outcome"),
-    **dict.fromkeys(("Approximant", "approximants"), "stern_brocot"),
-    **dict.fromkeys(("TargetRatio", "read_ratio"), "target_ratio"),
-    **dict.fromkeys(("CountRuns", "read_counts"), "tooth_count_ranges"),
-    **dict.fromkeys(("Assignment", "TrainFindings"), "train.train_findings"),
-    "search_train": "train.train_search",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "constraints.constraint_options": "ConstraintOptions",
+        "epicyclic.epicyclic_sets": "EpicyclicSet SetFindings",
+        "epicyclic.set_search": "find_sets",
+        "orrery.orrery_search": "Orrery find_orrery",
+        "posterior.corner_plot": "counts_figure",
+        "posterior.inference": "infer_counts joint_posterior most_informative_wheels",
+        "posterior.posterior_report": "describe_posterior",
+        "posterior.posterior_result": "CountCombination CountProbability ToothCountPosterior WheelPosterior",
+        "ratio.stage_problem": "StageConstraints",
+        "ratio.stage_search": "StageFindings find_stages",
+        "search_outcome": "GearStages Shortfall",
+        "stern_brocot": "Approximant approximants",
+        "target_ratio": "TargetRatio read_ratio",
+        "tooth_count_ranges": "CountRuns read_counts",
+        "train.train_findings": "Assignment TrainFindings",
+        "train.train_search": "search_train",
+    },
+)

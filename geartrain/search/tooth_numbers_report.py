@@ -246,7 +246,7 @@ def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
 def describe_orrery(found: Orrery) -> Document:
     """Build the document of an orrery: its gear pairs, the period of each arbor, and the proved lower bounds."""
     proof = "proved minimum" if found.complete else f"lower bound {found.minimum_wheels}"
-    limits = {"proved": "proof of the minimum", "effort": "effort limit", "time": "time limit"}
+    limits = {"proved": "proof of the minimum", "effort": "effort limit"}
     summary = [
         f"{found.wheels} wheels ({proof}) in {len(found.pairs)} pairs (lower bound {found.minimum_pairs}).",
         f"Maximum error {error_text(max(found.errors.values(), key=abs))}. "

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.simulation.contacts.link_inertia import LinkInertia as LinkInertia
@@ -53,54 +53,19 @@ if TYPE_CHECKING:
     from geartrain.simulation.time.train_in_time import VibrationModes as VibrationModes
     from geartrain.simulation.time.train_in_time import find_vibration_modes as find_vibration_modes
 
-__all__ = [
-    "ArborStrength",
-    "CoSimulationCase",
-    "ContactInTime",
-    "ConvergedFigure",
-    "EnergyAccount",
-    "FlankStrength",
-    "FlankWear",
-    "ImpactList",
-    "LinkInertia",
-    "OutputDeviation",
-    "PairSeparation",
-    "PairStrength",
-    "PinContact",
-    "PointContact",
-    "SeparationRates",
-    "Simulation",
-    "SpectrumPeak",
-    "StrengthReport",
-    "TimeReport",
-    "TimeRun",
-    "TrainStrength",
-    "VibrationModes",
-    "WheelStrength",
-    "collect_strength_report",
-    "collect_time_report",
-    "describe_strength",
-    "describe_time_run",
-    "find_link_inertias",
-    "find_separation",
-    "find_tooth_impacts",
-    "find_vibration_modes",
-    "fmu_file",
-    "time_run_figure",
-]
-
-_PLACES = {
-    "contacts.link_inertia": "LinkInertia find_link_inertias",
-    "contacts.separation_rate": "PairSeparation SeparationRates find_separation find_tooth_impacts",
-    "fmu.co_simulation": "CoSimulationCase fmu_file",
-    "strength.strength_report": "StrengthReport collect_strength_report describe_strength",
-    "strength.strength_results": "ArborStrength FlankStrength FlankWear PairStrength PinContact PointContact "
-    "TrainStrength WheelStrength",
-    "time.stepwise_simulation": "Simulation",
-    "time.time_report": "TimeReport collect_time_report describe_time_run",
-    "time.time_run": "ContactInTime ConvergedFigure EnergyAccount ImpactList OutputDeviation SpectrumPeak TimeRun",
-    "time.time_run_plot": "time_run_figure",
-    "time.train_in_time": "VibrationModes find_vibration_modes",
-}
-
-__getattr__ = lazy_names(__name__, {name: place for place, names in _PLACES.items() for name in names.split()})
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "contacts.link_inertia": "LinkInertia find_link_inertias",
+        "contacts.separation_rate": "PairSeparation SeparationRates find_separation find_tooth_impacts",
+        "fmu.co_simulation": "CoSimulationCase fmu_file",
+        "strength.strength_report": "StrengthReport collect_strength_report describe_strength",
+        "strength.strength_results": "ArborStrength FlankStrength FlankWear PairStrength PinContact PointContact "
+        "TrainStrength WheelStrength",
+        "time.stepwise_simulation": "Simulation",
+        "time.time_report": "TimeReport collect_time_report describe_time_run",
+        "time.time_run": "ContactInTime ConvergedFigure EnergyAccount ImpactList OutputDeviation SpectrumPeak TimeRun",
+        "time.time_run_plot": "time_run_figure",
+        "time.train_in_time": "VibrationModes find_vibration_modes",
+    },
+)

@@ -23,59 +23,43 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.spherical.assembly import spherical_divisibility_rule, spherical_phasing
-    from geartrain.spherical.configuration import Configuration, to_train
-    from geartrain.spherical.gear_sizes import SphereSizing, one_pitch, size_gears
-    from geartrain.spherical.gear_sphere import GearSphere
-    from geartrain.spherical.graph_set import GraphSet, from_graph
-    from geartrain.spherical.polyhedra import Polyhedron, polyhedron, solid, solid_names
-    from geartrain.spherical.polyhedron_gears import SurveyRow, from_polyhedron, survey
-    from geartrain.spherical.tooth_count_search import (
-        NeighbourRatioWindow,
-        ToothCountCompromise,
-        ToothCountSuggestions,
-        ratio_windows,
-        suggest_tooth_counts,
-    )
+    from geartrain.spherical.assembly import spherical_divisibility_rule as spherical_divisibility_rule
+    from geartrain.spherical.assembly import spherical_phasing as spherical_phasing
+    from geartrain.spherical.configuration import Configuration as Configuration
+    from geartrain.spherical.configuration import to_train as to_train
+    from geartrain.spherical.gear_sizes import SphereSizing as SphereSizing
+    from geartrain.spherical.gear_sizes import one_pitch as one_pitch
+    from geartrain.spherical.gear_sizes import size_gears as size_gears
+    from geartrain.spherical.gear_sphere import GearSphere as GearSphere
+    from geartrain.spherical.graph_set import GraphSet as GraphSet
+    from geartrain.spherical.graph_set import from_graph as from_graph
+    from geartrain.spherical.polyhedra import Polyhedron as Polyhedron
+    from geartrain.spherical.polyhedra import polyhedron as polyhedron
+    from geartrain.spherical.polyhedra import solid as solid
+    from geartrain.spherical.polyhedra import solid_names as solid_names
+    from geartrain.spherical.polyhedron_gears import SurveyRow as SurveyRow
+    from geartrain.spherical.polyhedron_gears import from_polyhedron as from_polyhedron
+    from geartrain.spherical.polyhedron_gears import survey as survey
+    from geartrain.spherical.tooth_count_search import NeighbourRatioWindow as NeighbourRatioWindow
+    from geartrain.spherical.tooth_count_search import ToothCountCompromise as ToothCountCompromise
+    from geartrain.spherical.tooth_count_search import ToothCountSuggestions as ToothCountSuggestions
+    from geartrain.spherical.tooth_count_search import ratio_windows as ratio_windows
+    from geartrain.spherical.tooth_count_search import suggest_tooth_counts as suggest_tooth_counts
 
-__all__ = [
-    "Configuration",
-    "GearSphere",
-    "GraphSet",
-    "NeighbourRatioWindow",
-    "Polyhedron",
-    "SphereSizing",
-    "SurveyRow",
-    "ToothCountCompromise",
-    "ToothCountSuggestions",
-    "from_graph",
-    "from_polyhedron",
-    "one_pitch",
-    "polyhedron",
-    "ratio_windows",
-    "size_gears",
-    "solid",
-    "solid_names",
-    "spherical_divisibility_rule",
-    "spherical_phasing",
-    "suggest_tooth_counts",
-    "survey",
-    "to_train",
-]
-
-_PLACES = {
-    **dict.fromkeys(("spherical_divisibility_rule", "spherical_phasing"), "assembly"),
-    **dict.fromkeys(("Configuration", "to_train"), "configuration"),
-    **dict.fromkeys(("SphereSizing", "one_pitch", "size_gears"), "gear_sizes"),
-    "GearSphere": "gear_sphere",
-    **dict.fromkeys(("GraphSet", "from_graph"), "graph_set"),
-    **dict.fromkeys(("Polyhedron", "polyhedron", "solid", "solid_names"), "polyhedra"),
-    **dict.fromkeys(("SurveyRow", "from_polyhedron", "survey"), "polyhedron_gears"),
-    **dict.fromkeys(("NeighbourRatioWindow", "ratio_windows"), "tooth_count_search"),
-    **dict.fromkeys(("ToothCountCompromise", "ToothCountSuggestions", "suggest_tooth_counts"), "tooth_count_search"),
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "assembly": "spherical_divisibility_rule spherical_phasing",
+        "configuration": "Configuration to_train",
+        "gear_sizes": "SphereSizing one_pitch size_gears",
+        "gear_sphere": "GearSphere",
+        "graph_set": "GraphSet from_graph",
+        "polyhedra": "Polyhedron polyhedron solid solid_names",
+        "polyhedron_gears": "SurveyRow from_polyhedron survey",
+        "tooth_count_search": "NeighbourRatioWindow ToothCountCompromise ToothCountSuggestions ratio_windows "
+        "suggest_tooth_counts",
+    },
+)

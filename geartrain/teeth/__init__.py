@@ -19,7 +19,7 @@ standard_teeth                involutes for pairs that declare no form
 meshing_wheels, gear_mesh     two wheels as declared; a pair of a train with its tooth geometry
 transmission                  transmission function: driven angle, speed ratio and efficiency against the driver's angle
 tooth_transmission            transmission function of toothed wheels: verdict, either driver, both directions
-transmission_table            transmission functions as tables of polynomials; the compiled kernel that reads them
+transmission_table            transmission functions as tables of polynomials
 pair_results                  results, verdict and table rows of one pair
 form_comparison               conjugate forms compared with the 20 degree involute
 contact_coefficients          declared coefficients of Coulomb friction and restitution
@@ -41,85 +41,53 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS
 
 if TYPE_CHECKING:
-    from geartrain.teeth.circular_arc import CircularArc
-    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
-    from geartrain.teeth.cycloidal import Cycloidal
-    from geartrain.teeth.form_comparison import compare_forms
-    from geartrain.teeth.friction_law import (
-        BuckinghamFriction,
-        DokosFriction,
-        FrictionLaw,
-        PairFriction,
-        StribeckFriction,
-        TabulatedFriction,
-    )
-    from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.given_transmission import TransmissionProtocol
-    from geartrain.teeth.ideal import Ideal
-    from geartrain.teeth.involute import Involute
-    from geartrain.teeth.lantern import Lantern
-    from geartrain.teeth.least_friction import LeastFriction
-    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
-    from geartrain.teeth.pair_results import PairVerdict, SlidingEfficiency, SpeedRatio, TransmissionError
-    from geartrain.teeth.pin_ring import PinRing
-    from geartrain.teeth.rubbed_transmission import RubbedTransmission
-    from geartrain.teeth.table import GivenError
-    from geartrain.teeth.transmission import TransmissionFunction
-    from geartrain.teeth.triangular import Triangular
-    from geartrain.teeth.uniform_stress import UniformStress
-    from geartrain.teeth.uniform_temperature import UniformTemperature
+    from geartrain.teeth.circular_arc import CircularArc as CircularArc
+    from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission as PinToSlotTransmission
+    from geartrain.teeth.couplings.pin_transmission import SlotToPinTransmission as SlotToPinTransmission
+    from geartrain.teeth.cycloidal import Cycloidal as Cycloidal
+    from geartrain.teeth.form_comparison import compare_forms as compare_forms
+    from geartrain.teeth.friction_law import BuckinghamFriction as BuckinghamFriction
+    from geartrain.teeth.friction_law import DokosFriction as DokosFriction
+    from geartrain.teeth.friction_law import FrictionLaw as FrictionLaw
+    from geartrain.teeth.friction_law import PairFriction as PairFriction
+    from geartrain.teeth.friction_law import StribeckFriction as StribeckFriction
+    from geartrain.teeth.friction_law import TabulatedFriction as TabulatedFriction
+    from geartrain.teeth.gear_mesh import GearMesh as GearMesh
+    from geartrain.teeth.given_transmission import TransmissionProtocol as TransmissionProtocol
+    from geartrain.teeth.ideal import Ideal as Ideal
+    from geartrain.teeth.involute import Involute as Involute
+    from geartrain.teeth.lantern import Lantern as Lantern
+    from geartrain.teeth.least_friction import LeastFriction as LeastFriction
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes as BlankSizes
+    from geartrain.teeth.outlines.wheel_outline import WheelOutline as WheelOutline
+    from geartrain.teeth.pair_results import PairVerdict as PairVerdict
+    from geartrain.teeth.pair_results import SlidingEfficiency as SlidingEfficiency
+    from geartrain.teeth.pair_results import SpeedRatio as SpeedRatio
+    from geartrain.teeth.pair_results import TransmissionError as TransmissionError
+    from geartrain.teeth.pin_ring import PinRing as PinRing
+    from geartrain.teeth.rubbed_transmission import RubbedTransmission as RubbedTransmission
+    from geartrain.teeth.table import GivenError as GivenError
+    from geartrain.teeth.transmission import TransmissionFunction as TransmissionFunction
+    from geartrain.teeth.triangular import Triangular as Triangular
+    from geartrain.teeth.uniform_stress import UniformStress as UniformStress
+    from geartrain.teeth.uniform_temperature import UniformTemperature as UniformTemperature
 
-__all__ = [
-    "BlankSizes",
-    "BuckinghamFriction",
-    "CircularArc",
-    "Cycloidal",
-    "DokosFriction",
-    "FrictionLaw",
-    "GearMesh",
-    "GivenError",
-    "Ideal",
-    "Involute",
-    "Lantern",
-    "LeastFriction",
-    "PairFriction",
-    "PairVerdict",
-    "PinRing",
-    "PinToSlotTransmission",
-    "RubbedTransmission",
-    "SlidingEfficiency",
-    "SlotToPinTransmission",
-    "SpeedRatio",
-    "StribeckFriction",
-    "TabulatedFriction",
-    "TransmissionError",
-    "TransmissionFunction",
-    "TransmissionProtocol",
-    "Triangular",
-    "UniformStress",
-    "UniformTemperature",
-    "WheelOutline",
-    "compare_forms",
-]
-
-_PLACES = {
-    **dict.fromkeys(("BlankSizes", "WheelOutline"), "outlines.wheel_outline"),
-    **dict.fromkeys(
-        ("BuckinghamFriction", "DokosFriction", "FrictionLaw", "PairFriction", "StribeckFriction", "TabulatedFriction"),
-        "friction_law",
-    ),
-    "GearMesh": "gear_mesh",
-    **dict.fromkeys(("PairVerdict", "SlidingEfficiency", "SpeedRatio", "TransmissionError"), "pair_results"),
-    **dict.fromkeys(("PinToSlotTransmission", "SlotToPinTransmission"), "couplings.pin_transmission"),
-    "RubbedTransmission": "rubbed_transmission",
-    "TransmissionFunction": "transmission",
-    "TransmissionProtocol": "given_transmission",
-    "compare_forms": "form_comparison",
-    **{kind: name for name, kind in TOOTH_FORMS.items()},
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "couplings.pin_transmission": "PinToSlotTransmission SlotToPinTransmission",
+        "form_comparison": "compare_forms",
+        "friction_law": "BuckinghamFriction DokosFriction FrictionLaw PairFriction StribeckFriction TabulatedFriction",
+        "gear_mesh": "GearMesh",
+        "given_transmission": "TransmissionProtocol",
+        "outlines.wheel_outline": "BlankSizes WheelOutline",
+        "pair_results": "PairVerdict SlidingEfficiency SpeedRatio TransmissionError",
+        "rubbed_transmission": "RubbedTransmission",
+        "transmission": "TransmissionFunction",
+        **TOOTH_FORMS,
+    },
+)

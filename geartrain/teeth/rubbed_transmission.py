@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.teeth.friction_law import PairFriction
-from geartrain.teeth.transmission import ContactRubbing, DerivedTransmission, TransmissionFunction
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.meshing_wheels import MeshingWheels
 
 
-class RubbedTransmission(DerivedTransmission):
+class RubbedTransmission(TransmissionFunction):
     """Transmission function of a pair whose friction coefficient depends on speed.
 
     The angles and the speed ratio are the same as in the given transmission function. Losses are computed at each
@@ -43,8 +43,9 @@ class RubbedTransmission(DerivedTransmission):
     """
 
     def __init__(self, transmission: TransmissionFunction, by: PairFriction) -> None:
-        super().__init__(transmission)
-        self.by, self.slow = by, transmission.slow
+        self.transmission, self.by, self.ratio, self.period = transmission, by, transmission.ratio, transmission.period
+        self.pitch_count, self.waves, self.slow = transmission.pitch_count, transmission.waves, transmission.slow
+        self.dwell, self.at_once = transmission.dwell, transmission.at_once
 
     # ---------------------------------------------------------------------------------------------------- kinematics
 
@@ -55,6 +56,41 @@ class RubbedTransmission(DerivedTransmission):
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio of the underlying function at driver angles S [rad]."""
         return self.transmission.speed(S)
+
+    def speed_range(self) -> tuple[float, float]:
+        """Return the minimum and the maximum speed ratio of the underlying function."""
+        return self.transmission.speed_range()
+
+    def error_range(self) -> tuple[float, float]:
+        """Return the minimum and the maximum transmission error of the underlying function [rad of the driven side]."""
+        return self.transmission.error_range()
+
+    def error_moments(self) -> tuple[float, float]:
+        """Return the mean and the rms deviation of the transmission error of the underlying function [rad of the driven
+        side].
+        """
+        return self.transmission.error_moments()
+
+    def kinks(self) -> list[float]:
+        """Return the driver angles of the kinks of the underlying function [rad]."""
+        return self.transmission.kinks()
+
+    def smooth_intervals(self) -> list[tuple[float, float]]:
+        """Return the smooth intervals of the underlying function [rad]."""
+        return self.transmission.smooth_intervals()
+
+    def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
+        """Return the upward steps of the speed ratio of the underlying function."""
+        return self.transmission.speed_leaps()
+
+    def steepest_fall(self) -> float | None:
+        """Return the maximum rate at which the speed ratio of the underlying function decreases [1/rad]."""
+        return self.transmission.steepest_fall()
+
+    @property
+    def locking_friction(self) -> float:
+        """Minimum coefficient of friction that locks the underlying function."""
+        return self.transmission.locking_friction
 
     def reversed_motion(self) -> RubbedTransmission:
         """Return the transmission function of the coast flanks with the same friction law."""

@@ -441,23 +441,6 @@ class TransmissionFunction(Shown, ABC):
         return angle
 
 
-def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """Write driver angles S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
-
-    The period is split into two parts, so that the first product is exact up to about 10^8 periods.
-    """
-    import numpy as np
-
-    # 24 bits: the product with a number of periods below 2^29 is exact in a float of 53 bits
-    coarse = float(np.float32(period))
-    np.multiply(S, 1 / period, out=scratch)
-    np.floor(scratch, out=scratch)
-    np.multiply(scratch, coarse, out=out)
-    np.subtract(S, out, out=out)
-    np.multiply(scratch, period - coarse, out=scratch)
-    np.subtract(out, scratch, out=out)
-
-
 class ExactRatio(TransmissionFunction):
     """Transmission function with a constant speed ratio and without loss.
 
@@ -514,47 +497,3 @@ class LosslessTransmission(TransmissionFunction):
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, which is 1."""
         return 1.0
-
-
-class DerivedTransmission(TransmissionFunction):
-    """Transmission function with the motion of an underlying function, and with other losses or another evaluation."""
-
-    def __init__(self, transmission: TransmissionFunction) -> None:
-        self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
-        self.pitch_count, self.waves = transmission.pitch_count, transmission.waves
-        self.dwell, self.at_once = transmission.dwell, transmission.at_once
-
-    def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio of the underlying function."""
-        return self.transmission.speed_range()
-
-    def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error of the underlying function [rad of the driven side]."""
-        return self.transmission.error_range()
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean and the rms deviation of the transmission error of the underlying function [rad of the driven
-        side].
-        """
-        return self.transmission.error_moments()
-
-    def kinks(self) -> list[float]:
-        """Return the driver angles of the kinks of the underlying function [rad]."""
-        return self.transmission.kinks()
-
-    def smooth_intervals(self) -> list[tuple[float, float]]:
-        """Return the smooth intervals of the underlying function [rad]."""
-        return self.transmission.smooth_intervals()
-
-    def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return the upward steps of the speed ratio of the underlying function."""
-        return self.transmission.speed_leaps()
-
-    def steepest_fall(self) -> float | None:
-        """Return the maximum rate at which the speed ratio of the underlying function decreases [1/rad]."""
-        return self.transmission.steepest_fall()
-
-    @property
-    def locking_friction(self) -> float:
-        """Minimum coefficient of friction that locks the underlying function."""
-        return self.transmission.locking_friction

@@ -32,6 +32,7 @@ from geartrain.train.outputs import (
     Published,
     SpeedUnit,
     Target,
+    TourStep,
     View,
 )
 from geartrain.train.periods import CalendarDate, Period, date_of, julian_day, period_table, read_date
@@ -74,6 +75,7 @@ __all__ = [
     "StateCase",
     "Target",
     "Teeth",
+    "TourStep",
     "Train",
     "View",
     "Wheel",

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from importlib import import_module
+from itertools import chain
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
@@ -59,7 +60,7 @@ from geartrain.train.mechanism import (
     Thickness,
     Wheel,
 )
-from geartrain.train.outputs import Dial, FacePlate, Output, SpeedUnit, View
+from geartrain.train.outputs import Dial, FacePlate, Output, SpeedUnit, TourStep, View
 from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date
 from geartrain.train.reconstruction import Reconstruction
 from geartrain.train.states import Clutch, Drive, Erratum, Escapement, Remove, State, StateCase
@@ -273,6 +274,7 @@ class Train(Declared):
     epoch: DeclaredEpoch | None = Field(
         None, description="Date at which the positions of all pointers are known; needs a `unit` of time"
     )
+    tour: tuple[TourStep, ...] = Field((), description="Tour of the train on its page; not inherited")
     extends: str | None = Field(
         None,
         description="Declaration to extend: a file in the same folder, or the name of a shipped train or evidence",
@@ -308,6 +310,16 @@ class Train(Declared):
     def wheels(self) -> Mapping[str, tuple[str, Wheel]]:
         """All wheels by name, each as a pair of the name of its link and the wheel."""
         return {name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()}
+
+    @cached_property
+    def tour_parts(self) -> Mapping[str, str]:
+        """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. If several parts have
+        the same name, the first of these kinds.
+        """
+        outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
+        couplings = (coupling.id for coupling in self.couplings)
+        kinds = {"coupling": couplings, "dial": self.dials, "wheel": self.wheels, "link": self.links, "output": outputs}
+        return {name: kind for kind, names in kinds.items() for name in names}
 
     def form_of(self, gear: GearPair) -> DeclaredToothForm | None:
         """Return the tooth form of a gear pair, by default the tooth form of the train; None if neither is declared.
@@ -593,6 +605,23 @@ class Train(Declared):
             speeds = [speed for group in (self.inputs, *groups) for speed in group.values()]
         named = [speed for speed in map(as_rotation, speeds) if speed.unit]
         return next((speed.unit or "" for speed in named if speed.value), (named[0].unit or "") if named else "")
+
+    def dial_outputs(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the names of outputs with a dial; if there are none, of outputs with a target, otherwise all names.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Names of outputs or links.
+
+        Returns
+        -------
+        tuple of str
+            Names in the given order.
+        """
+        known = [(name, self.outputs[name]) for name in names if name in self.outputs]
+        dials = tuple(name for name, output in known if output.dial)
+        return dials or tuple(name for name, output in known if output.targets) or tuple(names)
 
     @property
     def unit_speed(self) -> Fraction | None:

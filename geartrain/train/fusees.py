@@ -10,42 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from math import inf, sqrt, tau
-from typing import Annotated, NamedTuple
-
-from pydantic import Field, model_validator
-
-from geartrain.numerics.quantity import Figure, MeasuredLength, Torque, above_zero, bad
-from geartrain.train.fields import Declared, exactly_one
-
-
-class Fusee(Declared):
-    """Fusee on the driving link, by its constant torque or by its radii.
-
-    See Also
-    --------
-    SpringDrive : its field `fusee`
-    """
-
-    turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
-        description="Turns of the fusee from fully wound to run down"
-    )
-    torque: Annotated[Torque, above_zero("give a torque such as 0.27 N m")] | None = Field(
-        None, description="Constant torque of a fusee whose radii equalise the spring"
-    )
-    radii: tuple[Annotated[MeasuredLength, above_zero("give a length such as 6 mm")], ...] | None = Field(
-        None,
-        description="Radii of the chain's middle line at equal angles over the run, fully wound first, 2 or more; "
-        "straight lines in between",
-    )
-
-    @model_validator(mode="after")
-    def _has_one_form(self) -> Fusee:
-        exactly_one(self, "a fusee", ("torque", "radii"))
-        if self.radii is not None and len(self.radii) < 2:
-            raise bad("fusee", "a fusee with one radius is a drum", "give 2 radii or more, such as [6 mm, 14 mm]")
-        if self.torque is not None and self.torque.unit is None:
-            raise bad("fusee", "the torque of a fusee has no unit", f"write {self.torque.text} N m")
-        return self
+from typing import NamedTuple
 
 
 class FuseeRun(NamedTuple):
@@ -116,18 +81,22 @@ class FuseeSpring(NamedTuple):
     stiffness: float
     wound: float
     barrel: float
-    fusee: Fusee
+    turns: float
+    """Turns of the fusee over the run."""
+    constant: float | None
+    """Constant torque of the fusee [N m]; None if it is given by its radii."""
+    radii: tuple[float, ...] = ()
+    """Radii of the fusee at equal angles over the run [m]."""
 
     @property
     def angle(self) -> float:
         """Angle of the fusee over the run [rad]."""
-        return tau * float(self.fusee.turns.value)
+        return tau * self.turns
 
     def _sections(self) -> list[ConicalSection]:
         """Return the sections between declared radii."""
-        radii = [radius.si for radius in self.fusee.radii or ()]
-        width, wound, found = self.angle / (len(radii) - 1), self.wound, []
-        for at, (first, last) in enumerate(pairwise(radii)):
+        width, wound, found = self.angle / (len(self.radii) - 1), self.wound, []
+        for at, (first, last) in enumerate(pairwise(self.radii)):
             found.append(ConicalSection(at * width, width, first, (last - first) / width, wound, self.barrel))
             wound -= (first + last) / 2 * width / self.barrel
         return found
@@ -136,16 +105,16 @@ class FuseeSpring(NamedTuple):
         """Return the wound angle of the spring [rad] and the radius of the fusee [m] after the fusee has turned by phi
         [rad].
         """
-        if self.fusee.torque is None:
+        if self.constant is None:
             sections = self._sections()
             return next((each for each in sections if phi <= each.start + each.width), sections[-1]).state(phi)
-        wound = sqrt(max(self.wound**2 - 2 * self.fusee.torque.si * phi / self.stiffness, 0.0))
-        return wound, self.fusee.torque.si * self.barrel / (self.stiffness * wound) if wound else inf
+        wound = sqrt(max(self.wound**2 - 2 * self.constant * phi / self.stiffness, 0.0))
+        return wound, self.constant * self.barrel / (self.stiffness * wound) if wound else inf
 
     def torque(self, phi: float) -> float:
         """Return the torque at the fusee after it has turned by phi [rad] in its run [N m]."""
-        if self.fusee.torque is not None:
-            return self.fusee.torque.si
+        if self.constant is not None:
+            return self.constant
         wound, radius = self.state(phi)
         return self.stiffness * wound * radius / self.barrel
 
@@ -154,7 +123,7 @@ class FuseeSpring(NamedTuple):
         left, last = self.state(self.angle)
         energy = self.stiffness * (self.wound - left) * (self.wound + left) / 2
         places = [0.0, self.angle]
-        if self.fusee.torque is None:
+        if self.constant is None:
             places = [place for section in self._sections() for place in section.extremes()]
         maximum, minimum = (pick(places, key=self.torque) for pick in (max, min))
         return FuseeRun(
@@ -174,7 +143,7 @@ class FuseeSpring(NamedTuple):
     @property
     def end(self) -> float:
         """Turns of the fusee after which the spring has run down; infinite if it outlasts the run."""
-        if self.fusee.torque is None:
+        if self.constant is None:
             return min((section.end for section in self._sections()), default=inf) / tau
-        end = self.stiffness * self.wound**2 / (2 * self.fusee.torque.si)
+        end = self.stiffness * self.wound**2 / (2 * self.constant)
         return end / tau if end < self.angle else inf

@@ -13,7 +13,7 @@ from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 if TYPE_CHECKING:
     from geartrain.train.declaration import Train
 
-_NOT_INHERITED = ("name", "title", "note", "extends", "remove")
+_NOT_INHERITED = ("name", "title", "note", "tour", "extends", "remove")
 _BY_NAME = ("sources", "links", "axes", "outputs", "dials", "clutches", "states")
 _SHORT = {"wheels": "teeth", "sources": "cite"}
 
@@ -54,8 +54,9 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
         return declared.place(*loc)
 
     merged = merge_parent(node_from_data(declared, marks=place), written_out(node_from_data(changes)))
-    # a changed copy keeps name, title and note, which a child file does not inherit
-    kept = {key: getattr(declared, key) for key in _NOT_INHERITED if key in declared.model_fields_set}
+    # a changed copy keeps name, title and note, which a child file does not inherit; its tour may show a removed part
+    own = declared.model_fields_set.intersection(_NOT_INHERITED) - {"tour"}
+    kept = {key: getattr(declared, key) for key in own}
     new = {key: value for key, value in merged.plain().items() if key != "remove"}  # already applied
     return declare(kept | new, merged.place_of)
 

@@ -647,10 +647,11 @@ class Output(Declared):
         (), description="Periods or speeds with which the output is compared"
     )
     dial: Id | None = Field(None, description="Name of the dial on which the output is read")
-    hand: Literal["needle", "hour", "minute", "seconds"] = Field(
+    hand: Literal["needle", "hour", "minute", "seconds", "sphere", "bead", "ecliptic", "figure", "wheel"] = Field(
         "needle",
-        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or a thin hand "
-        "with a counterpoise (seconds)",
+        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), a thin hand with a "
+        "counterpoise (seconds), a sphere on an arm, a bead on a ring of its own (bead), or the eccentric ring of an "
+        "astrolabe (ecliptic); without a dial, a pointing figure on the link, or a road wheel (wheel)",
     )
     note: str | None = Field(None, description="Remark for readers")
 
@@ -692,3 +693,17 @@ class View(Declared):
     positive: Literal["clockwise", "counter-clockwise"] = Field(
         "counter-clockwise", description="Sense of rotation of a positive speed"
     )
+
+
+class TourStep(Declared):
+    """Step of the tour of a train on its page: a part at which the camera looks, and a text about it.
+
+    See Also
+    --------
+    Train : its field `tour`
+    """
+
+    look_at: Id = Field(
+        description="Name of an output, link, wheel, dial or coupling; the first of these kinds that has this name"
+    )
+    text: str = Field(description="Text for visitors")

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf, pi, tau
-from typing import Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -18,6 +18,7 @@ from geartrain.errors import Loc, Problem
 from geartrain.numerics.exact import abridged_text, decimal
 from geartrain.numerics.quantity import (
     TRAVEL_ARM,
+    Angle,
     Figure,
     Inertia,
     InputSpeed,
@@ -26,25 +27,72 @@ from geartrain.numerics.quantity import (
     MeasuredLength,
     Quantity,
     Rate,
+    Share,
     Speed,
     Time,
     Torque,
     TorsionalStiffness,
     above_zero,
     bad,
+    checked,
     not_below_zero,
 )
 from geartrain.numerics.results import Result, Shown
-from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id, Nothing, exactly_one
-from geartrain.train.fusees import Fusee, FuseeSpring
+from geartrain.train.fields import (
+    ByName,
+    Count,
+    Declared,
+    ExpectedVerdict,
+    Id,
+    Nothing,
+    exactly_one,
+    read_count,
+    short_for,
+)
 from geartrain.train.outputs import Output
+
+if TYPE_CHECKING:
+    from geartrain.train.fusees import FuseeSpring
 
 GRAVITY = 9.80665
 """Standard gravity [m/s^2]."""
 
+_MOST_FALLS = 100
+_EFFICIENCY = "an efficiency must be above 0 and at most 1, not {text}", "give a number or a percentage such as 40 %"
+Impulse = Annotated[Angle, not_below_zero("give an angle such as 0.5 deg")]
 _NEAR = 0.05  # relative tolerance of the length of a simple pendulum, for rods with mass
 
 DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in the direction in which the input turns")]
+
+
+class Fusee(Declared):
+    """Fusee on the driving link, by its constant torque or by its radii.
+
+    See Also
+    --------
+    SpringDrive : its field `fusee`
+    """
+
+    turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
+        description="Turns of the fusee from fully wound to run down"
+    )
+    torque: Annotated[Torque, above_zero("give a torque such as 0.27 N m")] | None = Field(
+        None, description="Constant torque of a fusee whose radii equalise the spring"
+    )
+    radii: tuple[Annotated[MeasuredLength, above_zero("give a length such as 6 mm")], ...] | None = Field(
+        None,
+        description="Radii of the chain's middle line at equal angles over the run, fully wound first, 2 or more; "
+        "straight lines in between",
+    )
+
+    @model_validator(mode="after")
+    def _has_one_form(self) -> Fusee:
+        exactly_one(self, "a fusee", ("torque", "radii"))
+        if self.radii is not None and len(self.radii) < 2:
+            raise bad("fusee", "a fusee with one radius is a drum", "give 2 radii or more, such as [6 mm, 14 mm]")
+        if self.torque is not None and self.torque.unit is None:
+            raise bad("fusee", "the torque of a fusee has no unit", f"write {self.torque.text} N m")
+        return self
 
 
 class SpringDrive(Declared):
@@ -72,7 +120,7 @@ class SpringDrive(Declared):
             fix = "give `barrel: 15 mm` and `fusee: {turns: 6, torque: 0.27 N m}`, or neither"
             raise bad("drive", "`barrel` and `fusee` must be given together", fix)
         if (chained := self.chained) is not None and (end := chained.end) < inf:
-            what = f"the spring has run down after {end:.6g} of the {chained.fusee.turns} turns of the fusee"
+            what = f"the spring has run down after {end:.6g} of the {chained.turns:g} turns of the fusee"
             raise bad("drive", what, "give more `turns` of winding, fewer turns of the fusee, or smaller radii")
         return self
 
@@ -81,7 +129,17 @@ class SpringDrive(Declared):
         """Spring with its fusee; None without a fusee."""
         if self.barrel is None or self.fusee is None:
             return None
-        return FuseeSpring(self.stiffness.si, tau * float(self.turns.value), self.barrel.si, self.fusee)
+        from geartrain.train.fusees import FuseeSpring
+
+        fusee = self.fusee
+        return FuseeSpring(
+            self.stiffness.si,
+            tau * float(self.turns.value),
+            self.barrel.si,
+            float(fusee.turns.value),
+            None if fusee.torque is None else fusee.torque.si,
+            tuple(radius.si for radius in fusee.radii or ()),
+        )
 
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].
@@ -157,8 +215,13 @@ class Drive(Declared):
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
         None,
-        description="Lever arm of the line: radius of the drum plus half the thickness of the line. The line "
-        "carries the whole weight; if the weight hangs in a pulley, give half of its mass",
+        description="Lever arm of the line: radius of the drum plus half the thickness of the line",
+    )
+    falls: Annotated[int, Field(le=_MOST_FALLS), BeforeValidator(read_count)] = Field(
+        1, description="Number of lines that carry the weight; 2 for a weight in a pulley"
+    )
+    drop: Annotated[MeasuredLength, above_zero("give a length such as 1.28 m")] | None = Field(
+        None, description="Height through which the weight descends between two windings; gives the going time"
     )
     spring: SpringDrive | None = Field(None, description="Drive by a spring")
     hand: HandDrive | None = Field(None, description="Drive by a hand")
@@ -166,12 +229,12 @@ class Drive(Declared):
     @model_validator(mode="after")
     def _has_one_key(self) -> Drive:
         exactly_one(self, "a drive", _KINDS, "kind")
-        if self.weight is None and self.drum is not None:
-            raise PydanticCustomError(
-                "drive",
-                "`drum` is given without `weight`",
-                {"fix": "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"},
-            )
+        given = [key for key in ("drum", "drop") if getattr(self, key) is not None and self.weight is None]
+        given += ["falls"] if self.falls > 1 and self.drum is None else []
+        if given:
+            needed = "drum" if self.weight is not None else "weight"
+            fix = "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"
+            raise bad("drive", f"`{given[0]}` is given without `{needed}`", fix)
         return self
 
     @property
@@ -181,8 +244,15 @@ class Drive(Declared):
         return tuple(torque for torque in (self.torque, hand) if torque is not None)
 
     @property
+    def arm(self) -> float | None:
+        """Descent of the weight per radian of its drum [m]: lever arm of the line divided by the number of falls; None
+        for other drives and for a weight that is a link.
+        """
+        return None if self.drum is None else self.drum.si / self.falls
+
+    @property
     def pull(self) -> float | None:
-        """Constant torque of a weight, mass times gravity times the radius of its drum, or of a spring at its equalised
+        """Constant torque of a weight, mass times gravity times its descent per radian, or of a spring at its equalised
         fusee [N m]; None for other drives.
 
         For the link of the weight itself it is the torque equivalent to the force, see `as_torque`.
@@ -191,7 +261,7 @@ class Drive(Declared):
             return self.spring.fusee.torque.si
         if self.weight is None:
             return None
-        return self.weight.si * GRAVITY * (float(TRAVEL_ARM) if self.drum is None else self.drum.si)
+        return self.weight.si * GRAVITY * (float(TRAVEL_ARM) if self.arm is None else self.arm)
 
     @property
     def steady_torque(self) -> float | None:
@@ -202,6 +272,33 @@ class Drive(Declared):
     def kind(self) -> str:
         """Kind of the drive: rate, torque, weight, spring or hand."""
         return next(key for key in _KINDS if getattr(self, key) is not None)
+
+
+EXPANSIONS = {"steel": 11.5e-6, "brass": 19e-6, "pine": 4e-6, "invar": 1e-6}
+"""Coefficients of linear expansion of pendulum rods, rounded, by material [1/K]; pine along its grain."""
+
+
+class Pendulum(Declared):
+    """Pendulum of an escapement. In a declaration, a length instead of a mapping sets `length`.
+
+    See Also
+    --------
+    Escapement : its field `pendulum`
+    """
+
+    SHORT: ClassVar = {"type": "string", "format": "length"}
+
+    length: Annotated[MeasuredLength, above_zero("give a length such as 994 mm")] = Field(
+        description="Length from the suspension to the middle of the bob"
+    )
+    bob: Annotated[Mass, above_zero("give a mass such as 4.5 kg")] | None = Field(None, description="Mass of the bob")
+    quality: Annotated[Figure, above_zero("give a number such as 5000")] | None = Field(
+        None,
+        description="Quality factor: stored energy divided by the energy lost per radian of oscillation",
+    )
+    rod: Literal["steel", "brass", "pine", "invar"] | None = Field(
+        None, description="Material of the rod, whose thermal expansion changes the rate"
+    )
 
 
 class Escapement(Declared):
@@ -217,7 +314,7 @@ class Escapement(Declared):
     --------
     >>> Escapement(link="escape", teeth=30, beat="1 s").speed
     Fraction(1, 60)
-    >>> Escapement(link="escape", teeth=30, beat="1 s", pendulum="994 mm").pendulum.si
+    >>> Escapement(link="escape", teeth=30, beat="1 s", pendulum="994 mm").pendulum.length.si
     0.994
     """
 
@@ -229,9 +326,26 @@ class Escapement(Declared):
     beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
         description="Time between beats, each of which lets half a tooth pass"
     )
-    pendulum: Annotated[MeasuredLength, above_zero("give a length such as 994 mm")] | None = Field(
+    pendulum: Annotated[Pendulum, short_for("length")] | None = Field(
         None,
-        description="Length of its pendulum from the suspension to the middle of the bob; default none",
+        description="Its pendulum, or only the length of the pendulum from the suspension to the middle of the bob; "
+        "default none",
+    )
+    efficiency: Annotated[Share, checked(lambda part: 0 < part.base <= 1, *_EFFICIENCY)] | None = Field(
+        None, description="Part of the energy of the escape wheel that reaches the pendulum; above 0, at most 1"
+    )
+    deadbeat: tuple[Impulse, Impulse] | None = Field(
+        None,
+        description="Deadbeat escapement: angles of the pendulum before and after the middle between which it "
+        "receives a constant torque",
+    )
+    recoil: Impulse | None = Field(
+        None,
+        description="Recoil escapement: angle of the pendulum after the middle at which its constant torque "
+        "changes its sense",
+    )
+    arc: Annotated[Angle, above_zero("give an angle such as 1.5 deg")] | None = Field(
+        None, description="Minimum amplitude of the pendulum at which the escape wheel is released"
     )
 
     @model_validator(mode="after")
@@ -239,10 +353,12 @@ class Escapement(Declared):
         """Check the length l of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes the beat slightly
         shorter.
         """
+        if self.deadbeat is not None and self.recoil is not None:
+            exactly_one(self, "an escapement", ("deadbeat", "recoil"), "kind")
         if self.pendulum is not None:
             # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
-            if abs(self.pendulum.si / length - 1) > _NEAR:
+            if abs(self.pendulum.length.si / length - 1) > _NEAR:
                 raise PydanticCustomError(
                     "escapement",
                     "the length of the pendulum does not match the beat",

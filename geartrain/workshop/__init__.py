@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.workshop.budget.budget_bars import budget_figure as budget_figure
@@ -42,7 +42,6 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.friction_trials import FrictionSpread as FrictionSpread
     from geartrain.workshop.monte_carlo.friction_trials import FrictionTrials as FrictionTrials
     from geartrain.workshop.monte_carlo.friction_trials import TrialFigure as TrialFigure
-    from geartrain.workshop.monte_carlo.friction_trials import find_friction_plan as find_friction_plan
     from geartrain.workshop.monte_carlo.friction_trials import try_frictions as try_frictions
     from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
     from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
@@ -70,91 +69,31 @@ if TYPE_CHECKING:
     from geartrain.workshop.sizes.train_size_search import PairSizes as PairSizes
     from geartrain.workshop.sizes.train_size_search import find_train_sizes as find_train_sizes
 
-__all__ = [
-    "AssemblyStep",
-    "BestToothSizes",
-    "BestTrainSizes",
-    "BudgetCause",
-    "BudgetQuestion",
-    "ClearanceCase",
-    "CrankLoad",
-    "ExportFile",
-    "FrictionPlan",
-    "FrictionSpread",
-    "FrictionTrials",
-    "ListedPart",
-    "MonteCarloResult",
-    "OutlineAgreement",
-    "PairEventRates",
-    "PairSizes",
-    "PairTrials",
-    "PointerBudget",
-    "PointerErrorCourse",
-    "PointerErrorStatistics",
-    "ProbabilityLimit",
-    "RatioDrift",
-    "SizeLimit",
-    "SobolIndices",
-    "ToothSizes",
-    "TrainBudget",
-    "TrialFigure",
-    "TrialPlan",
-    "TrialResults",
-    "WeightDrive",
-    "assembly_steps",
-    "budget_figure",
-    "describe_budget",
-    "describe_monte_carlo",
-    "export_files",
-    "find_budget",
-    "find_friction_plan",
-    "find_sobol_indices",
-    "find_tooth_sizes",
-    "find_train_sizes",
-    "find_trial_plan",
-    "jamming_map",
-    "monte_carlo_figure",
-    "notices",
-    "parts_list",
-    "read_error_overrides",
-    "run_course",
-    "run_trials",
-    "tooth_sizes_figure",
-    "train_file",
-    "train_sizes_figure",
-    "try_frictions",
-    "wheel_file",
-]
-
-_PLACES = {
-    "budget_figure": "budget.budget_bars",
-    "describe_budget": "budget.budget_report",
-    **dict.fromkeys(("CrankLoad", "WeightDrive"), "budget.crank_load"),
-    **dict.fromkeys(("BudgetCause", "PointerBudget", "RatioDrift", "TrainBudget"), "budget.pointer_budget"),
-    **dict.fromkeys(("BudgetQuestion", "find_budget"), "budget.train_budget"),
-    "read_error_overrides": "cutting.declared_errors",
-    **dict.fromkeys(("AssemblyStep", "assembly_steps"), "export.assembly_guide"),
-    **dict.fromkeys(("ExportFile", "export_files", "notices", "train_file", "wheel_file"), "export.file_set"),
-    **dict.fromkeys(("ListedPart", "parts_list"), "export.parts_list"),
-    **dict.fromkeys(("ClearanceCase", "jamming_map"), "monte_carlo.clearance_study"),
-    **dict.fromkeys(
-        ("FrictionPlan", "FrictionSpread", "FrictionTrials", "TrialFigure", "find_friction_plan", "try_frictions"),
-        "monte_carlo.friction_trials",
-    ),
-    "monte_carlo_figure": "monte_carlo.monte_carlo_plots",
-    "describe_monte_carlo": "monte_carlo.monte_carlo_report",
-    "MonteCarloResult": "monte_carlo.monte_carlo_result",
-    **dict.fromkeys(("SobolIndices", "find_sobol_indices"), "monte_carlo.sobol_indices"),
-    **dict.fromkeys(("TrialPlan", "find_trial_plan"), "monte_carlo.trial_plan"),
-    **dict.fromkeys(
-        ("PairEventRates", "PointerErrorCourse", "PointerErrorStatistics", "TrialResults"), "monte_carlo.trial_results"
-    ),
-    **dict.fromkeys(("run_course", "run_trials"), "monte_carlo.trial_run"),
-    **dict.fromkeys(("BestToothSizes", "OutlineAgreement", "find_tooth_sizes"), "sizes.best_sizes"),
-    **dict.fromkeys(("SizeLimit", "ToothSizes"), "sizes.size_design"),
-    **dict.fromkeys(("ProbabilityLimit", "PairTrials"), "sizes.size_search"),
-    **dict.fromkeys(("tooth_sizes_figure", "train_sizes_figure"), "sizes.tooth_sizes_plot"),
-    **dict.fromkeys(("BestTrainSizes", "PairSizes", "find_train_sizes"), "sizes.train_size_search"),
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "budget.budget_bars": "budget_figure",
+        "budget.budget_report": "describe_budget",
+        "budget.crank_load": "CrankLoad WeightDrive",
+        "budget.pointer_budget": "BudgetCause PointerBudget RatioDrift TrainBudget",
+        "budget.train_budget": "BudgetQuestion find_budget",
+        "cutting.declared_errors": "read_error_overrides",
+        "export.assembly_guide": "AssemblyStep assembly_steps",
+        "export.file_set": "ExportFile export_files notices train_file wheel_file",
+        "export.parts_list": "ListedPart parts_list",
+        "monte_carlo.clearance_study": "ClearanceCase jamming_map",
+        "monte_carlo.friction_trials": "FrictionPlan FrictionSpread FrictionTrials TrialFigure try_frictions",
+        "monte_carlo.monte_carlo_plots": "monte_carlo_figure",
+        "monte_carlo.monte_carlo_report": "describe_monte_carlo",
+        "monte_carlo.monte_carlo_result": "MonteCarloResult",
+        "monte_carlo.sobol_indices": "SobolIndices find_sobol_indices",
+        "monte_carlo.trial_plan": "TrialPlan find_trial_plan",
+        "monte_carlo.trial_results": "PairEventRates PointerErrorCourse PointerErrorStatistics TrialResults",
+        "monte_carlo.trial_run": "run_course run_trials",
+        "sizes.best_sizes": "BestToothSizes OutlineAgreement find_tooth_sizes",
+        "sizes.size_design": "SizeLimit ToothSizes",
+        "sizes.size_search": "PairTrials ProbabilityLimit",
+        "sizes.tooth_sizes_plot": "tooth_sizes_figure train_sizes_figure",
+        "sizes.train_size_search": "BestTrainSizes PairSizes find_train_sizes",
+    },
+)

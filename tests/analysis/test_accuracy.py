@@ -16,7 +16,7 @@ from dynamics.test_uncounted_losses import PIN
 from geartrain import GearTrain, load
 from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy
 
-SPEEDS, TRANSMISSIONS, MOTION, TORQUES = "speeds", "transmission functions", "motion", "torques"
+SPEEDS, MOTION, TORQUES = "speeds", "motion", "torques"
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},
@@ -46,7 +46,7 @@ def moon() -> TrainAccuracy:
 
 
 def test_every_time_is_over_that_of_the_fastest_method_of_its_stage(moon: TrainAccuracy) -> None:
-    for stage in (SPEEDS, TRANSMISSIONS, MOTION):
+    for stage in (SPEEDS, MOTION):
         rows = [row for row in moon.methods if row.stage == stage]
         minimum = min(row.seconds for row in rows)
         assert minimum > 0
@@ -60,15 +60,7 @@ def test_floats_are_as_far_off_as_a_third_of_a_turn_is() -> None:
     assert row_of(found, SPEEDS, "exact").error is None
     third = abs(Fraction(1 / 3) * 3 - 1)
     assert row_of(found, SPEEDS, "floats").error == pytest.approx(float(third), rel=1e-6)
-    assert set(found.neglected) == {TRANSMISSIONS, MOTION, TORQUES}
-
-
-def test_tables_are_within_their_tolerance_and_the_formula_is_the_reference(moon: TrainAccuracy) -> None:
-    assert row_of(moon, TRANSMISSIONS, "direct, 4 functions").error is None
-    for tolerance in (1e-6, 1e-12):
-        table = row_of(moon, TRANSMISSIONS, f"tabulated, {tolerance:.0e}")
-        assert 0 < table.error < tolerance
-        assert table.prepared is not None
+    assert set(found.neglected) == {MOTION, TORQUES}
 
 
 def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAccuracy) -> None:
@@ -87,16 +79,11 @@ def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAc
         )
     off = degrees(np.abs(total - motion._unset.at(turns).error[0]).max())
     assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
-    names = ("superposed with lag", "composed, tabulated functions")
-    lagged, tables = (row_of(moon, MOTION, name).error for name in names)
-    assert 0 < tables < 1e-9 < lagged < off
-    compiled = row_of(moon, MOTION, "composed, compiled").error
-    assert compiled < 1e-11
+    assert 1e-9 < row_of(moon, MOTION, "superposed with lag").error < off
 
 
 def test_teeth_whose_transmission_is_their_ratio_have_nothing_to_measure_and_it_is_said_so() -> None:
     found = find_accuracy(load("planetary-24-18-60-involute"), positions=10)
-    assert "exact ratio" in found.neglected[TRANSMISSIONS]
     assert "no transmission error" in found.neglected[MOTION]
     assert {row.stage for row in found.methods} == {SPEEDS, TORQUES}
 
@@ -113,13 +100,13 @@ def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: obj
     assert done.exit_code == 1
     (found,) = json.loads(done.stdout)["states"]
     assert found["methods"] == []
-    assert set(found["neglected"]) == {SPEEDS, TRANSMISSIONS, MOTION, TORQUES}
+    assert set(found["neglected"]) == {SPEEDS, MOTION, TORQUES}
 
 
 def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(train_file: object) -> None:
     done = call("inspect", "bench", "moon-triangular", "--samples", 100)
     assert done.exit_code == 0
-    for stage in (SPEEDS, TRANSMISSIONS, MOTION):
+    for stage in (SPEEDS, MOTION):
         assert f"\n{stage}\n{'-' * len(stage)}\n" in done.stdout
     assert "torques: no loads are declared" in done.stdout
     states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")

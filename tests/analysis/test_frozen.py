@@ -129,8 +129,6 @@ def test_what_a_train_does_not_have_is_refused_with_what_it_has() -> None:
         "unknown link 'noone'": lambda: train.driven(other, "noone"),
         "unknown input 'nothing'": lambda: floats(inputs={one: [1.0], "nothing": [1.0]}),
         "is not finite": lambda: floats(inputs={link: [float("nan")] for link in train.declaration.inputs}),
-        "the tolerance nan is out of range": lambda: train.motion(tolerance=float("nan")),
-        "the tolerance -1 is out of range": lambda: train.motion(tolerance=-1),
         "has no state": lambda: train.solve("first"),
         "has no output or link": lambda: train.motion(outputs=["nothing"]),
         "has no pair": lambda: train.motion(without=["nothing"]),

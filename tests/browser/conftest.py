@@ -74,14 +74,19 @@ def browser(program: str) -> Iterator[Browser]:
 
 @pytest.fixture
 def open_page(browser: Browser) -> Iterator[OpenPage]:
-    """Function that opens a file after running a script; further arguments are those of the window."""
+    """Function that opens a file after running a script, and stops it at 0 turns unless `opening` is True; further
+    arguments are those of the window.
+    """
     contexts = []
 
-    def show(path: Path, before: str = "", **window: Any) -> Shown:
+    def show(path: Path, before: str = "", opening: bool = False, **window: Any) -> Shown:
         context = browser.new_context(**({"viewport": {"width": 900, "height": 640}} | window))
         contexts.append(context)
         context.add_init_script(before)
-        return _opened(context.new_page(), path)
+        shown = _opened(context.new_page(), path)
+        if not opening:
+            shown.run("globalThis.geartrain.setTurns?.('0')")
+        return shown
 
     yield show
     for context in contexts:

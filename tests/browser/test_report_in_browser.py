@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -12,6 +13,8 @@ from playwright.sync_api import Browser, Locator, Page
 from viewing import contrast, listen, luminance
 
 from geartrain import load
+from geartrain.drawing import picture, render
+from geartrain.drawing.train_pictures import PictureKind
 from geartrain.report import Document, Picture, Section, Table, collect_report, describe_shared_page, to_html
 from geartrain.report.document import Branch, PageExtras, SceneText
 from geartrain.scene import build_scene
@@ -21,6 +24,7 @@ EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg" width="720pt" height="72pt"><path d="M 0 0 L 720 72" stroke="red"/></svg>'
 )
+DRAWN: tuple[PictureKind, ...] = ("plan", "dials")
 Opened = Callable[..., tuple[Page, list[str]]]
 
 
@@ -174,6 +178,31 @@ def test_it_prints_on_white_without_what_can_only_be_clicked(freeth: str, open_r
     assert page.pdf(format="A4").startswith(b"%PDF")
     assert page.evaluate("document.querySelector('.scroll').clientHeight > 0")
     assert wrong == []
+
+
+def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(browser: Browser, tmp_path: Path) -> None:
+    """A window of 1280 x 800 pixels, with the plan and the dials of a train of 24 outputs."""
+    drawings = [Picture(kind, render(picture(shipped.train("freeth-2021"), kind), ".svg").decode()) for kind in DRAWN]
+    path = tmp_path / "report.html"
+    text = to_html([describe_shared_page(shipped.report("freeth-2021"), drawings)])
+    path.write_text(text, encoding="utf-8")
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.goto(path.as_uri())
+    names = (".badge", "article > p:has-text('Verdict')", "table", "figure", "nav.contents")
+    places = [page.locator(name).first.bounding_box() for name in names]
+    badge, verdict, table, figure, contents = (place for place in places if place is not None)
+    assert badge["y"] < verdict["y"] < min(table["y"], figure["y"])
+    assert table["x"] + table["width"] < figure["x"]
+    assert max(each["y"] + each["height"] for each in (badge, verdict, figure)) < 800
+    assert table["y"] < 250
+    assert contents["y"] > max(each["y"] + each["height"] for each in (table, figure))
+    for heading in ("Formulas", "Fundamental circuits", "Adjacency matrix", "Wheels and their sources"):
+        folded = page.locator("details", has=page.get_by_role("heading", name=heading, exact=True))
+        assert folded.count() == 1
+        assert folded.get_attribute("open") is None
+    pages = page.pdf(format="A4", margin=dict.fromkeys(("top", "bottom", "left", "right"), "10mm"))
+    assert len(re.findall(rb"/Type\s*/Page\b", pages)) <= 4
+    page.close()
 
 
 def test_a_click_on_a_rank_shows_its_train_turning(open_report: Opened) -> None:

@@ -46,7 +46,7 @@ outputs: {arm: {}}
 """
 
 SPEEDS = """(scene) => Object.fromEntries(geartrain.scenes[scene].bodies.map(({ id, shown }) => [id, shown]))"""
-ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tbody tr')].map((row) =>
+ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tr[data-output]')].map((row) =>
   [row.dataset.output, (row.querySelector('.copy') ?? row.querySelector('.quiet')).textContent]))"""
 
 
@@ -81,7 +81,7 @@ def expected(answer: Answer) -> dict[str, str | None]:
 
 def agree(shown: Shown, scene: int, answer: Answer) -> None:
     """Assert that all outputs in the table and all links of the scene have the speeds of an answer of the package."""
-    tab(shown, "Outputs")
+    tab(shown, "Readings")
     rows = {name: told(text) for name, text in shown.run(ROWS).items()}
     assert rows == {name: speed or "not determined" for name, speed in expected(answer).items()}
     speeds = shown.run(SPEEDS, scene)
@@ -218,7 +218,7 @@ def test_a_loop_that_no_longer_closes_locks_the_train(opened: Any) -> None:
     verdict = shown.page.locator(".verdict")
     assert verdict.get_attribute("data-verdict") == "locked"
     assert "loop a - b no longer closes: its wheels lock each other" in verdict.inner_text()
-    tab(shown, "Outputs")
+    tab(shown, "Readings")
     assert set(shown.run(ROWS).values()) == {"not determined"}
     assert shown.page.get_by_role("button", name="play", exact=True).is_disabled()
     give(shown, "b1", 42)  # the loop closes again
@@ -233,7 +233,7 @@ def test_counts_at_which_nothing_is_determined_are_told(opened: Any) -> None:
     give(shown, "t1", 30)
     answer = train.with_teeth(t1=30).solve()
     assert answer.verdict.kind != "determined"
-    tab(shown, "Outputs")
+    tab(shown, "Readings")
     assert shown.run(ROWS) == {"arm": "not determined"}
     assert shown.page.locator(".verdict").get_attribute("data-verdict") == "not determined"
     assert "locked or free" in shown.page.locator(".verdict").inner_text()

@@ -48,8 +48,8 @@ def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> No
     at = Fraction(1003, 17)
     shown.run("(t) => geartrain.setTurns(t)", str(at))
     told = shown.run(
-        "Object.fromEntries([...document.querySelectorAll('.hands li')].map((row) => "
-        "[row.querySelector('button').textContent, row.querySelector('.value').textContent]))"
+        "Object.fromEntries([...document.querySelectorAll('[data-angle]')].map((cell) => "
+        "[cell.dataset.angle, cell.textContent]))"
     )
     checked = 0
     for pointer in scene.pointers:

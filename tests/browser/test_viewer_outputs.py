@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, Opening, go, tab, wait
+from viewing import ANTIKYTHERA, Opening, go, tab, unfold, wait
 
 from geartrain import load
 
@@ -55,7 +55,7 @@ def test_brakes_and_clutches_are_named_and_a_click_shows_what_they_hold(show: Op
 @pytest.mark.parametrize("output", ["moon", "exeligmos"])
 def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tmp_path: Path, output: str) -> None:
     shown = show(ANTIKYTHERA)
-    tab(shown, "Outputs")
+    tab(shown, "Readings")
     plain = {colour for _, _, colour in shown.run(DRAWN)}
     shown.page.locator(f"tr[data-output='{output}'] th button").click()
     listed = shown.run("[...document.querySelectorAll('.path [data-pair]')].map((each) => each.dataset.pair)")
@@ -103,7 +103,7 @@ def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
 
 def test_an_exact_value_is_copied_by_a_click(show: Opening) -> None:
     shown = show(ANTIKYTHERA, permissions=["clipboard-read", "clipboard-write"])
-    tab(shown, "Outputs")
+    unfold(shown, "without a dial")
     shown.page.locator("tr[data-output='apsides'] button.copy").click()
     wait(shown, "document.querySelector('[role=status]').textContent === '-477/4237 copied'")
     assert shown.run("navigator.clipboard.readText()") == "-477/4237"

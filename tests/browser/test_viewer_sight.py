@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 import pytest
-from viewing import Opening, picture, tab
+from viewing import Opening, picture, unfold
 
 if TYPE_CHECKING:
     from conftest import Shown
@@ -121,7 +121,7 @@ def test_a_train_is_looked_into_from_behind_where_its_wheels_are_seen_better(
 def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on_one_line(show: Opening) -> None:
     shown = show("prague-orloj", viewport={"width": 390, "height": 844})
     shown.page.get_by_role("button", name="Open panels").click()
-    tab(shown, "Sky")
+    unfold(shown, "Comparison")
     top, bottom = shown.run(
         "(({top, bottom}) => [top, bottom])(document.querySelector('canvas').getBoundingClientRect())"
     )

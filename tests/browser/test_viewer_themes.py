@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, contrast, go, luminance, tab, wait
+from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, contrast, go, luminance, tab, unfold, wait
 
 SMALL = """() => [...document.querySelectorAll('button, select, input:not([type=checkbox]), .tick, summary, .handle')]
   .filter((each) => each.checkVisibility())
@@ -29,7 +30,8 @@ TEXTS = """() => {
     const text = field || [...each.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
     const name = each.outerHTML.slice(0, 90);
     if (each.matches('.dial .hand')) found.push([name, style(each).color, face(each), 3]);
-    if (text && each instanceof SVGElement) found.push([name, style(each).fill, face(each), 4.5]);
+    const under = (node) => (node.closest('.dial') ? face(node) : ground(node.ownerSVGElement.parentElement));
+    if (text && each instanceof SVGElement) found.push([name, style(each).fill, under(each), 4.5]);
     if (text && each instanceof HTMLElement) found.push([name, style(each).color, ground(each), 4.5]);
     if (field || (text && each.matches('button:not(.plain, .copy, [role=tab], .grip)')))
       found.push([`${name} (edge)`, style(each).borderTopColor, ground(each.parentElement), 3]);
@@ -55,9 +57,11 @@ def test_text_and_edges_stand_out_in_both_themes(show: Opening, scheme: str) -> 
     shown.page.get_by_label("Colours").select_option("status")
     shown.page.locator("[data-wheel='e5']").evaluate("(button) => button.click()")
     weak, count = [], 0
-    for name in ("Dials", "Outputs", "Sky", "Wheels", "About"):
+    for name in ("Readings", "Wheels", "About"):
         tab(shown, name)
-        if name == "Outputs":
+        if name == "Readings":
+            unfold(shown, "without a dial")
+            unfold(shown, "Comparison")
             shown.page.locator("tr[data-output='moon'] th button").click()
         for where, ink, ground, minimum in shown.run(TEXTS):
             count += 1
@@ -94,17 +98,17 @@ def test_a_phone_shows_one_column_without_scrolling_sideways(show: Opening, comp
     shown = show(*(("price-1974", ANTIKYTHERA) if compare else (ANTIKYTHERA,)), compare=compare, **PHONE)
     wide = "document.documentElement.scrollWidth"
     assert shown.run(wide) <= 390
-    assert shown.page.get_by_role("tab", name="Dials").is_hidden()
+    assert shown.page.get_by_role("tab", name="Readings").is_hidden()
     shown.page.get_by_text("Picture", exact=True).click()
     grip = shown.page.get_by_role("button", name="Open panels")
     grip.click()
-    for name in ("Dials", "Outputs", "Wheels", "About"):
+    for name in ("Readings", "Wheels", "About"):
         tab(shown, name)
         assert shown.run(wide) <= 390, name
         small = shown.run(SMALL)
         assert small == [], name
     shown.page.get_by_role("button", name="Close panels").click()
-    assert shown.page.get_by_role("tab", name="Dials").is_hidden()
+    assert shown.page.get_by_role("tab", name="Readings").is_hidden()
     assert shown.errors == []
 
 
@@ -147,11 +151,11 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
 ) -> None:
     width, height = size
     shown = show(name, viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
-    for part in (".handle", ".round", ".turns", ".where .quiet", ".view canvas", "[role=tablist]", ".page .dial"):
+    for part in (".handle", ".round", ".turns", ".where .quiet", ".view canvas", "[role=tablist]", ".page .outputs"):
         box = shown.page.locator(part).locator("visible=true").first.bounding_box()
         inside = box["x"] >= 0 and box["x"] + box["width"] <= width + 1 and box["y"] >= 0
         assert inside, (part, box)
-        assert box["y"] + (0 if part == ".page .dial" else box["height"]) <= height, (part, box)
+        assert box["y"] + (0 if part == ".page .outputs" else box["height"]) <= height, (part, box)
     canvas = shown.page.locator(".view canvas").bounding_box()
     assert canvas["width"] > 0.3 * width
     assert canvas["height"] > 0.5 * height
@@ -161,15 +165,26 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
     assert shown.run(SMALL) == []
 
 
-def test_on_paper_stand_picture_dials_and_outputs_and_nothing_to_press(show: Opening) -> None:
+def test_a_printed_page_is_complete_and_has_the_picture(show: Opening) -> None:
+    """Folded parts are opened before the pages are counted; a drawing context is not printed."""
+    shown = show(ANTIKYTHERA)
+    printed = shown.page.pdf(format="A4")
+    shown.page.emulate_media(media="print")
+    wait(shown, "document.querySelectorAll('.more:not([open])').length === 0")
+    pages = [len(re.findall(rb"/Type /Page\b", each)) for each in (printed, shown.page.pdf(format="A4"))]
+    assert pages[0] == pages[1] > 3
+    assert b"/Subtype /Image" in printed
+
+
+def test_on_paper_are_picture_readings_and_sources_and_nothing_to_press(show: Opening) -> None:
     shown = show(SIMPLE, viewport={"width": 718, "height": 1040})
     shown.run("geartrain.setTurns('1/4')")
     assert not shown.page.locator(".outputs").is_visible()
     shown.page.emulate_media(media="print")
     wait(shown, "document.querySelector('[data-angle=carrier]').textContent !== ''")
-    for seen in (".view canvas", ".dial", ".outputs", ".sources"):
+    for seen in (".view canvas.copy", ".outputs", ".sources"):
         assert shown.page.locator(seen).first.is_visible(), seen
-    for pressed in (".tools", ".go", ".grip", "[role=tablist]", ".wheels"):
+    for pressed in (".tour", ".tools", ".go", ".grip", "[role=tablist]", ".wheels"):
         assert not shown.page.locator(pressed).first.is_visible(), pressed
     # a quarter turn of the sun, and 2/7 of it
     assert shown.page.locator("[data-angle=carrier]").inner_text() == f"{360 - 90 * 2 / 7:.2f}\u00b0"

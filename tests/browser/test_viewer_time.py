@@ -9,7 +9,7 @@ from fractions import Fraction
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, SIMPLE, Opening, go, tab, turns, wait
+from viewing import ANTIKYTHERA, SIMPLE, Opening, go, tab, turns, unfold, wait
 
 from geartrain.train import date_of, julian_day, period_table, read_date
 
@@ -92,7 +92,7 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
     shown = show(ANTIKYTHERA)
     at = Fraction(100_003, 7)
     go(shown, at)
-    tab(shown, "Sky")
+    unfold(shown, "Comparison")
     assert "Carman and Evans" in shown.page.locator(".epoch").inner_text()
     assert "Mean motion" in shown.page.locator(".tells").inner_text()
     rows = shown.run(
@@ -122,7 +122,7 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
                 checked.add(output)
     assert len(checked) == 6
     assert len(rows) == sum(len(output.targets) for output in train.declaration.outputs.values())
-    tab(shown, "Dials")
+    tab(shown, "Readings")
     marks = dict(
         shown.run(
             "[...document.querySelectorAll('.dial .target')].map((m) => [m.dataset.output, Number(m.dataset.turns)])"
@@ -134,7 +134,7 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
 
 def test_errors_of_very_long_times_stay_in_their_column(show: Opening) -> None:
     shown = show(ANTIKYTHERA)
-    tab(shown, "Sky")
+    unfold(shown, "Comparison")
     for at in ("1e18", "1/1000000"):
         go(shown, at)
         texts = shown.run("[...document.querySelectorAll('.sky .copy')].map((each) => each.textContent)")
@@ -147,7 +147,7 @@ def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening) -> None:
     assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"
     go(shown, "-1")
     assert shown.page.locator(".date").inner_text() == "14 October 1582, 12:00"  # in the Gregorian calendar
-    tab(shown, "Sky")
+    unfold(shown, "Comparison")
     exact = shown.run("[...document.querySelectorAll('.sky .copy')].map((each) => each.dataset.exact)")
     assert exact == ["0", "1/56"]  # (-1/7 + 1/8) turns per day, one day earlier
     shown = show(SIMPLE)

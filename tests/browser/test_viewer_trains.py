@@ -69,7 +69,7 @@ def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> No
     assert "Wheel p" in shown.page.locator(".detail").inner_text()
     shown.page.get_by_label("Colours").select_option("speed")
     assert len(set(shown.run("[...document.querySelectorAll('.plan .disc')].map((d) => d.getAttribute('fill'))"))) == 3
-    tab(shown, "Outputs")
+    tab(shown, "Readings")
     shown.page.locator("tr[data-output='carrier'] th button").click()
     assert shown.page.locator("[data-angle='carrier']").inner_text() == f"{360 - 360 * 2 / 49:.2f}\u00b0"
     shown.page.keyboard.press("e")
@@ -103,11 +103,10 @@ def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_pat
     train = load(str(path))
     assert not train.declaration.outputs
     shown = show(text=path.read_text(encoding="utf-8"))
-    panel = shown.page.get_by_role("tabpanel", name="Dials")
-    assert "declares no outputs; the first 12 of its 14 links are listed" in panel.inner_text()
-    assert panel.locator(".dial").count() == 12
-    tab(shown, "Outputs")
-    rows = "[...document.querySelectorAll('.outputs tbody tr')]"
+    panel = shown.page.get_by_role("tabpanel", name="Readings")
+    assert "declares no outputs; its links are listed" in panel.inner_text()
+    assert panel.locator(".dial").count() == 0
+    rows = "[...document.querySelectorAll('.outputs tr[data-output]')]"
     told = shown.run(f"{rows}.map((row) => [row.dataset.output, row.querySelector('.copy').textContent])")
     solved = train.solve()
     assert {link: text.replace("\u2212", "-") for link, text in told} == {
@@ -133,7 +132,7 @@ def test_states_are_chosen_and_stand_beside_each_other(show: Opening) -> None:
 def test_two_trains_turn_in_step_and_their_difference_is_exact(show: Opening) -> None:
     shown = show("price-1974", ANTIKYTHERA, compare=True)
     solved = [shipped.train(name).solve() for name in ("price-1974", ANTIKYTHERA)]
-    tab(shown, "Outputs")
+    tab(shown, "Readings")
     shown.page.get_by_label("one unit of the input forward").click(click_count=2)
     assert turns(shown) == 2
     assert shown.run("geartrain.machines.map(({turns}) => String(turns))") == ["2", "2"]
@@ -173,8 +172,8 @@ def test_markup_in_a_train_stays_text(show: Opening) -> None:
 
     shown.page.on("dialog", met)
     assert shown.page.locator("h1").inner_text() == '</script><img src=x onerror="alert(2)">'
-    assert shown.page.locator(".names").inner_text() == "<script>alert(1)</script>"
-    for name in ("Outputs", "Wheels", "About"):
+    assert shown.page.locator(".names").inner_text() == "<b>bold</b> {{note}}"
+    for name in ("Readings", "Wheels", "About"):
         tab(shown, name)
     assert "<svg onload=alert(3)>" in shown.page.locator(".sources").inner_text()
     tab(shown, "Wheels")

@@ -65,6 +65,14 @@ def tab(shown: Shown, name: str) -> None:
     shown.page.get_by_role("tab", name=name).click()
 
 
+def unfold(shown: Shown, name: str) -> None:
+    """Open a folded part of the readings."""
+    tab(shown, "Readings")
+    part = shown.page.locator(".more", has=shown.page.locator("summary", has_text=name))
+    if part.get_attribute("open") is None:
+        part.locator("summary").click()
+
+
 def go(shown: Shown, turn: object) -> None:
     """Type a number of turns of the crank."""
     shown.page.get_by_label("Go to turn").fill(str(turn))

@@ -7,12 +7,12 @@ from math import log10, pi, radians
 import mpmath as mp
 import numpy as np
 import pytest
+from numpy.polynomial import Chebyshev
 from studies.shape_cases import CASES, EXTREMES, TRUTH, ShapeCase
 from studies.shape_methods import collocated, marched, packaged, searched
 from studies.shape_study import WorkRecord, quickest
 
 from geartrain.errors import RangeError
-from geartrain.numerics.chebyshev import ChebyshevSeries
 from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.optimal_sides import solved
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
@@ -99,7 +99,7 @@ def test_a_solution_is_one_function_whatever_its_end() -> None:
     long, short = (solved(pitch, transmission, float(np.sin(radians(20))), end) for end in (1.6, 0.9))
     d = np.linspace(0, 0.9, 50)
     np.testing.assert_allclose(long(d), short(d), rtol=3e-15)
-    warm: ChebyshevSeries = solved(pitch, transmission, float(np.sin(radians(20))), 1.6, near=short)
+    warm: Chebyshev = solved(pitch, transmission, float(np.sin(radians(20))), 1.6, near=short)
     np.testing.assert_allclose(warm(d), long(d), rtol=3e-15)
 
 

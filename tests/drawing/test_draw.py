@@ -25,10 +25,12 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("svgelements")
 
 import svgelements
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from seen_figure import KINDS
 
 from geartrain.drawing import picture, render
+from geartrain.drawing.style import FILL, SHADE
 from geartrain.scene.pose import body_errors, scene_pose
 
 FEW = [
@@ -122,6 +124,35 @@ def test_every_outline_has_as_many_teeth_as_the_file_says(name: str) -> None:
 @pytest.mark.slow
 def test_the_plan_of_sixty_nine_wheels_is_small_enough_for_a_page() -> None:
     assert len(render(drawn("freeth-2021", "plan"), ".svg")) < 1_500_000
+
+
+HELICAL = """
+links: {frame: {}, a: {wheels: {a20: {teeth: 20, helix_angle: 25 deg, hand: right}}},
+  b: {wheels: {b30: {teeth: 30, helix_angle: 25 deg, hand: left}, b15: 15}}, c: {wheels: {c40: 40}}}
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
+gears: [a20 ~ b30, b15 ~ c40]
+inputs: {a: 1}
+"""
+
+
+def test_lines_on_a_bar_have_the_angle_and_hand_of_its_helix() -> None:
+    """If the axis is level, right-hand teeth fall towards the right on the side that the reader sees."""
+    figure = picture(geartrain.load(HELICAL), "plan")
+    slopes = {
+        str(line.get_gid())[6:]: float(np.divide(*np.diff(np.asarray(line.get_xydata(), dtype=float), axis=0)[0][::-1]))
+        for line in figure.axes[0].lines
+        if str(line.get_gid()).startswith("helix ")
+    }
+    assert slopes == pytest.approx({"a20": -np.tan(np.radians(25)), "b30": np.tan(np.radians(25))})
+
+
+@pytest.mark.parametrize("name", ["worm", "humpage", "bevel-differential"])
+def test_oblique_plans_have_the_colours_of_flat_plans(name: str) -> None:
+    faces = drawn(name, "plan").axes[0].collections[0].get_facecolor()
+    low, high = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))
+    share = (faces[:, :3] - low) / (high - low)
+    assert share.max(axis=1) == pytest.approx(share.min(axis=1), abs=1e-6), "between the two blues of a flat plan"
+    assert np.ptp(share) > 0.2
 
 
 @pytest.mark.parametrize("turns", [Fraction(0), Fraction(31, 7)])
@@ -245,21 +276,127 @@ def test_the_two_wheels_of_every_pair_end_at_each_other(name: str) -> None:
 
 @pytest.mark.parametrize("state", ["1", "6", "R"])
 def test_a_stick_diagram_shows_which_brakes_and_clutches_are_closed(state: str) -> None:
-    """Each has two plates, in contact if it is closed, with the names of the links that it holds or connects."""
+    """Each has two plates, close together if it is closed, on stems to the shafts of the links that it joins."""
     train = load("zf-8hp70")
     figure = picture(train, "stick", state)
     plates: dict[str, list[float]] = {}
     for line in figure.axes[0].lines:
         if str(line.get_gid()).startswith("element "):
-            plates.setdefault(str(line.get_gid())[8:], []).append(float(np.asarray(line.get_ydata())[0]))
+            plates.setdefault(str(line.get_gid())[8:], []).append(float(np.asarray(line.get_xdata())[0]))
     assert set(plates) == set(train.declaration.clutches)
     gaps = {name: abs(ends[0] - ends[1]) for name, ends in plates.items()}
     closed = train.declaration.states[state].engaged
     assert max(gaps[name] for name in closed) < min(gap for name, gap in gaps.items() if name not in closed)
+    assert sum(patch.get_gid() == "ground" for patch in figure.axes[0].patches) == 2, "of the two brakes"
+
+
+def shafts_of(figure: Figure) -> dict[str, tuple[float, float, float]]:
+    """Return left end, right end and height of the shaft of each link."""
+    found = {}
+    for line in figure.axes[0].lines:
+        if str(line.get_gid()).startswith("link "):
+            xs, ys = (np.asarray(each, dtype=float) for each in line.get_data())
+            found[str(line.get_gid())[5:]] = float(xs.min()), float(xs.max()), float(ys[0])
+    return found
+
+
+@pytest.mark.parametrize(
+    "name", ["zf-8hp70", "ford-10r80", "mercedes-9g-tronic", "ravigneaux-set", "torqueflite", "lathe-back-gear"]
+)
+def test_brakes_and_clutches_are_between_the_members_that_they_join(name: str) -> None:
+    """A stem leads from a plate to the shaft of each link; the left plate of a brake is next to the hatching."""
+    figure, train = drawn(name, "stick"), load(name)
+    shafts = shafts_of(figure)
+    for element, clutch in train.declaration.clutches.items():
+        stems = [line for line in figure.axes[0].lines if line.get_gid() == f"stem {element}"]
+        plates = [line for line in figure.axes[0].lines if line.get_gid() == f"element {element}"]
+        assert len(plates) == 2
+        assert len(stems) == len(clutch.links)
+        for link, stem in zip(clutch.links, stems, strict=True):
+            left, right, height = shafts[link]
+            assert float(np.asarray(stem.get_ydata())[0]) == pytest.approx(height), (element, link)
+            assert left < float(np.asarray(stem.get_xdata())[0]) < right, (element, link)
+        left = float(np.asarray(plates[0].get_xdata())[0])
+        middle = float(np.mean(np.asarray(plates[0].get_ydata())))
+        touching = [
+            patch
+            for patch in figure.axes[0].patches
+            if patch.get_gid() == "ground"
+            and abs(patch.get_x() + patch.get_width() - left) < 0.06  # type: ignore[attr-defined]
+            and abs(patch.get_y() + patch.get_height() / 2 - middle) < 0.01  # type: ignore[attr-defined]
+        ]
+        assert len(touching) == (len(clutch.links) == 1), element
+
+
+@pytest.mark.parametrize(
+    ("name", "element", "ahead"),
+    # retro-direct: the hub may run ahead of its sprocket; torqueflite: `F` lets C2 turn forward past the case
+    [("retro-direct", "S", "wheel"), ("retro-direct", "L", "wheel"), ("torqueflite", "F", "C2")],
+)
+def test_the_triangle_of_a_one_way_clutch_points_to_the_link_that_may_run_ahead(
+    name: str, element: str, ahead: str
+) -> None:
+    figure = drawn(name, "stick")
+    (triangle,) = (patch for patch in figure.axes[0].patches if patch.get_gid() == f"one-way {element}")
+    corners = np.asarray(triangle.get_path().vertices)[:3]
+    tip = next(x for x, y in corners if np.isclose(y, corners[:, 1].mean()))
+    back = min(corners[:, 0], key=lambda x: -abs(x - tip))
+    height = shafts_of(figure)[ahead][2]
+    (stem,) = (
+        float(np.asarray(line.get_xdata())[0])
+        for line in figure.axes[0].lines
+        if line.get_gid() == f"stem {element}" and np.isclose(np.asarray(line.get_ydata(), dtype=float)[0], height)
+    )
+    assert abs(tip - stem) < abs(back - stem)
+
+
+@pytest.mark.parametrize(("locks", "side"), [("[carrier, frame]", 1), ("[frame, carrier]", -1)])
+def test_a_clutch_to_the_frame_has_its_hatching_on_the_side_of_the_frame(locks: str, side: int) -> None:
+    text = (TRAINS / "engineering" / "planetary-24-18-60.yaml").read_text(encoding="utf-8")
+    start = text.index("outputs:")
+    figure = picture(geartrain.load(f"{text[:start]}clutches: {{X: {{locks: {locks}}}}}\n"), "stick")
+    plates = [float(np.asarray(line.get_xdata())[0]) for line in figure.axes[0].lines if line.get_gid() == "element X"]
+    (hatched,) = (
+        patch.get_x() + patch.get_width() / 2  # type: ignore[attr-defined]
+        for patch in figure.axes[0].patches
+        if patch.get_gid() == "ground" and patch.get_height() > patch.get_width()  # type: ignore[attr-defined]
+    )
+    assert np.sign(hatched - np.mean(plates)) == side
+
+
+@pytest.mark.parametrize(
+    ("name", "held"),
+    [
+        ("planetary-24-18-60", 1),  # the ring on the frame
+        ("norton-planetary", 0),
+        ("longcase-clock", 0),
+        ("wolfrom-175", 1),  # fixed by a key of the declaration
+        ("planetary", 1),  # ring fixed in the first state
+    ],
+)
+def test_bearings_are_bars_and_only_held_links_are_hatched(name: str, held: int) -> None:
+    figure, train = drawn(name, "stick"), load(name)
+    assert sum(patch.get_gid() == "ground" for patch in figure.axes[0].patches) == held
+    assert ("held by the frame" in [text.get_text() for text in figure.legends[0].get_texts()]) == bool(held)
+    bars = [line.get_xydata() for line in figure.axes[0].lines if line.get_gid() == "bearing"]
+    for link, (left, right, height) in shafts_of(figure).items():
+        if train.kinematics.tree.top[link] == train.declaration.frame:
+            own = [
+                bar for bar in bars if left - 1e-9 <= bar[0][0] < bar[1][0] <= right and abs(bar[0][1] - height) < 0.06
+            ]
+            assert sorted(round(bar[0][1] - height, 6) for bar in own) == [-0.05, 0.05], link
+
+
+def test_the_strands_of_a_belt_cross_where_it_drives_with_its_back() -> None:
+    figure = drawn("retro-direct", "stick")
+    ends = {
+        name: [np.asarray(line.get_xdata()) for line in figure.axes[0].lines if line.get_gid() == f"coupling {name}"]
+        for name in ("ring~s", "ring~l")
+    }
+    assert {name: bool(np.diff(strand[0])[0]) for name, strand in ends.items()} == {"ring~s": False, "ring~l": True}
     words = [text.get_text() for text in figure.axes[0].texts]
-    for clutch in train.declaration.clutches.values():
-        for link in clutch.locks or (clutch.fixes,):
-            assert words.count(link) >= 2, "on its shaft, and at its brake or clutch"
+    assert {"ring 44", "s 18", "l 26"} <= set(words)
+    assert not segments(figure, "wheel "), "its wheels are the pulleys"
 
 
 @pytest.mark.parametrize("name", ["rv-reducer", "strain-wave"])
@@ -376,6 +513,28 @@ def test_the_hands_of_a_clock_stand_where_the_time_is(turns: Fraction) -> None:
     figure = picture(load("longcase-clock"), "dials", turns=turns)  # the input is the minute hand
     for output, speed in {"centre": Fraction(1), "hour": Fraction(1, 12), "escape": Fraction(60)}.items():
         assert angle_of(figure, output) == pytest.approx(float(turns * speed % 1), abs=1e-9)
+
+
+@pytest.mark.parametrize("turns", [Fraction(1, 50), Fraction(1, 17), Fraction(3, 7)])
+def test_the_drawn_moon_is_lit_as_its_elongation_from_the_sun_requires(turns: Fraction) -> None:
+    """The hands of Sun and Moon give the elongation: (1 - cos) / 2 of the disc is lit, on the side of the Sun."""
+    figure = drawn("freeth-2021", "dials", turns)
+    ahead = (angle_of(figure, "sun") - angle_of(figure, "moon")) % 1  # of the Sun, clockwise as seen from the Moon
+    (moon,) = (patch for patch in figure.axes[0].patches if patch.get_gid() == "moon")
+    (lit,) = (patch for patch in figure.axes[0].patches if patch.get_gid() == "lit")
+    x, y = np.asarray(lit.get_path().vertices).T
+    area = abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / 2
+    share = (1 - np.cos(2 * pi * ahead)) / 2
+    assert area / (pi * moon.radius**2) == pytest.approx(share, abs=0.002)  # type: ignore[attr-defined]
+    assert np.sign(x.mean() - moon.center[0]) == np.sign(np.sin(2 * pi * ahead))  # type: ignore[attr-defined]
+    assert any(f"{100 * share:.0f} % lit" in text.get_text() for text in figure.axes[0].texts)
+
+
+def test_the_usual_sense_of_hands_is_written_once() -> None:
+    texts = [text.get_text() for text in drawn("freeth-2021", "dials").axes[0].texts]
+    assert sum(" clockwise" in text for text in texts) == 1
+    backwards = {text.split(":")[0] for text in texts if text.endswith(", counter-clockwise")}
+    assert backwards == {"games", "nodes", "phase"}, "the ball turns as the Moon gains on the Sun"
 
 
 def test_a_pointer_on_a_spiral_moves_outwards_with_every_turn() -> None:

@@ -21,26 +21,23 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from geartrain.drawing import motion_figure, power_figure, shapes_figure, sweep_figure, triangular_figure
+from geartrain.drawing import power_figure, shapes_figure, sweep_figure, triangular_figure
 from geartrain.drawing.theme_colours import themed
-from geartrain.dynamics import MotionRun, find_power_flow
+from geartrain.dynamics import find_power_flow
 from geartrain.scene.palette import THEMES
 from geartrain.search.posterior.corner_plot import CountProbabilities, corner_figure
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop import (
-    BudgetQuestion,
     PointerErrorCourse,
     ToothSizes,
-    budget_figure,
-    find_budget,
     find_tooth_sizes,
     find_train_sizes,
     tooth_sizes_figure,
     train_sizes_figure,
 )
-from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, histogram_figure, jam_map_figure
+from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, jam_map_figure
 
 GRID = np.linspace(0.0, 1.0, 5)
 
@@ -123,7 +120,7 @@ def test_a_sweep_names_its_parameters_by_itself() -> None:
 def test_marks_of_one_place_stand_one_within_the_other() -> None:
     """Here the optimum of each pair is also the optimum of the train."""
     figure = train_sizes_figure(find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}))
-    marks = [line for line in figure.axes[0].lines if line.get_gid() in ("declared", "apart", "together")]
+    marks = [line for line in figure.axes[0].lines if line.get_gid() != "interval"]
     sizes = [line.get_markersize() for line in marks]
     assert len(marks) == 3
     assert all(inner < 0.8 * outer for outer, inner in pairwise(sizes))
@@ -163,56 +160,6 @@ def test_the_key_of_bands_is_as_dark_as_they_are_seen() -> None:
     for band, key in zip(figure.axes[0].collections, figure.legends[0].get_patches(), strict=True):
         through *= 1 - band.get_alpha()
         assert key.get_alpha() == pytest.approx(1 - through)
-
-
-def test_trials_are_counted_in_whole_numbers() -> None:
-    figure = histogram_figure({"moon": np.random.default_rng(1).normal(size=100)})
-    figure.draw_without_rendering()
-    ticks = figure.axes[0].get_yticks()
-    assert all(tick == int(tick) for tick in ticks)
-
-
-def test_the_budget_of_one_pointer_is_a_bar_for_each_cause() -> None:
-    budget = find_budget(load("freeth-2008"), BudgetQuestion(outputs=("moon",)))
-    figure = budget_figure(budget)
-    (axes,) = figure.axes
-    assert [label.get_text() for label in axes.get_yticklabels()] == [
-        "ratio",
-        "theory",
-        "teeth",
-        "lost motion",
-        "cutting",
-    ]
-    drawn = [bar.get_width() for bar in axes.patches]
-    assert drawn == [
-        pytest.approx(cause.degrees or 0.0) for cause in (*budget["moon"].ranked, *budget["moon"].undeclared)
-    ]
-    width, height = figure.get_size_inches()
-    assert height > 0.35 * width, "no strip"
-    assert [text.get_text() for text in axes.texts][2:] == ["not declared"] * 3
-
-
-def test_outputs_in_rows_have_their_errors_below_each_other() -> None:
-    train = load("freeth-2021")
-    figure = motion_figure(MotionRun(train.motion(outputs=("mercury", "mars", "moon", "venus", "jupiter")), 20, 2001))
-    columns = {
-        word: {round(axes.get_position().x0, 1) for axes in figure.axes if word in axes.get_ylabel()}
-        for word in ("anomaly", "speed")
-    }
-    assert all(len(places) == 1 for places in columns.values()), columns
-
-
-def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
-    figure = motion_figure(MotionRun(load("longcase-clock-cycloidal").motion(), 2, 101), title="a clock")
-    assert "every output moves uniformly" in figure.get_suptitle()
-    assert not any(word in axes.get_ylabel() for axes in figure.axes for word in ("error", "anomaly"))
-
-
-def test_outputs_without_error_that_are_left_out_are_told() -> None:
-    figure = motion_figure(MotionRun(load("price-1974").motion(), 0.02, 21), title="price-1974")
-    said = " ".join(figure.get_suptitle().split())
-    assert said == "price-1974; every output moves uniformly; 8 outputs are omitted: select them with --of"
-    assert len([axes for axes in figure.axes if axes.axison]) == 12
 
 
 def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:

@@ -6,22 +6,16 @@ import re
 from pathlib import Path
 from unittest.mock import patch
 
-import numpy as np
 import pytest
 from commands import call
-from shipped import train as load
 
 pytest.importorskip("matplotlib")
 
 from seen_figure import alike, crowded, hidden, untitled, without_quantity
-from test_words_in_pictures import faults_of
 from written_text import read_picture
 
-from geartrain.drawing import motion_figure, render
-from geartrain.dynamics import MotionRun
+from geartrain.drawing import render
 from geartrain.scene.palette import THEMES
-from geartrain.workshop import PointerErrorCourse
-from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, histogram_figure
 
 CUT = ["montecarlo", "moon-triangular", "--cutting", "pitch_deviation=2%"]
 PAIR = ["mesh", 60, 30, "--form", "triangular"]
@@ -34,6 +28,10 @@ QUICK = [
     ["torques", "norton-compound"],
     ["sphere", "cube", "--teeth", "4=12"],
     ["motion", "moon-triangular", "--turns", "0.2", "--samples", 101],
+    ["motion", "moon-triangular", "--of", "moon", "--turns", "0.2", "--samples", 101],
+    ["motion", "lathe-thread", "--turns", "2", "--samples", 101],
+    ["motion", "nrel-grc-750", "--turns", "2", "--samples", 101],
+    ["torques", "planetary-24-18-60-triangular", "--turns", "1", "--samples", 200],
     *([*CUT, "--trials", 20, "--picture", picture] for picture in ("errors", "convergence", "pairs")),
     [*CUT, "--trials", 8, "--of", "moon", "--picture", "course"],
     [*CUT, "--trials", 8, "--of", "moon", "--sobol", "--picture", "sobol"],
@@ -131,23 +129,3 @@ def test_a_sweep_says_what_is_swept(tmp_path: Path) -> None:
 @pytest.mark.parametrize("arguments", SLOW, ids=lambda words: " ".join(map(str, words)))
 def test_words_of_a_plot_of_much_can_be_read(arguments: list[object], tmp_path: Path) -> None:
     check(arguments, tmp_path)
-
-
-def test_many_pointers_fit_on_a_page_with_those_that_stray_most() -> None:
-    trials = np.random.default_rng(1).normal(size=50)
-    errors = {f"pointer {at}": trials * (at + 1) for at in range(70)}
-    figure = histogram_figure(errors, "at random positions")
-    assert not faults_of(figure)
-    assert [axes.get_ylabel().split("\n")[0] for axes in figure.axes] == [f"pointer {at}" for at in range(58, 70)]
-    assert "58 pointers with smaller errors" in figure.axes[-1].get_xlabel()
-    turns = np.array([0.0, 1.0])
-    courses = [PointerErrorCourse(name, turns, np.radians(np.stack([own, own], 1))) for name, own in errors.items()]
-    assert not faults_of(course_figure(courses))
-
-
-def test_many_outputs_of_a_motion_stand_in_rows() -> None:
-    train = load("pennestri-2002-teeth")
-    links = tuple(link for link in train.declaration.links if link != train.declaration.frame)
-    figure = motion_figure(MotionRun(train.motion(outputs=links), 0.02, 21), title=train.name)
-    assert not faults_of(figure)
-    assert "outputs with smaller deviations are omitted" in figure.get_suptitle()

@@ -23,7 +23,7 @@ from sampling import few_or_many
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import Torques, find_power_flow
-from geartrain.numerics.multiples_of_pi import PI
+from geartrain.numerics.exact import PI
 
 Data = dict[str, Any]
 

@@ -8,7 +8,7 @@ from test_uncounted_losses import PIN
 
 from geartrain import GearTrain, load
 from geartrain.train import Train
-from geartrain.workshop import find_friction_plan, try_frictions
+from geartrain.workshop import FrictionPlan, try_frictions
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction
 
 TRAIN = """
@@ -49,7 +49,7 @@ def test_what_a_pair_declares_is_its_own_and_static_keeps_its_ratio() -> None:
 
 
 def test_more_friction_takes_more_torque() -> None:
-    plan = find_friction_plan(load(TRAIN), turns=0.2, samples=50)
+    plan = FrictionPlan(load(TRAIN).declaration, turns=0.2, samples=50)
     found = try_frictions(plan, 6, seed=2)
     drawn = [coefficients(draw_friction(plan.declared, 2, trial))[0] for trial in range(6)]
     order = np.argsort(drawn)
@@ -61,7 +61,7 @@ def test_more_friction_takes_more_torque() -> None:
 def test_trials_are_those_of_a_train_each_and_some_lock() -> None:
     text = PIN.replace("friction: 0.3", "friction: {sliding: 0.3, deviation: 0.4}")
     train = load(text.replace("inputs: {a", "inputs: {b").replace("loads: {b: -10", "loads: {a: -1"))
-    found = try_frictions(find_friction_plan(train, 1, 60), 8, seed=1)
+    found = try_frictions(FrictionPlan(train.declaration, 1, 60), 8, seed=1)
     trains = [GearTrain(draw_friction(train.declaration, 1, trial)) for trial in range(8)]
     cycles = [train.torques(turns=1, samples=60) for train in trains]
     turning = [cycle for cycle in cycles if cycle.mean is not None]

@@ -144,7 +144,7 @@ def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
     data = json.loads(call(*arguments, "--json").stdout)
     assert set(data["outputs"]) == {"moon"}
     assert set(data["outputs"]["moon"]) == {
-        *("transmission_error", "speed", "ratio", "searched", "sensitivity", "setting"),
+        *("transmission_error", "speed", "ratio", "searched", "unit", "sensitivity", "setting"),
         *("phases", "estimates", "spectrum"),
     }
     assert set(data["outputs"]["moon"]["transmission_error"]) == {"peak_to_peak", "rms"}

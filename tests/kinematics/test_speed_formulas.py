@@ -14,7 +14,7 @@ from shipped import train as load
 
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.numerics.multiples_of_pi import PI
+from geartrain.numerics.exact import PI
 
 PLANETARY = """
 name: set

@@ -15,7 +15,7 @@ import pytest
 import geartrain
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.numerics.multiples_of_pi import OTHER_PI, PI, pi_text
+from geartrain.numerics.exact import OTHER_PI, PI, pi_text
 from geartrain.report.answers import answer_text
 from geartrain.teeth.couplings.crank_slider import CrankSliderTransmission
 from geartrain.train import with_long_forms, with_short_forms

@@ -242,8 +242,8 @@ def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
     assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory", "refused"]}
     assert verdict["properties"]["loops"]["items"]["properties"] == {"carrier": text, **loop, "product": text}
     methods = ANSWERS["inspect bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
-    assert methods["stage"]["enum"] == ["speeds", "transmission functions", "motion", "torques"]
-    assert methods["unit"]["enum"] == ["relative", "pitches", "deg"]
+    assert methods["stage"]["enum"] == ["speeds", "motion", "torques"]
+    assert methods["unit"]["enum"] == ["relative", "deg"]
     speeds = ANSWERS["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
     assert speeds["additionalProperties"]["required"] == ["exact", "value"]
     floats = {"estimate", "true_error", "condition"}

@@ -8,12 +8,13 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
+from html import escape
 from importlib import import_module
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-from commands import call
+from commands import LOCKED, call
 from dynamics.test_uncounted_losses import PIN
 from package.test_public_names import SHOWING
 
@@ -74,7 +75,7 @@ def trials() -> Any:
 
 
 def friction_trials() -> Any:
-    plan = room("workshop").find_friction_plan(load(SLIDER), 1.0, 40)
+    plan = room("workshop").FrictionPlan(load(SLIDER).declaration, 1.0, 40)
     return room("workshop").try_frictions(plan, 12)
 
 
@@ -304,9 +305,28 @@ def test_a_notebook_shows_well_formed_html(name: str) -> None:
         assert "<table" in page or not hasattr(result, "to_frame")
 
 
+@pytest.mark.needs("matplotlib", "jinja2")
+@pytest.mark.parametrize("name", ["freeth-2021", "zf-8hp70", "planetary", "screw-jack"])
+def test_a_train_in_a_notebook_is_small_and_has_a_picture_a_verdict_and_outputs(name: str) -> None:
+    train = load(name)
+    page = train._repr_html_()
+    assert len(page.encode()) < 60_000
+    assert page.index("Verdict: determined") < page.index("<table") < page.index('src="data:image/png;base64,iVBOR')
+    assert "Speeds are" in page
+    shown = train.solve(train.declaration.state_or_first(None)).outputs
+    assert sum(escape(output) in page for output in shown) >= 1
+
+
+def test_a_train_in_a_notebook_has_its_names_escaped() -> None:
+    train = geartrain.load(f"title: <script>alert(1)</script>\n{LOCKED}")
+    page = train._repr_html_()
+    assert "&lt;script&gt;" in page
+    assert "<script" not in page
+
+
 def closed(page: str) -> str:
     """HTML with no element that XML would take for open."""
-    assert not re.search(r"<(br|img|hr|input)\b", page)
+    assert not re.search(r"<(br|img|hr|input)\b[^>]*[^/]>", page)
     return page
 
 

@@ -6,7 +6,7 @@ import math
 import random
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations, permutations
+from itertools import combinations
 
 import pytest
 from concrete_trees import random_problem
@@ -23,7 +23,7 @@ from geartrain.search.reconstruct import (
     find_reconstructions,
     read_evidence,
 )
-from geartrain.search.reconstruct.geometry_likelihood import can_close, candidate_likelihood, order_exists
+from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
 from geartrain.search.reconstruct.reconstruction_problem import (
     MeasuredWheel,
     PlacedArbor,
@@ -186,114 +186,6 @@ def test_what_is_only_improbable_is_not_impossible() -> None:
 
 def test_arbors_in_one_place_do_not_mesh() -> None:
     assert candidate_likelihood(pair(), SurvivingGeometry(arbors=places(a=(3, 4), b=(3, 4)))) == 0
-
-
-# arbors without a place
-
-
-def test_an_arbor_between_two_places() -> None:
-    """p of 20 drives an added 30, at 25 mm; beside it an added wheel of 20 drives x of 60, at 40 mm."""
-    below = Arbor(None, PlacedWheel(None, 30), (), ((PlacedWheel(None, 20), (leaf("c", X),)),))
-    arbor = shared(P, below)
-
-    def weight(x: int) -> float:
-        geometry = SurvivingGeometry(modules(p="1", x="1"), places(a=(0, 0), c=(x, 0)), reach=Fraction(2))
-        return candidate_likelihood(arbor, geometry)
-
-    # 3 * 0.043 * 15 = 1.935 and 3 * 0.043 * 10 = 1.29: sides of 21.065 to 28.935 and of 36.71 to 43.29
-    assert [bool(weight(x)) for x in (7, 8, 40, 72, 73)] == [False, True, True, True, False]
-
-
-def test_polygons_close_as_plain_trials_say(subtests: pytest.Subtests) -> None:
-    """Distances that some lengths of the sides can reach, found by all corners and the triangle inequality in turn."""
-    for seed in range(200):
-        with subtests.test(seed=seed):
-            _close_as_plain_trials_say(seed)
-
-
-def _close_as_plain_trials_say(seed: int) -> None:
-    dice = random.Random(seed)
-    distance = dice.randint(0, 30)
-    sides = []
-    for _ in range(dice.randint(1, 4)):
-        low = dice.randint(0, 20)
-        sides.append((low, low + dice.randint(0, 6)))
-    reached = {0}
-    for low, high in sides:  # whole numbers hit both ends of every interval of distances
-        reached = {
-            at
-            for before in reached
-            for side in range(low, high + 1)
-            for at in range(abs(before - side), before + side + 1)
-        }
-    assert can_close(distance, tuple((float(low), float(high)) for low, high in sides)) == (distance in reached)
-
-
-# layers
-
-
-@pytest.mark.parametrize(("branches", "stands"), [(1, True), (2, True), (3, False)])
-def test_no_wheel_goes_through_an_arbor(branches: int, stands: bool) -> None:
-    """An arbor drives others at 50 mm, near each other, by wheels of 10 mm; each drives on by one of 55 mm.
-
-    The wheels of 40 mm on those arbors hold each other's axes, the wheels of 55 mm that of the first arbor, so that
-    none of these lies between its layers. Of three layers one is the middle one, and the arbor that it drives runs out
-    past another: through its wheel of 40 mm. Of two layers each arbor runs out on its own side.
-    """
-    at = [(50, 0), (48, 14), (48, -14)][:branches]
-    beyond = [leaf(f"z{n}", PlacedWheel(f"z{n}1", 10)) for n in range(branches)]
-    near = [
-        Arbor(f"y{n}", PlacedWheel(f"y{n}1", 80), (), ((PlacedWheel(f"y{n}2", 110), (end,)),))
-        for n, end in enumerate(beyond)
-    ]
-    arbor = Arbor("x", None, (), tuple((PlacedWheel(f"x{n}", 20), (one,)) for n, one in enumerate(near)))
-    names = [f"{stem}{n}{end}" for n in range(branches) for stem, end in (("x", ""), ("y", 1), ("y", 2), ("z", 1))]
-    axes = places(
-        x=(0, 0), **{f"y{n}": of for n, of in enumerate(at)}, **{f"z{n}": (x + 60, y) for n, (x, y) in enumerate(at)}
-    )
-    geometry = SurvivingGeometry(modules(**dict.fromkeys(names, "1")), axes, reach=Fraction(1, 10))
-    assert candidate_likelihood(arbor, geometry) == stands
-    assert candidate_likelihood(arbor, SurvivingGeometry(geometry.wheels, axes)) == 1  # nothing is bounded
-
-
-def test_mates_of_one_wheel_do_not_overlap() -> None:
-    """A wheel of 20 drives two of 30 at 25 mm; pitch circles do not overlap if axes are 30 mm apart."""
-    arbor = shared(P, leaf("b", V), leaf("c", PlacedWheel("y", 30)))
-    sized = modules(p="1", v="1", y="1")
-
-    def weight(x: int, y: int) -> float:
-        return candidate_likelihood(
-            arbor, SurvivingGeometry(sized, places(a=(0, 0), b=(25, 0), c=(x, y)), reach=Fraction(1))
-        )
-
-    assert weight(0, 25) > 0  # 35 mm apart
-    assert weight(15, 20) == 0  # 22 mm apart
-
-
-def test_orders_of_layers_against_all_permutations(subtests: pytest.Subtests) -> None:
-    for seed in range(60):
-        with subtests.test(seed=seed):
-            _orders_against_all_permutations(seed)
-
-
-def _orders_against_all_permutations(seed: int) -> None:
-    dice = random.Random(seed)
-    number = dice.randint(2, 6)
-    blocked = []
-    for layer in range(number):
-        rest = [other for other in range(number) if other != layer]
-        sets = [frozenset(dice.sample(rest, dice.randint(1, len(rest)))) for _ in range(dice.randint(0, 3))]
-        blocked.append(tuple(sets))
-
-    def stands(order: tuple[int, ...]) -> bool:
-        at = {layer: place for place, layer in enumerate(order)}
-        return not any(
-            min(at[other] for other in others) < at[layer] < max(at[other] for other in others)
-            for layer, sets in enumerate(blocked)
-            for others in sets
-        )
-
-    assert order_exists(blocked) == any(map(stands, permutations(range(number))))
 
 
 # pruning

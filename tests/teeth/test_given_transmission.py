@@ -352,17 +352,6 @@ def test_a_run_finds_the_extremes_of_errors_over_many_pitches(inputs: dict[str, 
     assert found >= (high - low) * (1 - 1e-8)
 
 
-def test_all_ways_of_evaluating_a_long_period_agree() -> None:
-    train = chain({"eccentricity": "0.3"}, INVERTED[0], counts=((24, 36), (20, 30)))
-    turns = np.linspace(0, 9, 5000)
-    plain = train.motion(fast=False).at(turns)
-    compiled = train.motion(fast=True).at(turns)
-    tabled = train.motion(tolerance=1e-9).at(turns)
-    assert compiled.error == pytest.approx(plain.error, abs=1e-12)
-    assert compiled.rate == pytest.approx(plain.rate, abs=1e-11)
-    assert tabled.error == pytest.approx(plain.error, abs=1e-9)
-
-
 def test_the_spectrum_has_lines_at_fractions_of_the_pitch() -> None:
     error = {"over": "driven_turn", "harmonics": [[1, "0.2 deg"], [90, "0.05 deg"]]}
     motion = chain({"error": error}, counts=((20, 30),)).motion()

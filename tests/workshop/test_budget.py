@@ -311,26 +311,6 @@ def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget)
 # ------------------------------------------------------------------------------------------------------- picture, page
 
 
-def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
-    requested = BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT)
-    budget = find_budget(geartrain.load("freeth-2021-teeth"), requested)
-    axes = budget_figure(budget).axes[0]
-    names = [label.get_text() for label in axes.get_yticklabels()]
-    assert names == sorted(names, key=lambda name: -budget[name].total)
-    for at, name in enumerate(names):
-        bars = sorted(
-            (patch for patch in axes.patches if abs(patch.get_y() + patch.get_height() / 2 - at) < 0.01),
-            key=lambda patch: patch.get_x(),
-        )
-        drawn = [(bar.get_gid(), bar.get_width() * budget[name].total) for bar in bars]
-        known = [(cause.name, cause.degrees) for cause in budget[name].ranked if cause.degrees]
-        assert [each[0] for each in drawn] == [each[0] for each in known]
-        assert [each[1] for each in drawn] == pytest.approx([each[1] for each in known])
-        assert bars[-1].get_x() + bars[-1].get_width() == pytest.approx(1.0)
-        part = {cause.name for cause in budget[name].ranked if cause.declared == "part"}
-        assert {bar.get_gid() for bar in bars if bar.get_height() < 0.5} == part & {each[0] for each in known}
-
-
 def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(freeth: TrainBudget) -> None:
     text = to_markdown([describe_budget(freeth)])
     missing = freeth.not_declared

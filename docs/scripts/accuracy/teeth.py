@@ -177,8 +177,6 @@ def _motion() -> dict[str, object]:
     return {
         "composed": f"{max(of(TRAINS, 'direct', 'error')):.1e}",
         "links": span([rate / 1e6 for rate in of(TRAINS, "direct", "rate")]),
-        "tables": span([1 / ratio for ratio in of(toothed, TABULATED, "ratio")]),
-        "tables_off": f"{max(of(TRAINS, TABULATED, 'error')):.1e}",
         "adaptive": span(of(toothed, ADAPTIVE, "ratio")),
         "adaptive_off": span(of(toothed, ADAPTIVE, "error"), lambda value: f"{value:.1g}"),
         "fixed": span(of(toothed, FIXED, "ratio")),
@@ -275,7 +273,6 @@ def draw() -> None:
             name: [(row.seconds or 0, row.error or 0) for row in (motion[TRAINS[1], way] for way in methods)]
             for name, methods in {
                 "geartrain: direct": ("direct",),
-                "geartrain: tabulated": (TABULATED,),
                 "superposition with lag": (LAGGED,),
                 "sum of ranges": (BOUND,),
                 "time integration, RK4": (FIXED,),

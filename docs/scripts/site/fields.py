@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from textwrap import indent
 from typing import Any
 
-from griffe import Attribute, Class, ExprCall, ExprKeyword, Extension, Object
+from griffe import Attribute, Class, ExprCall, ExprKeyword, Extension, Module, Object
 
 _COLUMN = re.compile(r"^(\w+(?:, \w+)*)  +(\S.*)$")
 _SECTION = re.compile(r"^([A-Z][A-Za-z ]+)\n-{3,}$", re.MULTILINE)
@@ -25,6 +25,11 @@ _SEEN = re.compile(r"^([\w.]+)(?: : (.*))?$")
 
 class MarkdownDocstrings(Extension):
     """Rewrites docstrings as they are read."""
+
+    def on_module(self, *, mod: Module, **_: Any) -> None:
+        """The public names of a package that computes `__all__`: those that only checkers of types import."""
+        if mod.exports is None and mod.is_init_module:
+            mod.exports = [name for name, member in mod.members.items() if member.is_alias and not member.runtime]
 
     def on_object(self, *, obj: Object, **_: Any) -> None:
         """Every module, class, function and attribute comes by here."""

@@ -23,7 +23,6 @@ from numpy.typing import ArrayLike
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import Floats, Ints
-from geartrain.teeth.transmission import behind
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.workshop.cutting.cut_wheel import ROUNDING, CutGearPair, CutToothPairs, CutWheel
 
@@ -644,7 +643,7 @@ class CutPairLaw:
         for start in range(0, max(len(flat), 1), _BLOCK):
             part = flat[start : start + _BLOCK]
             u = np.empty_like(part)
-            behind(part, self.pitch, u, np.empty_like(part))
+            np.mod(part, self.pitch, out=u)
             # a whole number of pitches but for rounding: rounded to the nearest, not down
             n = np.rint((part - u) / self.pitch).astype(np.int64)
             parts.append(what((envelope or self._envelope).first(n, u)))

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
+from geartrain.teeth.transmission_table import CellTable, fit, folded_kinks
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -90,7 +90,7 @@ def _step(pair: _Pair, method: str, quantity: str, task: Task | None = None) -> 
         cost = measure(partial(function, pair.S), lambda _: error)
         note = cost.note
         if isinstance(function, CellTable):
-            note = f"{note or f'{function.cells} cells'}, {function.nbytes / 1024:.3g} KB"
+            note = f"{note or f'{function.cells} cells'}, {function.coefficients.nbytes / 1024:.3g} KB"
         return [MeshRecord(pair.name, pair.tooth_pairs, method, *cost[:3], note, quantity, pair.angles)]
 
     return f"{pair.name}: {method}, {quantity}", requested if task is None else built
@@ -114,6 +114,12 @@ def _of_a_pair(pair: _Pair, samples: Sequence[int]) -> Iterator[Step]:
     for quantity in QUANTITIES:
         for method in methods:
             yield _step(pair, method, quantity)
+
+
+def _table(transmission: TriangularTransmission, quantity: str) -> CellTable:
+    """A table of a quantity to 1e-12 of a pitch, or of the mean speed ratio."""
+    scale = 1e-12 * float(transmission.ratio) * (transmission.pitch if quantity == "error" else 1.0)
+    return fit(getattr(transmission, quantity), transmission.period, folded_kinks(transmission), scale)
 
 
 class _Pair:
@@ -163,16 +169,16 @@ class _Pair:
         _ = transmission.intervals
         if name == DIRECT:
             return transmission
-        table = TabulatedTransmission(transmission)
-        _ = table.error_table
-        return table
+        return _table(transmission, "error")
 
     def function(self, method: str, quantity: str) -> Function:
         """A quantity by this method, built before it is measured."""
         if method not in self._built:
             self._built[method] = self.build(method)
         built = self._built[method]
-        found: Function = getattr(built, f"{quantity}_table" if method == TABULATED else quantity)
+        if method == TABULATED:
+            return built if quantity == "error" else _table(self.transmission, quantity)
+        found: Function = getattr(built, quantity)
         return found
 
     @cached_property

@@ -25,8 +25,6 @@ from studies.motion_records import (
     INDEPENDENT,
     LAGGED,
     PER_POSITION,
-    TABULATED,
-    TOLERANCE,
     MotionRecord,
     TrainRecord,
 )
@@ -81,7 +79,6 @@ class MotionCase:
     effort: Effort
     taken: dict[str, Rounds] = field(default_factory=dict)
     off: dict[str, _Off] = field(default_factory=dict)
-    doubted: dict[int, tuple[float, float]] = field(default_factory=dict)
     marched: dict[str, float] = field(default_factory=dict)
     peaks: dict[str, float] = field(default_factory=dict)
     tallies: list[RunningStatistics] = field(default_factory=list)
@@ -115,8 +112,7 @@ class MotionCase:
     def _ask(self, method: str) -> Ask:
         if method == LAGGED:
             return partial(Superposition(self.direct._forward).at, lagged=True)
-        made = self.train.motion(outputs=self.outputs, tolerance=TOLERANCE) if method == TABULATED else self.direct
-        return lambda turns: made._unset.at(turns).error
+        return lambda turns: self.direct._unset.at(turns).error
 
     @property
     def links(self) -> int:
@@ -161,21 +157,13 @@ class MotionCase:
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
             for method in others:
-                off = self.requested[method](turns) - passage.error
-                self.off[method].add(off)
-                if method == TABULATED:
-                    self._doubt(turns, np.abs(off))
-
-    def _doubt(self, turns: Floats, off: Floats) -> None:
-        """Remember where each output differs most between composition and the finest tables: one of them errs there."""
-        for at, column in enumerate(off.argmax(axis=1)):
-            self.doubted[at] = max(self.doubted.get(at, (0.0, 0.0)), (float(off[at, column]), float(turns[column])))
+                self.off[method].add(self.requested[method](turns) - passage.error)
 
     def _judge(self) -> None:
-        """The direct composition against the definition of its laws, at random and where tables differ most."""
+        """The direct composition against the definition of its laws, at random."""
         last = self.effort.positions - 1
         at = np.random.default_rng(3).integers(0, last + 1, self.effort.sample)
-        turns = np.append(self.turns * (at / last), [turn for _, turn in self.doubted.values()])
+        turns = self.turns * (at / last)
         truth, found = MotionTruth(self.direct), self.direct._unset.at(turns).error
         self.off[DIRECT] = _Off.none(len(self.outputs))
         self.off[DIRECT].add(np.array([truth.off(float(each), found[:, n]) for n, each in enumerate(turns)]).T)
@@ -200,7 +188,7 @@ class MotionCase:
     def rows(self) -> list[MotionRecord]:
         """A record for each method."""
         estimates = [self._of_estimate(method) for method in (BOUND, INDEPENDENT)]
-        composed = [self._of_positions(method) for method in (LAGGED, TABULATED, DIRECT)]
+        composed = [self._of_positions(method) for method in (LAGGED, DIRECT)]
         return [*estimates, *composed, *(self._of_marching(method) for method in self.marched)]
 
     def _record(self, method: str, output: int, **more: Any) -> MotionRecord:

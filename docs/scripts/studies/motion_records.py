@@ -9,11 +9,9 @@ from studies.records import StudyRecords
 
 BOUND, INDEPENDENT = "sum of ranges", "independent rms"
 LAGGED = "superposition with lag"
-DIRECT, TABULATED = "direct", "tabulated"
+DIRECT = "direct"
 FIXED, ADAPTIVE = "marching, 1 a position", "marching, RK45"
-TOLERANCE = 1e-12
-"""Of the tables (pitches)."""
-PER_POSITION = (DIRECT, TABULATED, LAGGED)
+PER_POSITION = (DIRECT, LAGGED)
 
 
 @dataclass(frozen=True, slots=True)

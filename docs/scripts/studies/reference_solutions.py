@@ -141,7 +141,7 @@ class MotionTruth:
         self.transmissions = [self._transmission(source.transmission) for source in self.sources]
         errors = self._spread()
         self.gains = [self._gain(source, errors) for source in self.sources]
-        self.responses = [self._terms({of: 1, base: -sense}, errors) for of, base, sense in motion._forward.outputs]
+        self.responses = [self._terms({of: 1, base: -sense}, errors) for of, base, sense, _ in motion._forward.outputs]
 
     def _transmission(self, transmission: TransmissionFunction) -> Callable[[Any], Any]:
         if isinstance(transmission, TriangularTransmission) and transmission.direction > 0:

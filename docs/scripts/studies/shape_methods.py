@@ -7,8 +7,8 @@ from math import asin, cos, sin, sqrt, tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 
-from geartrain.numerics.chebyshev import ChebyshevSeries
 from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.optimal_sides import ValueAndSlope, fitted, solved
 from studies.shape_cases import ShapeCase
@@ -36,7 +36,7 @@ def packaged(case: ShapeCase) -> float:
 
 def nodes_of(case: ShapeCase) -> int:
     """How many nodes the package takes."""
-    return len(solved(case.pitch, *_transmission(case), case.end).coefficients)
+    return len(solved(case.pitch, *_transmission(case), case.end).coef)
 
 
 def _transmission(case: ShapeCase) -> tuple[ValueAndSlope, float]:
@@ -112,10 +112,10 @@ def collocated(case: ShapeCase, nodes: int) -> float:
     x, weights = np.polynomial.legendre.leggauss(nodes + 8)
     end, before = 0.94 * case.X, None
     for _ in range(12):
-        v: ChebyshevSeries = fitted(pitch, transmission, first, end, 0.0, nodes, before)
+        v: Chebyshev = fitted(pitch, transmission, first, end, 0.0, nodes, before)
         before = v
 
-        def sine(d: Floats, v: ChebyshevSeries = v) -> Floats:
+        def sine(d: Floats, v: Chebyshev = v) -> Floats:
             found: Floats = v(d) * (pitch.S(d) if case.kind == "heat" else 1.0)
             return found
 

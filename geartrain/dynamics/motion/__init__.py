@@ -3,7 +3,6 @@
 motion_problem, motion_model              data of a train; motion as a function of the input position
 pair_errors, error_propagation            errors of pairs as sources; their propagation to the links
 error_composition                         errors along the order of solution
-compiled_composition                      the same calculation as a compiled kernel
 motion_run, run_statistics                run over some revolutions, its spectrum by exact orders; peaks and moments
 extreme_search                            extremes between the positions of a run
 kink_positions                            positions of kinks of transmission functions

@@ -109,16 +109,18 @@ class CompositionStep(NamedTuple):
 
 class SeenLink(NamedTuple):
     """Link whose motion is measured relative to a reference link, both by index; `sense` is -1 if the axes of the two
-    links are opposite, else 1.
+    links are opposite, else 1. `scale` is 1 for angles [rad], and 1/(2 pi) for a link that slides [mm], for which the
+    equations have an angle of 2 pi for a travel of 1 mm.
     """
 
     of: int
     base: int
     sense: int = 1
+    scale: float = 1.0
 
     def difference(self, values: Floats) -> float:
         """Return the value of the link minus the value of its reference, from values of links about their own axes."""
-        return float(values[self.of] - self.sense * values[self.base])
+        return float(self.scale * (values[self.of] - self.sense * values[self.base]))
 
 
 class ErrorSamples(NamedTuple):
@@ -132,12 +134,14 @@ class ErrorSamples(NamedTuple):
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     error: Floats
-    """Angle of each output minus its mean motion [rad], shape (outputs, n).
+    """Angle of each output minus its mean motion [rad, or mm for a link that slides], shape (outputs, n).
 
     The error of an output with a pin and slot includes the designed deviation from uniform motion (anomaly).
     """
     rate: Floats
-    """Speed of each output minus its mean, divided by the input speed [1], shape (outputs, n)."""
+    """Speed of each output minus its mean, divided by the input speed [1, or mm per turn for a link that slides], shape
+    (outputs, n).
+    """
     reversing_drivers: frozenset[str] = frozenset()
     """Names of pairs whose driver turns against its mean sense of rotation at one or more of these positions.
 
@@ -169,6 +173,25 @@ def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
     return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
 
+@dataclass(frozen=True)
+class ErrorDifference:
+    """Difference of the output errors of two composed motions with the same outputs, at the same input positions."""
+
+    one: ErrorSampler
+    other: ErrorSampler
+
+    @property
+    def chunk(self) -> int:
+        """Maximum number of positions that are evaluated at once."""
+        return min(self.one.chunk, self.other.chunk)
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
+        one, other = self.one.at(turns), self.other.at(turns)
+        both = one.reversing_drivers | other.reversing_drivers
+        return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
+
+
 @dataclass
 class ErrorComposition:
     """Composition of the error sources of a train. It computes the errors of the requested outputs at any position."""
@@ -177,7 +200,7 @@ class ErrorComposition:
     sources: tuple[PairErrorSource, ...]
     outputs: tuple[SeenLink, ...]
     offsets: tuple[float, ...] = ()
-    """Constant added to the error of each output [rad]; empty for zeros.
+    """Constant added to the error of each output [rad or mm]; empty for zeros.
 
     It contains the backlash of teeth with constant ratio, and the setting of the pointers.
     """
@@ -190,9 +213,9 @@ class ErrorComposition:
 
     @cached_property
     def weights(self) -> Floats:
-        """Error of each output per unit of the error of each source [rad/rad], shape (outputs, sources)."""
+        """Error of each output per unit of the error of each source [rad/rad or mm/rad], shape (outputs, sources)."""
         of = [source.pair for source in self.sources]
-        rows = [self.spread.sensitivity(seen.of, seen.base, seen.sense)[of] for seen in self.outputs]
+        rows = [seen.scale * self.spread.sensitivity(*seen[:3])[of] for seen in self.outputs]
         return np.array(rows).reshape(len(self.outputs), len(self.sources))
 
     @cached_property
@@ -266,7 +289,7 @@ class ErrorComposition:
         for at, weights in enumerate(self.weights):
             # only sources with an effect, because an error is infinite where nothing touches
             of = np.flatnonzero(weights)
-            found[:, at] = weights[of] @ error[of], weights[of] @ rate[of]
+            found[:, at] = weights[of] @ error[of], weights[of] @ rate[of] / self.outputs[at].scale
         if self.offsets:
             found[0] += np.array(self.offsets)[:, None]
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)

@@ -12,13 +12,14 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import islice
-from math import degrees, pi
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import (
     ErrorComposition,
+    ErrorDifference,
     ErrorSamples,
     SeenLink,
     common_period,
@@ -30,18 +31,14 @@ from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.willis_system import axis_sense
-from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, imported_function
 
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-    from geartrain.dynamics.motion.compiled_composition import CompiledComposition
     from geartrain.dynamics.motion.error_composition import ErrorSampler
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.numerics.arrays import Floats
-
-_PACE = 2e6  # positions of pairs per second evaluated by numpy in typical trains
 
 
 @dataclass(frozen=True)
@@ -67,9 +64,16 @@ class TransmissionErrorCurve(Tabular, Result):
     """Angle of the output minus its mean motion [rad], shape (n,)."""
     speed: Floats
     """Speed of the output divided by the input speed [1], shape (n,)."""
+    slides: bool = False
+    """True for a link that slides, whose error is in mm, and its speed in mm per turn of the input."""
+
+    def _meaning(self, column: str) -> str:
+        text, unit = super()._meaning(column), {"error": "mm", "speed": "mm/turn"}.get(column)
+        return f"{text.split(' [')[0]} [{unit}]." if self.slides and unit else text
 
     def _summary(self) -> str:
-        figures = f"p-p {degrees(self.peak_to_peak):.4g} deg, rms {degrees(self.rms):.4g} deg"
+        factor, unit = self.statistics.degrees_or_mm, "mm" if self.slides else "deg"
+        figures = f"p-p {factor * self.peak_to_peak:.4g} {unit}, rms {factor * self.rms:.4g} {unit}"
         return f"{self.name}: {figures}, mean ratio {brief(self.ratio)}, {len(self.angle)} positions"
 
     @property
@@ -85,18 +89,18 @@ class TransmissionErrorCurve(Tabular, Result):
     @cached_property
     def statistics(self) -> RunningStatistics:
         """Peak values and moments of the transmission error and the speed of the output."""
-        found = RunningStatistics(self.name, self.ratio)
+        found = RunningStatistics(self.name, self.ratio, slides=self.slides)
         found.add(self.error, self.speed - self.mean)
         return found
 
     @property
     def peak_to_peak(self) -> float:
-        """Maximum minus minimum of the transmission error [rad]."""
+        """Maximum minus minimum of the transmission error [rad, or mm for a link that slides]."""
         return self.statistics.peak_to_peak
 
     @property
     def rms(self) -> float:
-        """Root mean square of the transmission error about its mean [rad]."""
+        """Root mean square of the transmission error about its mean [rad, or mm for a link that slides]."""
         return self.statistics.rms
 
 
@@ -126,19 +130,9 @@ class Motion(Shown):
         Equations, mean speeds, transmission functions and drivers of the pairs, as collected by `GearTrain.motion`.
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
-    tolerance : float, optional
-        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default the functions
-        are evaluated directly.
-    fast : bool, optional
-        True to use compiled kernels, which agree to 1e-12 rad. By default the kernels are used if numba is installed
-        and there are enough positions to justify loading it.
 
     Raises
     ------
-    MissingExtraError
-        If kernels are requested and numba is not installed; raised when positions are first requested.
-    QuestionError
-        If the tolerance is not between 0 and 1.
     GearTrainError
         If the real teeth of a redundant loop cannot turn together, or the train has no order of solution.
 
@@ -161,19 +155,15 @@ class Motion(Shown):
         self,
         train: MotionProblem,
         outputs: Mapping[str, tuple[str, str]],
-        tolerance: float | None = None,
-        fast: bool | None = None,
     ) -> None:
-        self._problem, self.outputs, self.tolerance, self.fast = train, outputs, tolerance, fast
-        self._errors = PairErrors(train, tolerance, {link for ends in outputs.values() for link in ends})
+        self._problem, self.outputs = train, outputs
+        self._errors = PairErrors(train, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
-        if tolerance is not None and not 0 < tolerance < 1:
-            why = "the accuracy of tables is a fraction of a pitch, between 0 and 1"
-            fix = "give a fraction such as 1e-9, or omit it"
-            raise QuestionError(Problem(f"the tolerance {tolerance!r} is out of range", why, fix))
         self._declaration: Any = None  # declaration of the train, for `print`
         self._state: str | None = None
         self._without: tuple[str, ...] = ()
+        self._shown = tuple(outputs)  # outputs that a plot shows
+        self._ideal: Motion | None = None  # motion whose errors are subtracted
         self._refuse_loops()
 
     def _summary(self) -> str:
@@ -233,7 +223,10 @@ class Motion(Shown):
     def _seen(self) -> tuple[SeenLink, ...]:
         index, signs = self._index, self._problem.signs
         return tuple(
-            SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
+            SeenLink(
+                index[of], index[base], axis_sense(of, base, signs), 1 / (2 * pi) if name in self._sliding else 1.0
+            )
+            for name, (of, base) in self.outputs.items()
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
@@ -271,8 +264,8 @@ class Motion(Shown):
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
-        """Constant angle between the pointer of each output and its wheels [rad], such that the output's error at
-        position 0 is 0.
+        """Constant angle between the pointer of each output and its wheels [rad, or mm for a link that slides], such
+        that the output's error at position 0 is 0.
         """
         return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
@@ -299,13 +292,13 @@ class Motion(Shown):
         Returns
         -------
         Motion
-            Motion with the same outputs and tolerance.
+            Motion with the same outputs.
         """
         declared = self._problem.phases
         # the phase of a planet's second pair follows from its first pair
         free = [mesh.name for mesh in self._problem.rippling if self._problem.placed_by(mesh.name) is None]
         drawn = {name: float(random.random()) for name in free if name not in declared}
-        return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
+        return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs)
 
     # -------------------------------------------------------------------------------------------------- results
 
@@ -316,12 +309,13 @@ class Motion(Shown):
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Change of an output's angle per angular error of a pair's driven side [rad/rad], by output and pair; also for
-        ideal teeth.
+        """Change of an output's angle per angular error of a pair's driven side [rad/rad, or mm/rad for a link that
+        slides], by output and pair; also for ideal teeth.
         """
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
-            found[name] = dict(zip(self._propagation.pairs, self._propagation.sensitivity(*seen).tolist(), strict=True))
+            changes = seen.scale * self._propagation.sensitivity(*seen[:3])
+            found[name] = dict(zip(self._propagation.pairs, changes.tolist(), strict=True))
         return found
 
     @cached_property
@@ -332,7 +326,7 @@ class Motion(Shown):
             return {}
         from geartrain.dynamics.motion.stepped_advance import mean_advance
 
-        drivers = Motion(self._problem, self._problem.without_steps({}), self.tolerance, self.fast)
+        drivers = Motion(self._problem, self._problem.without_steps({}))
         return {stepped.link: mean_advance(self._problem, drivers._forward, stepped)}
 
     def _statistics(self) -> list[RunningStatistics]:
@@ -343,7 +337,7 @@ class Motion(Shown):
 
     @cached_property
     def _sliding(self) -> frozenset[str]:
-        """Outputs of links that slide, for which an angle of 2 pi is a travel of 1 mm."""
+        """Outputs of links that slide, whose travel is in mm."""
         lines = self._problem.tree.lines if self._problem.tree is not None else {}
         return frozenset(name for name, (of, _) in self.outputs.items() if of in lines)
 
@@ -359,30 +353,21 @@ class Motion(Shown):
         turns   revolutions of the input; negative against the declared sense, with the coast flanks driving
         first   index of the first position
         """
-        composition = self._sampler(turns, samples)
-        chunk = composition.chunk
+        sampler = self._sampler(turns)
+        chunk = sampler.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
             # division first: the last position is exactly `turns`, wherever chunks begin
-            yield composition.at(turns * (at / (samples - 1)))
+            yield sampler.at(turns * (at / (samples - 1)))
 
-    def _sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """Return the error composition for a run of `samples` positions, or its compiled form."""
-        composition = self._forward if turns >= 0 else self._backward
-        pairs = len(composition.used)
-        if not pairs or not is_fast(self.fast, samples * pairs / _PACE):
-            return composition
-        # compiled once for each direction
-        if (turns >= 0) not in self._compiled:
-            from geartrain.dynamics.motion.compiled_composition import compiled_composition
+    def _composition(self, turns: float) -> ErrorComposition:
+        """Return the error composition of a run, with the coast flanks driving if `turns` is negative."""
+        return self._forward if turns >= 0 else self._backward
 
-            self._compiled[turns >= 0] = compiled_composition(composition)
-        return self._compiled[turns >= 0] or composition
-
-    @cached_property
-    def _compiled(self) -> dict[bool, CompiledComposition | None]:
-        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are needed."""
-        return {}
+    def _sampler(self, turns: float) -> ErrorSampler:
+        """Return the sampler of errors of a run: one composition, or the difference of two."""
+        own = self._composition(turns)
+        return own if self._ideal is None else ErrorDifference(own, self._ideal._composition(turns))
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Return transmission errors and speed deviations of the outputs at given positions of the input, which turns
@@ -399,7 +384,7 @@ class Motion(Shown):
             Transmission errors [rad] and speed deviations [1] at these positions.
         """
         turns = np.asarray(turns, dtype=float)
-        return evaluate(self._sampler(1, len(turns)), turns)
+        return evaluate(self._sampler(1), turns)
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
         """Return the positions of the input at which a pair passes a kink of its transmission function. The errors of
@@ -433,7 +418,7 @@ class Motion(Shown):
         >>> len(kinks.turns), kinks.names().count("a~b1")
         (160, 45)
         """
-        composition = self._forward if end >= start else self._backward
+        composition = self._composition(end - start)
         return KinkSearch(composition).over(min(start, end), max(start, end))
 
     def transmission_errors(
@@ -474,7 +459,9 @@ class Motion(Shown):
             on_done(len(passage.turns))
         angle *= 2 * pi
         return {
-            each.name: TransmissionErrorCurve(each.name, each.ratio, angle, error[at], each.mean + rate[at])
+            each.name: TransmissionErrorCurve(
+                each.name, each.ratio, angle, error[at], each.mean + rate[at], each.slides
+            )
             for at, each in enumerate(self._statistics())
         }
 
@@ -539,9 +526,45 @@ class Motion(Shown):
 
     def _of(self, outputs: Sequence[str]) -> Motion:
         shown = {name: self.outputs[name] for name in outputs}
-        motion = Motion(self._problem, shown, self.tolerance, self.fast)
+        motion = Motion(self._problem, shown)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
         return motion
+
+    def _turning(self, requested: Collection[str] = ()) -> Motion:
+        """Return the motion of the outputs that turn. Raise `QuestionError` if a requested output slides, or all do."""
+        turning = tuple(name for name in self.outputs if name not in self._sliding)
+        if not turning or not self._sliding.isdisjoint(requested):
+            what = f"'{min(self._sliding)}' slides, and errors of pointers are angles"
+            fix = "name outputs that turn, such as `--of ARBOR`"
+            raise QuestionError(Problem(what, "`geartrain motion` reports the errors of travels in mm", fix))
+        motion = self._of(turning)
+        motion._shown = tuple(name for name in self._shown if name in turning) or turning
+        return motion
+
+    def without_anomaly(self) -> Motion:
+        """Return the motion whose errors are those of the teeth: the errors of the same couplings with ideal teeth, at
+        the same positions of the input, are subtracted.
+
+        Returns
+        -------
+        Motion
+            Motion with the same outputs; the same motion if it has no couplings, or only teeth with constant ratio.
+        """
+        if not (self._problem.couplings and self._problem.rippling):
+            return self
+        motion = self._of(tuple(self.outputs))
+        motion._ideal = self._with_ideal_teeth()
+        return motion
+
+    def _with_ideal_teeth(self) -> Motion:
+        """Return the motion of the same train with ideal teeth (constant ratio, no backlash) and the same couplings."""
+        return Motion(replace(self._problem, meshes={}), self.outputs)
+
+    def _degrees_per_day(self, output: str) -> float | None:
+        """Return the magnitude of an output's mean speed [deg/d]; None if it is 0, or if the unit is not a time."""
+        unit = None if self._declaration is None else self._declaration.unit_days
+        speed = self._problem.seen_ratio(*self.outputs[output]) * self._problem.speeds[self._problem.driving_link]
+        return float(360 * abs(speed) / unit) if unit and speed else None
 
     def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
         """Draw angles, errors and speeds against the revolutions of the input as a matplotlib figure.

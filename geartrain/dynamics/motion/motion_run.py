@@ -12,14 +12,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import degrees, pi
+from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.extreme_search import count_extremes
-from geartrain.dynamics.motion.kink_positions import KinkSearch
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -39,6 +38,7 @@ if TYPE_CHECKING:
 _SAMPLES = 1 << 14  # samples of one period of a transmission function, or of 64 pitches
 _HARMONICS = 24  # harmonics of the pitch evaluated for each pair
 _MAIN = 3  # outputs in a summary
+_ANGLES = ("angle (rad)", "error (rad)", "speed")  # columns of an output that turns
 _FAINT = 1e-6  # of the strongest line: weaker lines are omitted
 
 
@@ -84,7 +84,7 @@ def find_spectrum(
     """
     from geartrain.dynamics.motion.superposition import Superposition
 
-    superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
+    superposed = Superposition(motion._composition(turns))
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
     found = {}
     for at, name in enumerate(motion.outputs):
@@ -214,6 +214,12 @@ class MotionRun(Tabular, Pictured):
         "error rms (rad)": "Root mean square of the transmission error about its mean [rad].",
         "slowest": "Minimum speed minus mean speed, divided by the input speed [1].",
         "fastest": "Maximum speed minus mean speed, divided by the input speed [1].",
+        "mean travel": "Mean travel of a link that slides, per turn of the input [mm/turn].",
+        "exact travel": "Mean travel of a link that slides, per turn of the input, as a fraction [mm/turn].",
+        "error p-p (mm)": "Maximum minus minimum of the error of a link that slides [mm].",
+        "error rms (mm)": "Root mean square of the error of a link that slides, about its mean [mm].",
+        "slowest travel": "Minimum minus mean travel of a link that slides, per turn of the input [mm/turn].",
+        "fastest travel": "Maximum minus mean travel of a link that slides, per turn of the input [mm/turn].",
     }
 
     PAGE = "report.motion_report:motion_document"
@@ -262,7 +268,10 @@ class MotionRun(Tabular, Pictured):
     def _summary(self) -> str:
         declared = self.motion._declaration
         turns = f"{self.turns:g} turn{'' if self.turns == 1 else 's'}"
-        peaks = [f"{each.name} {degrees(each.peak_to_peak):.4g} deg" for each in self.statistics[:_MAIN]]
+        peaks = [
+            f"{each.name} {each.degrees_or_mm * each.peak_to_peak:.4g} {'mm' if each.slides else 'deg'}"
+            for each in self.statistics[:_MAIN]
+        ]
         shown = f"transmission error p-p {', '.join(peaks)}" if peaks else "not run yet"
         more = f", {len(self.statistics) - _MAIN} more" if len(self.statistics) > _MAIN else ""
         cut = f", stopped after {self.done} of {self.samples} positions" if 0 < self.done < self.samples else ""
@@ -273,17 +282,21 @@ class MotionRun(Tabular, Pictured):
         """Table with a row for each evaluated output: mean speed, transmission error and extreme speeds.
 
         The mean speed is divided by the input speed [1], and the error is in rad. `slowest` and `fastest` are the
-        extreme speeds minus the mean speed, divided by the input speed [1].
+        extreme speeds minus the mean speed, divided by the input speed [1]. Links that slide have columns of their own,
+        in mm and in mm per turn.
         """
-        return {
-            "output": [each.name for each in self.statistics],
-            "mean speed": [float(each.ratio) for each in self.statistics],
-            "exact": [str(each.ratio) for each in self.statistics],
-            "error p-p (rad)": [each.peak_to_peak for each in self.statistics],
-            "error rms (rad)": [each.rms for each in self.statistics],
-            "slowest": [each.slow for each in self.statistics],
-            "fastest": [each.fast for each in self.statistics],
-        }
+        meanings = list(self.MEANINGS)
+        found: dict[str, Sequence[Any]] = {"output": [each.name for each in self.statistics]}
+        for slides in sorted({each.slides for each in self.statistics} or {False}):
+            rows = [
+                (float(each.ratio), str(each.ratio), each.peak_to_peak, each.rms, each.slow, each.fast)
+                if each.slides == slides
+                else (None,) * 6
+                for each in self.statistics
+            ]
+            heads = meanings[7:] if slides else meanings[1:7]
+            found |= {head: [row[at] for row in rows] for at, head in enumerate(heads)}
+        return found
 
     def run(self, on_done: OnDone = _ignore) -> None:
         """Evaluate the outputs at every position, and search for extremes between the positions.
@@ -306,10 +319,9 @@ class MotionRun(Tabular, Pictured):
             self.done += len(passage.turns)
             on_done(len(passage.turns))
         # samples miss sharp peaks, so extremes are searched between them
-        composition = self.motion._forward if self.turns >= 0 else self.motion._backward
-        positions = int(3 * KinkSearch(composition).rate * abs(self.turns))
-        sampler = self.motion._sampler(self.turns, max(self.samples, positions))
-        self.reversing_drivers |= count_extremes([composition], sampler, self.turns, self.statistics)
+        motions = [each for each in (self.motion, self.motion._ideal) if each is not None]
+        compositions, sampler = [each._composition(self.turns) for each in motions], self.motion._sampler(self.turns)
+        self.reversing_drivers |= count_extremes(compositions, sampler, self.turns, self.statistics)
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
         """Repeat the run with random phases of the pairs that declare no phase.
@@ -359,19 +371,21 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def _position_columns(self) -> list[str]:
-        names = self.motion.outputs
-        return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
+        units = [
+            (tally.name, ("travel (mm)", "error (mm)", "speed (mm/turn)") if tally.slides else _ANGLES)
+            for tally in self.motion._statistics()
+        ]
+        return ["turns", *(f"{name} {what}" for name, heads in units for what in heads)]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
         """Return the table columns for some positions: revolutions, then angle [rad], error [rad] and speed [1] of each
-        output.
+        output, or travel [mm], error [mm] and speed [mm/turn] of a link that slides.
 
         An angle is the sum of starting angle, mean motion and error.
         """
         found = [passage.turns]
-        angle = 2 * pi * passage.turns
         for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):
-            error = passage.error[at]
+            error, angle = passage.error[at], (1 if tally.slides else 2 * pi) * passage.turns
             found += [start + tally.mean * angle + error, error, tally.mean + passage.rate[at]]
         return found
 

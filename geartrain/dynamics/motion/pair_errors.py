@@ -38,8 +38,6 @@ class PairErrors:
     """Pairs of a train with their transmission functions, as sources of errors of the links."""
 
     train: MotionProblem
-    tolerance: float | None
-    """Accuracy of tables that replace the transmission functions [pitch]; None to evaluate them directly."""
     links: Collection[str]
     """Links whose errors are requested. The teeth of pairs that do not affect them are not built."""
 
@@ -122,14 +120,7 @@ class PairErrors:
         for at, name in enumerate(self.spread.pairs):
             if name in transmissions:
                 transmission = transmissions[name] if way > 0 else transmissions[name].reversed_motion()
-                yield self._source(at, circuits[name], transmissions[name], self._read(transmission))
-
-    def _read(self, transmission: TransmissionFunction) -> TransmissionFunction:
-        if self.tolerance is None:
-            return transmission
-        from geartrain.teeth.transmission_table import TabulatedTransmission
-
-        return TabulatedTransmission(transmission, self.tolerance)
+                yield self._source(at, circuits[name], transmissions[name], transmission)
 
     def _source(
         self, at: int, circuit: Circuit, ahead: TransmissionFunction, transmission: TransmissionFunction

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from math import inf, pi, sqrt
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import as_float, log10
@@ -55,7 +55,7 @@ class RunningStatistics(Result):
     KEYS = (
         group("transmission_error", "peak_to_peak", "rms"),
         Key("speed", "speed_span"),
-        *("ratio", "searched"),
+        *("ratio", "searched", "unit"),
     )
 
     name: str
@@ -65,13 +65,13 @@ class RunningStatistics(Result):
     count: int = 0
     """Number of positions evaluated so far."""
     centre: float = 0.0
-    """Mean deviation of the output from its mean motion [rad]."""
+    """Mean deviation of the output from its mean motion, in `unit`."""
     square: float = 0.0
-    """Sum of squared deviations of the error from its mean [rad^2]."""
+    """Sum of squared deviations of the error from its mean, in the square of `unit`."""
     minimum: float = inf
-    """Minimum deviation of the output from its mean motion [rad]."""
+    """Minimum deviation of the output from its mean motion, in `unit`."""
     most: float = -inf
-    """Maximum deviation of the output from its mean motion [rad]."""
+    """Maximum deviation of the output from its mean motion, in `unit`."""
     slow: float = inf
     """Minimum speed of the output minus its mean speed, divided by the input speed [1]."""
     fast: float = -inf
@@ -81,7 +81,7 @@ class RunningStatistics(Result):
     at the evaluated positions.
     """
     slides: bool = False
-    """True for a link that slides: an angle of 2 pi is a travel of 1 mm."""
+    """True for a link that slides, whose deviations are in mm."""
 
     def add(self, error: Floats, rate: Floats) -> None:
         """Include the errors and speeds at further positions in the peak values and moments.
@@ -110,13 +110,23 @@ class RunningStatistics(Result):
         return mean_speed(self.name, self.ratio)
 
     @property
+    def unit(self) -> Literal["rad", "mm"]:
+        """Unit of the deviations: rad, or mm for a link that slides."""
+        return "mm" if self.slides else "rad"
+
+    @property
+    def degrees_or_mm(self) -> float:
+        """Factor from `unit` to the unit in which deviations are printed: deg, or mm for a link that slides."""
+        return 1.0 if self.slides else 180 / pi
+
+    @property
     def peak_to_peak(self) -> float:
-        """Maximum minus minimum deviation of the output from its mean motion [rad]."""
+        """Maximum minus minimum deviation of the output from its mean motion, in `unit`."""
         return self.most - self.minimum
 
     @property
     def rms(self) -> float:
-        """Root mean square of the output's error about its mean [rad]."""
+        """Root mean square of the output's error about its mean, in `unit`."""
         return sqrt(self.square / self.count)
 
     @property

@@ -143,7 +143,7 @@ def find_estimates(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, ErrorEstimates]:
     """Return first-order estimates of every output's error, compared with the composition at `samples` positions."""
-    superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
+    superposed = Superposition(motion._composition(turns))
     true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))
     for passage in motion._stretches(turns, samples):
         for at, tally in enumerate(true):

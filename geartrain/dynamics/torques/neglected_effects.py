@@ -1,34 +1,14 @@
-"""Effects that a balance of mean torques neglects: the table in section 13 of docs/torques.md.
-
-Some bearings reverse within a revolution although their mean speed is constant. Interval bounds find them, equation
-(21). Each nonuniform pair adds g (tau(S) - m) w to the mean speed of every link. Here g is its gain at the link, tau
-its speed ratio at the angle S of its driver, m the mean ratio, and w the speed of its driver relative to the carrier.
-Gains are exact, and the bounds of w widen from pair to pair. So a bearing in the result may reverse, and a bearing that
-is not in the result does not.
-"""
+"""Effects that a balance of mean torques neglects: the table in section 13 of docs/torques.md."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
-from math import inf
-from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
 from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
-from geartrain.numerics.elimination import LinearForm, eliminate
-from geartrain.numerics.exact import decimal, nearest_float
 
-if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.transmission import TransmissionFunction
-
-
-_MOST_NONUNIFORM = 300  # nonuniform pairs: the gains of n pairs at n links are n squared numbers
-_SLACK = 1e-12  # of a speed: smaller reversals are rounding
 _NO_FORM = (
     "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
 )
@@ -38,119 +18,6 @@ _NO_HELIX = (
     "`helix_angle` of the worm, or of both wheels on crossed axes, and a constant `friction`; or an `efficiency`"
 )
 _MEAN = "the reported torques are means over a turn"
-
-
-@dataclass(frozen=True)
-class _NonuniformPair:
-    """Pair with a variable speed ratio tau and mean ratio m. Its Willis equation contains a factor times (tau - m)
-    times the speed of its driver.
-    """
-
-    id: str
-    transmission: TransmissionFunction | None
-    """Transmission function; None if it is unknown, as for a pin without dimensions or teeth that cannot turn."""
-    driver: str
-    """Driving link, whose speed is relative to `carrier`. `mean` is the mean speed ratio m."""
-    carrier: str
-    factor: Fraction
-    mean: Fraction
-
-    @property
-    def swing(self) -> tuple[float, float]:
-        """Bounds of tau - m, the deviation of the speed ratio from its mean."""
-        if self.transmission is None:
-            return -inf, inf
-        low, high = self.transmission.speed_range()
-        return low - float(self.mean), high - float(self.mean)
-
-
-def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, tuple[float, float]] | None:
-    """Return minimum and maximum speed of the links that may reverse in their bearings; None if there are too many
-    nonuniform pairs.
-    """
-    nonuniform = list(_nonuniform_pairs(setting))
-    if len(nonuniform) > _MOST_NONUNIFORM:
-        return None
-    if not nonuniform or not links:
-        return {}
-    import numpy as np
-
-    gains = _gains(setting, nonuniform)
-
-    def bounds(link: str, carrier: str, added: Floats) -> Floats:
-        """Return the bounds of a relative speed; `added` has the bounds of each pair's speed deviation, shape (2,
-        pairs).
-        """
-        mean = setting.relative(link, carrier)
-        if mean is None:
-            return np.array([-inf, inf])
-        gain = gains[link] - gains[carrier]
-        # a pair without effect may have infinite bounds, and 0 times infinity is NaN
-        ends = np.where(gain, gain * added, 0.0)
-        return nearest_float(mean) + np.array([ends.min(axis=0).sum(), ends.max(axis=0).sum()])
-
-    swings, added = np.array([each.swing for each in nonuniform]).T, np.zeros((2, len(nonuniform)))
-    with np.errstate(invalid="ignore"):
-        # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
-        for _ in range(len(nonuniform) + 1):
-            turning = np.array([bounds(each.driver, each.carrier, added) for each in nonuniform]).T
-            products = np.nan_to_num(swings[:, None] * turning, nan=0.0, posinf=inf, neginf=-inf).reshape(4, -1)
-            wider = np.stack([products.min(axis=0), products.max(axis=0)])
-            if (wider == added).all():
-                break
-            added = wider
-        else:
-            added = np.full_like(added, inf) * [[-1], [1]]
-        found = {link: tuple(bounds(link, setting.tree.borne_by(link), added).tolist()) for link in links}
-    return {
-        link: (low, high)
-        for link, (low, high) in found.items()
-        if low < -_SLACK * abs(high) and high > _SLACK * abs(low)
-    }
-
-
-def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
-    for circuit in setting.circuits:
-        if circuit.swings:
-            joint = setting.joints.get(circuit.id)
-            transmission = joint.transmission if joint else None
-            yield _NonuniformPair(
-                circuit.id, transmission, circuit.j, circuit.subtracted[1], Fraction(circuit.a), Fraction(-circuit.b)
-            )
-            continue
-        tooth = setting.meshes.get(circuit.id)
-        if tooth is None or tooth.rigid:
-            continue
-        # the row a w_i + b w_j = 0 deviates by -own / mean times (tau - mean) times the driver's speed
-        first = tooth.driver == circuit.wheels[0]
-        driver, own = (circuit.i, circuit.a) if first else (circuit.j, circuit.b)
-        mean = Fraction(tooth.transmission.ratio)
-        yield _NonuniformPair(
-            circuit.id, tooth.transmission if tooth.verdict else None, driver, circuit.subtracted[0], -own / mean, mean
-        )
-
-
-def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Floats]:
-    """Return the speed that a unit speed deviation of each pair adds to each link while the inputs turn uniformly."""
-    import numpy as np
-
-    number = {each.id: at for at, each in enumerate(nonuniform)}
-    system = setting.system
-    column = {link: at for at, link in enumerate(system.links)}
-    rows: list[LinearForm] = []
-    for row in system.equations:
-        form: LinearForm = {column[link]: Fraction(value) for link, value in row.terms}
-        if row.kind not in ("input", "fixed", "lock", "frame") and row.label in number:
-            # the deviation of the pair is a symbol, with inputs fixed
-            form[-1 - number[row.label]] = -nonuniform[number[row.label]].factor
-        rows.append(form)
-    forms = eliminate(rows).forms()
-    found = {link: np.zeros(len(nonuniform)) for link in column}
-    for link, at in column.items():
-        for key, value in forms.get(at, {}).items():
-            if key < 0:
-                found[link][-1 - key] = setting.sense(link) * nearest_float(value)
-    return found
 
 
 def find_neglected_effects(
@@ -297,24 +164,18 @@ def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the bearings whose sense of rotation is undetermined or changes within a revolution."""
+    """Yield the bearings whose sense of rotation is undetermined, or may change within a revolution."""
     bearing_friction = _bearing_friction(setting)
     free = tuple(link for link in bearing_friction if setting.relative(link, setting.tree.borne_by(link)) is None)
     if free:
         yield NeglectedEffect("friction of bearings", free, "their sense of rotation is not determined")
-    known = [link for link in bearing_friction if link not in free]
-    back = find_reversing_bearings(setting, known)
-    if back is None:
-        why = "it is computed at the mean speeds; the train has too many nonuniform pairs to find reversing bearings"
-        yield NeglectedEffect("friction of bearings that reverse", tuple(known), why)
-        return
-    for link, (low, high) in back.items():
-        mean = setting.relative(link, setting.tree.borne_by(link)) or Fraction(0)
+    known = tuple(link for link in bearing_friction if link not in free)
+    if known and any(circuit.swings for circuit in setting.circuits):
         why = (
-            f"it is computed at the mean speed {decimal(mean, 4)}, but the speed varies from {low:.4g} to {high:.4g} "
-            "within a turn, so that more is lost: torques over a turn include it"
+            "it is computed at mean speeds; if the speed of a bearing changes its sign within a turn, more is lost: "
+            "torques over a turn include it, and `motion --links` prints extreme speeds"
         )
-        yield NeglectedEffect("friction of bearings that reverse", (link,), why)
+        yield NeglectedEffect("friction of bearings that reverse", known, why)
 
 
 def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:

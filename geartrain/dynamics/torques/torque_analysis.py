@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies, balancing_torque, unbalanced_motions
@@ -379,6 +380,43 @@ def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
     links = power_inputs(setting)
     question = TorqueQuestion(drag, links, len(links) == len(setting.case.inputs) and not setting.forms)
     return _balanced(setting, question, bearings=False, flows_only=True)
+
+
+class EscapementTorques(NamedTuple):
+    """Torque that drives a clock, and what arrives at its escape wheel [N m]."""
+
+    source: str
+    """Link at which power enters."""
+    torque: float
+    """Torque at this link in the sense of its rotation."""
+    at_escape: float
+    """Torque at the escape wheel in the sense of its rotation; 0 or less if friction stops the train."""
+    without_bearings: float
+    """The same without friction of bearings."""
+
+
+def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
+    """Return the torque at the escape wheel of a clock under its only load, or else under its drive; None if neither
+    has a known torque [N m], or no balance exists.
+    """
+    escapement, case = setting.train.escapement, setting.case
+    (source, torque), *more = case.loads.items() or [(power_inputs(setting)[0], None)]
+    speed = setting.speeds.get(source)
+    pull = None if case.drive is None else case.drive.steady_torque
+    if more or escapement is None or not speed or (pull is None if torque is None else torque.unit is None):
+        return None
+    way = 1 if speed > 0 else -1
+    known = Fraction(pull or 0) * way if torque is None else torque.base
+    question = TorqueQuestion({source: known}, (escapement.link,), len(case.inputs) == 1 and not setting.forms)
+    found = []
+    for bearings in (True, False):
+        balanced = _balanced(setting, question, bearings, flows_only=True)
+        resisting = balanced.external.get(escapement.link)
+        if resisting is None:
+            return None
+        at_escape = setting.speeds[escapement.link]
+        found.append(float(-resisting * (1 if at_escape > 0 else -1)))
+    return EscapementTorques(source, float(known * way), *found)
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from geartrain.errors import MissingExtraError
 from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, divide, product
 from geartrain.kinematics.formulas.rational_functions import Formula, make_formula, whole
-from geartrain.numerics.multiples_of_pi import integer_factors
+from geartrain.numerics.exact import integer_factors
 from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:

@@ -9,8 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, common_divisor, divide
-from geartrain.numerics.exact import fraction_text, is_short, log10
-from geartrain.numerics.multiples_of_pi import integer_factors
+from geartrain.numerics.exact import fraction_text, integer_factors, is_short, log10
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints

@@ -95,7 +95,7 @@ def build_scene(
         return found
     solids = {each: hanging_solids(each, hanging.frame) for each in hanging.found()}
     hangers = (replace(each, parts=tuple(_scene_part(part, model) for part in own)) for each, own in solids.items())
-    return replace(found, hangers=tuple(hangers))
+    return replace(found, hangers=(*found.hangers, *hangers))
 
 
 def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:

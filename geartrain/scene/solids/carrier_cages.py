@@ -96,7 +96,7 @@ class HangingParts:
         wheel = next(wheels, None)
         if wheel is None or abs(dot(body.direction, normal)) < 1 - 1e-6:
             return None
-        length, down = 1000 * escapement.pendulum.si, self.front[1]
+        length, down = 1000 * escapement.pendulum.length.si, self.front[1]
         bob = _BOB * length
         behind = self._side * (_AWAY + _THICK * bob) + self._last
         above = plus(body.point, down, -_ANCHOR * wheel.radius)
@@ -140,8 +140,8 @@ class HangingParts:
         (band,) = barrel.part.bands
         middle = self.plan.stack.in_space(barrel.part.at, (band.low + band.high) / 2)
         # the side on which the rim of the barrel moves down as it turns forward
-        rate = band.radius if way > 0 else -band.radius
-        side = plus(middle, cross(down, body.direction), rate)
+        arm = band.radius if way > 0 else -band.radius
+        side, rate = plus(middle, cross(down, body.direction), arm), arm / drive.falls
         lead = material_named(self.declared, "lead").density
         assert lead is not None
         # a lead cylinder of the declared mass: m = rho pi r^2 (4 r)

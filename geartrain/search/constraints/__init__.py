@@ -1,6 +1,6 @@
-"""Constraints on tooth counts in addition to ratios: assembly, clearance, interference, sums.
+"""Constraints on tooth counts in addition to ratios: assembly, clearance, sums.
 
-assembly_constraints      constraints of a declared train: assembly, positions of axes, interference
+assembly_constraints      constraints of a declared train: assembly, limits of wheels
 planet_constraints        equal planets: phase conditions, and clearance between neighbours
 count_conditions          linear equations and conditions, evaluated for many candidates
 constraint_options        options, and their parser for the command line

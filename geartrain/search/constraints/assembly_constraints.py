@@ -1,4 +1,4 @@
-"""Constraints on the tooth counts of a declared train from assembly, positions of axes, and interference.
+"""Constraints on the tooth counts of a declared train: assembly, equal planets, limits of wheels.
 
 `find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
 solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
@@ -6,45 +6,31 @@ solved for the count of a wheel, a `Condition` can only be tested. Both are eval
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from decimal import ROUND_CEILING, localcontext
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import partial
 from itertools import combinations
-from math import pi, sqrt
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
-from geartrain.kinematics.buildability.pitch_distances import tip_margin
-from geartrain.kinematics.circuits import Circuit, Tree
-from geartrain.kinematics.phasing import MeshPhasing, find_phasing
 from geartrain.numerics.graphs import joined_groups
-from geartrain.search.constraints.constraint_options import ConstraintOptions, turns
+from geartrain.search.constraints.constraint_options import ConstraintOptions
 from geartrain.search.constraints.count_conditions import (
     Condition,
     CountConstraint,
     CountEquation,
     LinearSum,
-    WholeSum,
     are_coprime,
-    are_divisible,
     are_owned,
-    counts_of,
-    decimal,
     distance_of,
     equality,
     free_of,
     is_bounded,
     is_different,
     is_near_zero,
-    is_positive,
     plainest,
-    sine,
-    teeth_of,
     whole,
 )
 from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
@@ -52,19 +38,9 @@ from geartrain.search.tooth_count_ranges import MOST_TEETH
 from geartrain.train.mechanism import OwnedWheels, Teeth
 
 if TYPE_CHECKING:
-    from decimal import Decimal
-
-    from geartrain.kinematics.buildability.equal_planets import CountRef
-    from geartrain.numerics.arrays import Bools, Floats
     from geartrain.numerics.quantity import Quantity
-    from geartrain.search.constraints.count_conditions import CandidateColumns
     from geartrain.search.tooth_count_ranges import Counts
     from geartrain.train import Train
-
-
-BACKLASH = 0.05
-"""Tolerance of a distance between declared positions [half modules], which allows for rounded positions and backlash.
-"""
 
 
 def find_constraints(
@@ -74,7 +50,7 @@ def find_constraints(
 
     free   admissible counts by varied wheel; all other wheels have their declared counts
 
-    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops.
+    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets.
     Constraints that involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is
     raised if a requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
     """
@@ -99,8 +75,6 @@ class _ConstraintBuilder:
         yield from self._pairs()
         yield from self._planets()
         yield from self._owned()
-        if self.requested.closure:
-            yield from DeclaredPositions(self.fitting, self.requested.shift).conditions()
 
     def _owned(self) -> Iterator[CountConstraint]:
         """Yield a condition for each collection of owned wheels: no more wheels of a count are used than it has."""
@@ -118,7 +92,6 @@ class _ConstraintBuilder:
 
     def _limits(self) -> Iterator[CountConstraint]:
         requested = self.requested
-        rack = None if requested.undercut is None else minimum_teeth(turns(requested.undercut), requested.addendum)
         for name, (_, wheel) in self.fitting.train.wheels.items():
             # the count of a worm is its number of starts, which does not determine its size
             if name not in self.fitting.free or wheel.kind == "worm":
@@ -132,9 +105,6 @@ class _ConstraintBuilder:
                 plain = "" if requested.largest_radius.unit else " modules"
                 what = f"'{name}' has a radius of at most {requested.largest_radius}{plain}"
                 yield _bounds(what, name, most=self._most(name, requested.largest_radius))
-            if rack is not None and wheel.kind == "spur" and not wheel.internal:
-                what = f"'{name}' is not undercut: at least {rack} teeth at {requested.undercut}"
-                yield _bounds(what, name, minimum=rack)
 
     def _most(self, wheel: str, radius: Quantity) -> int:
         """Return the maximum tooth count z for which the pitch radius m z/2 does not exceed `radius`."""
@@ -213,10 +183,6 @@ class _ConstraintBuilder:
 
     def _pairs(self) -> Iterator[CountConstraint]:
         requested = self.requested
-        if requested.interference is not None:
-            pressure = turns(requested.interference)
-            for mesh in self.fitting.meshes:
-                yield from interference(mesh, pressure, requested.addendum, self._ring_addendum)
         if requested.hunting:
             for mesh in self.fitting.meshes:
                 if mesh.is_free:
@@ -224,10 +190,6 @@ class _ConstraintBuilder:
                     yield Condition(words, free_of(*mesh.parts), partial(are_coprime, *mesh.parts))
         if requested.different:
             yield from self._different()
-
-    @property
-    def _ring_addendum(self) -> Fraction:
-        return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
         """Yield the conditions that the count of a varied wheel differs from all fixed counts, then from the count of
@@ -307,7 +269,7 @@ class _ConstraintBuilder:
                 )
             )
         for one, number in numbered:
-            room = PlanetClearance(number, self.requested.addendum, self._ring_addendum, self.requested.clearance)
+            room = PlanetClearance(number, self.requested.clearance)
             yield from room.conditions(one, self.fitting)
 
 
@@ -346,269 +308,3 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
         )
     what = f"cannot require {number} equal copies of the planet set {one.title} on '{one.carrier}'"
     return Problem(what, why, fix)
-
-
-# ------------------------------------------------- declared positions: centre distances and the phasing of loops
-
-
-def is_in_proportion(teeth: WholeSum, other: WholeSum, ratio: float, most: float, columns: CandidateColumns) -> Bools:
-    """Return whether two centre distances are in the ratio of the distances between the declared axis positions.
-
-    The difference `teeth` - `ratio` x `other` must be within +-`most` [half modules].
-    """
-    return np.asarray(np.abs(teeth.of(columns) - ratio * other.of(columns)) <= most)
-
-
-def do_loops_close(
-    train: Train, tree: Tree, circuits: tuple[Circuit, ...], wheels: tuple[str, ...], columns: CandidateColumns
-) -> Bools:
-    """Return whether the teeth of all loops certainly mesh, tested candidate by candidate (about a millisecond each).
-
-    train      train in which the counts of `wheels` are placeholders
-    tree       tree of joints of that train
-    circuits   fundamental circuits in which the counts of `wheels` are placeholders
-    """
-    rows = np.stack([columns[wheel] for wheel in wheels], axis=1)
-    # each distinct combination of counts is tested once
-    each, back = np.unique(rows, axis=0, return_inverse=True)
-    counts = (dict(zip(wheels, row, strict=True)) for row in each.tolist())
-    found = [bool(find_phasing(train, tree, [circuit.with_counts(one) for circuit in circuits])) for one in counts]
-    return np.array(found, dtype=bool)[back.reshape(-1)]
-
-
-@dataclass(frozen=True)
-class DeclaredPositions:
-    """Constraints from the declared positions of axes: centre distances must fit the positions, and loops must
-    close.
-    """
-
-    fitting: TrainAssembly
-    shift: int = 0
-    """Deviation of a centre distance that profile shift can compensate [half modules]."""
-
-    @cached_property
-    def closure(self) -> MeshPhasing:
-        """Phase closure of the loops of the train with placeholder counts."""
-        return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
-
-    def conditions(self) -> Iterator[Condition]:
-        """Yield the conditions on distances, then on loops. Raise `QuestionError` if no loop has known positions."""
-        found = self.closure
-        if found.kind == "open" and not found.rigid:
-            raise QuestionError(_no_positions(self.fitting.train))
-        yield from self._distance_conditions()
-        yield from self._loop_condition()
-
-    def _distance_conditions(self) -> Iterator[Condition]:
-        """Yield the conditions on centre distances, by groups of meshes whose wheels have the same module."""
-        groups: dict[int, list[AssemblyMesh]] = {}
-        for mesh in self.fitting.meshes:
-            if mesh.spur and self._length(mesh):
-                groups.setdefault(self.fitting.kin[mesh.wheels[0]], []).append(mesh)
-        for meshes in groups.values():
-            yield from self._by_module([mesh for mesh in meshes if self._is_sized(mesh)])
-            yield from self._by_each_other([mesh for mesh in meshes if not self._is_sized(mesh)])
-
-    def _by_module(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
-        for mesh in meshes:
-            assert mesh.module is not None
-            yield from self._match(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
-
-    def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
-        fixed = [mesh for mesh in meshes if not mesh.is_free]
-        for mesh in meshes:
-            first = (fixed or meshes)[0]  # the unit is a mesh with fixed counts if there is one
-            if mesh is not first:
-                yield from self._match(
-                    mesh, teeth_of(first), self._length(mesh) / self._length(first), f"that of '{first.name}'"
-                )
-
-    def _is_sized(self, mesh: AssemblyMesh) -> bool:
-        """Return whether the module of a mesh and the positions of its axes are both lengths, or both numbers without a
-        unit.
-        """
-        if not mesh.measure or mesh.module is None:
-            return False
-        places = [self.fitting.train.axes[label].position for label in mesh.axes]
-        return {part.unit is None for place in places for part in place or () if part.value} == {
-            mesh.measure == "plain"
-        }
-
-    def _match(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
-        one, two = whole(teeth_of(mesh), other)
-        wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
-        if wheels:
-            name = f"declared positions: centre distance of '{mesh.name}' agrees with {what}"
-            yield Condition(name, wheels, partial(is_in_proportion, one, two, ratio, BACKLASH + self.shift))
-
-    def _length(self, mesh: AssemblyMesh) -> float:
-        """Return the distance between the two axes of a mesh [m, or number without a unit]; 0 if a position is not
-        declared.
-        """
-        axes = self.fitting.train.axes
-        ends = [axes[label].position for label in mesh.axes if label in axes]
-        if len(ends) < 2 or ends[0] is None or ends[1] is None:
-            return 0.0
-        way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
-        arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
-        # component along the axes, which does not count
-        along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
-        return sqrt(max(sum(x * x for x in arm) - along, 0.0))
-
-    def _loop_condition(self) -> Iterator[Condition]:
-        """Yield one condition on all loops: their divisibility rule if it is known, otherwise a test of each
-        candidate.
-        """
-        wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
-        if not wheels:
-            return
-        alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
-        # with several carriers, or with rigid loops, the set of loops depends on the counts
-        rule = replace(self.closure, alike=dict).rule if alone else None
-        name = "phase closure: teeth of all loops mesh at the declared positions"
-        if rule is None:
-            train = self.fitting.train.model_copy()
-            train._marks = None  # refers to a file, which other processes do not need
-            test = partial(do_loops_close, train, self.fitting.tree, self.fitting.circuits, wheels)
-            yield Condition(name, wheels, test)
-            return
-        sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
-        requested = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
-        if requested:
-            yield Condition(f"{name}: {rule.text}", requested, partial(are_divisible, tuple(sums)))
-
-    def _sum(self, terms: Mapping[str, int]) -> WholeSum:
-        (total,) = whole(LinearSum.of((factor, self.fitting.part(wheel)) for wheel, factor in terms.items()))
-        return total
-
-    def _in_loops(self) -> Sequence[str]:
-        """Return the wheels of all pairs that are in loops, movable or rigid."""
-        problem = self.closure.problem
-        meshes = {mesh for condition in problem.conditions for mesh in condition.row}
-        pairs = {problem.circuits[mesh].id for mesh in meshes}
-        pairs |= {pair for chord in problem.parts.breaking for pair in problem.parts.loop(chord).pairs}
-        circuits = (circuit for circuit in self.fitting.circuits if circuit.id in pairs)
-        return list(dict.fromkeys(wheel for circuit in circuits for wheel in circuit.wheels))
-
-
-def _no_positions(train: Train) -> Problem:
-    return Problem(
-        f"no loop of '{train.name}' has known axis positions",
-        "phase closure requires the positions of all axes of a loop",
-        "declare `axes` with positions, or omit phase closure",
-        train.place("axes"),
-    )
-
-
-# -------------------------------------------------- involute teeth: undercut, and tips beyond the involute of the mate
-
-
-def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
-    """Return the minimum tooth count of a spur wheel without undercut by a rack: z >= 2 h / sin(alpha)^2, rounded up.
-
-    pressure   pressure angle alpha [turns], 0 to 1/4
-    addendum   addendum h of the rack [modules]
-
-    Examples with h = 1: 18 teeth at 20 degrees (17.1), 32 at 14.5. The tip line of the rack lies h below the pitch
-    line; the involute ends at the point where the line of action touches the base circle, r sin(alpha)^2 below it.
-    """
-    with localcontext(prec=50):
-        limit = decimal(2 * addendum) / sine(pressure) ** 2
-        # a value that equals an integer to 25 digits is that integer, and must not be rounded up
-        return int((limit - decimal(Fraction(1, 10**25))).to_integral_value(ROUND_CEILING))
-
-
-def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), which is >= 0 if the tips of wheel 2 do not
-    interfere with wheel 1. z1 and z2 are tooth counts, alpha is the pressure angle, h the addendum of wheel 2
-    [modules].
-
-    The tip circle of 2 must intersect the line of action before the point where this line touches the base circle of
-    1: r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares
-    of z2 cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1
-    it gives the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15
-    with 45).
-    """
-    return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
-
-
-def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 if the tips of the ring do not
-    interfere with wheel 1. z1 and z2 are the tooth counts of wheel and ring, alpha is the pressure angle.
-
-    h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
-    independently: the ring's tip circle must intersect the line of action beyond the point where this line touches
-    the base circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 -
-    z1)/2.
-    """
-    return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
-
-
-def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """Return the angular clearance [rad] between the tips of each planet and ring; see `tip_margin`.
-
-    Arrays of tooth counts are broadcast to one shape.
-    """
-    planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
-    # many candidates share the same few pairs of counts
-    pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
-    rooms = np.array([tip_margin(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
-    return np.asarray(rooms[which.ravel()].reshape(planets.shape))
-
-
-def is_on_involute(
-    first: CountRef, second: CountRef, pressure: Fraction, addendum: Fraction, columns: CandidateColumns
-) -> Bools:
-    """Return whether each tip of an external pair meets its mate only on the involute, so that no tip interferes.
-
-    The test is exact.
-    """
-    z1, z2 = counts_of(columns, first), counts_of(columns, second)
-    constants = _square(pressure), decimal(addendum)
-    one = is_positive(external_terms, [z1, z2], constants, False)
-    return np.asarray(one & is_positive(external_terms, [z2, z1], constants, False))
-
-
-def is_in_ring(
-    planet: CountRef,
-    ring: CountRef,
-    pressure: Fraction,
-    addendum: Fraction,
-    ring_addendum: Fraction,
-    columns: CandidateColumns,
-) -> Bools:
-    """Return whether a planet and a ring mesh without interference of their tips with flanks or with each other.
-
-    Tips that pass each other with a clearance of less than 1e-9 rad count as interfering.
-    """
-    z1, z2 = counts_of(columns, planet), counts_of(columns, ring)
-    # the planet is smaller, and the ring's tip circle has a positive radius
-    fits = np.asarray((z2 > z1) & (z2 > float(2 * ring_addendum)))
-    fits &= is_positive(ring_terms, [z1, z2], [_square(pressure), decimal(ring_addendum)], False)
-    angle = float(pressure) * 2 * pi
-    return np.asarray(fits & (tip_margins(z1, z2, angle, float(addendum), float(ring_addendum)) > 1e-9))
-
-
-def _square(pressure: Fraction) -> Decimal:
-    with localcontext(prec=70):
-        return sine(pressure) ** 2
-
-
-def interference(
-    mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
-) -> Iterator[Condition]:
-    """Yield the interference condition of a spur pair with a varied wheel; nothing for other pairs.
-
-    pressure   pressure angle [turns]
-    addendum, ring_addendum   addenda of external wheels and of rings [modules]
-    """
-    wheels = free_of(*mesh.parts)
-    if not wheels or not mesh.spur:
-        return
-    name = f"interference: '{mesh.wheels[0]}' and '{mesh.wheels[1]}' at {float(pressure * 360):g} deg"
-    if mesh.ring is None:
-        yield Condition(name, wheels, partial(is_on_involute, *mesh.parts, pressure, addendum))
-    else:
-        planet, ring = mesh.parts[1 - mesh.ring], mesh.parts[mesh.ring]
-        test = partial(is_in_ring, planet, ring, pressure, addendum, ring_addendum)
-        yield Condition(name, wheels, test)

@@ -27,7 +27,7 @@ class ConstraintOptions:
     Examples
     --------
     >>> ConstraintOptions(planets=3, hunting=True).to_dict()
-    {'shift': 0, 'planets': 3, 'addendum': '1', 'hunting': True}
+    {'shift': 0, 'planets': 3, 'hunting': True}
     """
 
     coaxial: bool | None = None
@@ -47,16 +47,6 @@ class ConstraintOptions:
     """
     clearance: Fraction | None = None
     """Lower bound (exclusive) of the clearance between the tips of neighbouring planets [modules]."""
-    undercut: Quantity | None = None
-    """Pressure angle, above 0 and below 90 deg, at which no external spur wheel may be undercut by a rack."""
-    interference: Quantity | None = None
-    """Pressure angle at which the tips of spur wheels must not interfere with the flanks of their mates."""
-    addendum: Fraction = Fraction(1)
-    """Addendum of external wheels and of the rack [modules]."""
-    ring_addendum: Fraction | None = None
-    """Addendum of rings [modules]; None for the addendum of external wheels. The teeth of rings are often shortened:
-    with an addendum of 1 at 20 deg, a wheel of 18 teeth interferes with a ring of 60.
-    """
     minimum: int | None = None
     """Minimum tooth count of every varied wheel, inclusive; worms are exempt."""
     maximum_teeth: int | None = None
@@ -67,10 +57,6 @@ class ConstraintOptions:
     """Requirement that no varied wheel has the same tooth count as another wheel, except equal planets."""
     hunting: bool = False
     """Requirement that the tooth counts of meshing wheels are coprime."""
-    closure: bool = False
-    """Requirement that the centre distances of meshing wheels fit the declared axis positions, and that the teeth of
-    all loops mesh.
-    """
 
     def to_dict(self) -> dict[str, Any]:
         """Return the options as a dict for JSON, with quantities as strings. Options that are None or False are
@@ -141,19 +127,3 @@ def _planets(text: str) -> int | dict[str, int]:
         names.append(name.strip())
         found.append(int(number))
     return dict(zip(names, found, strict=True)) if names[0] else found[0]
-
-
-def turns(angle: Quantity) -> Fraction:
-    """Return a pressure angle [turns]; raise `QuestionError` unless it is above 0 and below 1/4. Radians are
-    converted with 50 digits.
-    """
-    found = angle.base
-    if angle.dimension != "angle" or not 0 < found < Fraction(1, 4):
-        raise QuestionError(
-            Problem(
-                f"{angle} is not a pressure angle",
-                "a pressure angle must be above 0 and below 90 deg",
-                "for example, write 20 deg",
-            )
-        )
-    return found

@@ -233,11 +233,6 @@ def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools
     return np.asarray(np.abs(total.of(columns)) <= most)
 
 
-def are_divisible(sums: Sequence[tuple[int, WholeSum]], columns: CandidateColumns) -> Bools:
-    """Return whether each sum of counts is a multiple of its modulus. `sums` contains pairs (modulus, sum)."""
-    return np.asarray(np.all([total.of(columns) % modulus == 0 for modulus, total in sums], axis=0))
-
-
 def teeth_of(mesh: AssemblyMesh) -> LinearSum:
     """Return twice the centre distance of a spur pair [modules]."""
     return LinearSum.of(mesh.terms)

@@ -136,13 +136,11 @@ def is_above_zero(room: WholeSum, columns: CandidateColumns) -> Bools:
 
 @dataclass(frozen=True, slots=True)
 class PlanetClearance:
-    """Required clearance between planets: number of planets, addenda of wheels and rings, and minimum clearance
+    """Required clearance between planets with an addendum of 1 module: number of planets, and minimum clearance
     [modules].
     """
 
     number: int
-    addendum: Fraction
-    ring_addendum: Fraction
     clearance: Fraction
 
     def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
@@ -166,7 +164,7 @@ class PlanetClearance:
             if reach is None:
                 continue
             assert mesh.module is not None
-            tips = LinearSum.of([(1, part)]).plus(2 * self.addendum + self.clearance).times(mesh.module)
+            tips = LinearSum.of([(1, part)]).plus(2 + self.clearance).times(mesh.module)
             name = f"neighbours: tip clearance of {self.number} planets '{wheel}' above {_shown(self.clearance)}"
             yield from _condition(name, are_apart, self.number, *whole(reach, tips))
 
@@ -175,7 +173,7 @@ class PlanetClearance:
         if A is None or B is None or mesh.ring is not None:
             return
         assert mesh.module is not None
-        tips = teeth_of(mesh).plus(4 * self.addendum + 2 * self.clearance).times(mesh.module)
+        tips = teeth_of(mesh).plus(4 + 2 * self.clearance).times(mesh.module)
         pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
         name = f"neighbours: {pair} of {self.number} planets mesh, with tip clearance above {_shown(self.clearance)}"
         yield from _condition(name, can_pass, self.number, *whole(A, B, distance_of(mesh), tips))
@@ -199,9 +197,9 @@ class PlanetClearance:
         reach, own = _reach(planet), planet.central[0]
         assert reach is not None
         assert mesh.module is not None
-        sign, addendum = (1, self.addendum) if mesh.ring is None else (-1, self.ring_addendum)
+        sign = 1 if mesh.ring is None else -1
         tips = LinearSum.of([(sign, mesh.parts[1 - other.side(mesh)]), (1, own.parts[planet.side(own)])])
-        tips = tips.plus(2 * (self.addendum + addendum + self.clearance)).times(mesh.module)
+        tips = tips.plus(2 * (2 + self.clearance)).times(mesh.module)
         # a ring encloses the planet, so the signs of the reach and of its radius are opposite
         return reach.times(sign) - tips
 

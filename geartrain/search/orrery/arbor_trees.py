@@ -375,7 +375,6 @@ class TreeEnumeration:
         self, table: PairRatios, targets: PeriodTargets, extra: int, tell: Callable[[int, int], None] | None = None
     ) -> None:
         self.table, self.targets, self.extra, self.tell = table, targets, extra, tell
-        self.closures = _closures(table, targets)
 
     def trees(self) -> Iterator[ArborTree]:
         """Yield all trees of the enumeration."""
@@ -419,8 +418,7 @@ class TreeEnumeration:
             # with one or two arbors left, a new arbor must have targets in reach
             if extra <= 2:
                 sets = reached_sets(self.table, self.targets, arbor.log, left)
-                good = self.closures[sets] & left == left if extra == 1 else sets > 0
-                ways = np.flatnonzero(good).tolist()
+                ways = np.flatnonzero(sets).tolist()
             for done, at in enumerate(ways):
                 if self.tell and extra == self.extra:
                     self.tell(parent * len(ways) + done, len(tree) * len(ways))
@@ -433,60 +431,24 @@ class TreeEnumeration:
     def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
         """Yield the trees whose last two intermediate arbors form a chain, in which the first drives only the second.
 
-        The period of the second arbor is determined from the targets: it drives one target, and all other targets
-        must be reachable from the targets that it drives.
+        The period of the second arbor is determined from the targets, of which it drives at least one.
         """
-        low, high = self._ends(left)
         logs, start = self.table.logs, tree[parent].log
         seen: set[tuple[int, int]] = set()
-        for minimum, most in zip(low - start, high - start, strict=True):
-            first = np.searchsorted(logs, minimum - logs - ROUNDING)
-            last = np.searchsorted(logs, most - logs + ROUNDING)
-            for one in np.flatnonzero(last > first).tolist():
-                seen.update((one, two) for two in range(first[one], last[one]))
+        for target in members(left):
+            low, high = self.targets.logs[target]
+            for last in logs.tolist():
+                first = np.searchsorted(logs, low - last - start - logs - ROUNDING)
+                end = np.searchsorted(logs, high - last - start - logs + ROUNDING)
+                for one in np.flatnonzero(end > first).tolist():
+                    seen.update((one, two) for two in range(first[one], end[one]))
         for one, two in sorted(seen):
             inner = (*tree, grown(tree, -1, parent, *self.table.terms(one)))
             outer = (*inner, grown(inner, -1, len(tree), *self.table.terms(two)))
             yield from self._with_targets(outer, left, 0, len(inner))
-
-    def _ends(self, left: int) -> tuple[Floats, Floats]:
-        """Return intervals of the logarithms of the periods of all arbors from which all targets can be driven."""
-        logs, ranges = self.table.logs, []
-        for target in members(left):
-            low, high = self.targets.logs[target][0] - logs, self.targets.logs[target][1] - logs
-            sets = np.full(len(logs), 1 << target)
-            for other in members(left & ~(1 << target)):
-                minimum, most = self.targets.logs[other][0] - high, self.targets.logs[other][1] - low
-                found = np.searchsorted(logs, most + ROUNDING) > np.searchsorted(logs, minimum - ROUNDING)
-                sets |= found.astype(np.int64) << other
-            good = self.closures[sets] & left == left
-            ranges.append((low[good], high[good]))
-        lows, highs = (np.concatenate(part) for part in zip(*ranges, strict=True))
-        return lows, highs
 
 
 def _useful(tree: ArborTree) -> bool:
     """Return whether every arbor has a requested period or drives another arbor."""
     driving = {arbor.parent for arbor in tree}
     return all(arbor.target >= 0 or at in driving for at, arbor in enumerate(tree))
-
-
-def _closures(table: PairRatios, targets: PeriodTargets) -> Ints:
-    """Return, for each bit mask of targets, these targets and all targets that chains of single pairs can drive from
-    them.
-
-    The period of an arbor may be anywhere within its tolerance, so the result is a superset.
-    """
-    beside = []
-    for low, high in targets.bounds:
-        near = (bool(table.between(other_low / high, other_high / low)) for other_low, other_high in targets.bounds)
-        beside.append(sum(yes << at for at, yes in enumerate(near)))
-    found = np.zeros(targets.everything + 1, dtype=np.int64)
-    for start in range(1, targets.everything + 1):
-        bits, before = start, 0
-        while bits != before:
-            before = bits
-            for target in members(before):
-                bits |= beside[target]
-        found[start] = bits
-    return found

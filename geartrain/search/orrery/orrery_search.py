@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -120,7 +119,7 @@ class Orrery(Tabular, Result):
     minimum_wheels: int
     """Proved lower bound on the number of wheels."""
     ended: str
-    """Reason why the search ended: proved, effort, time, or interrupted."""
+    """Reason why the search ended: proved, effort, or interrupted."""
 
     def _summary(self) -> str:
         worst = max((abs(error) for error in self.errors.values()), default=0)
@@ -212,14 +211,13 @@ def find_orrery(
     first: str = "day",
     effort: int = 16,
     walk: int | None = None,
-    seconds: float | None = None,
     tell: Tell | None = None,
 ) -> Orrery:
     """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger trees.
 
     The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumeration proves lower
     bounds, and wider beams find better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and
-    `complete`. The result is deterministic unless the search was ended by time or by the user.
+    `complete`. The result is deterministic unless the user ended the search.
 
     Parameters
     ----------
@@ -237,8 +235,6 @@ def find_orrery(
     walk : int, optional
         Maximum number of intermediate arbors, which carry no pointer, in the trees that are enumerated. By default 1,
         or more if the enumeration is fast.
-    seconds : float, optional
-        Time after which the search stops with the best orrery so far [s].
     tell : callable, optional
         Progress function, called with (done, total) for the current stage of the search.
 
@@ -276,23 +272,18 @@ def find_orrery(
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
         raise QuestionError(Problem(what, why, "rename the arbor"))
-    search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)
+    search = _OrrerySearch(pair_ratios(counts), targets, tell)
     ended = search.run(effort, walk)
     if search.best is None:
         raise _not_found(search, ended)
     return _orrery(search, first, ended)
 
 
-class _TimeUpError(Exception):
-    """Internal signal that the search has reached its time limit."""
-
-
 class _OrrerySearch:
     """State of a search: the best tree so far, and the lower bounds proved so far."""
 
-    def __init__(self, table: PairRatios, targets: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
+    def __init__(self, table: PairRatios, targets: PeriodTargets, tell: Tell | None) -> None:
         self.table, self.targets, self.tell = table, targets, tell
-        self.end = None if seconds is None else time.monotonic() + seconds
         self.best: tuple[tuple[int, int, Fraction], ArborTree] | None = None
         self.sure = True
         self.walked = -1
@@ -309,8 +300,6 @@ class _OrrerySearch:
             while width // 4 < max(effort, 1):
                 self._widen(min(width, max(effort, 1)))
                 width *= 4
-        except _TimeUpError:
-            return "time"
         except KeyboardInterrupt:
             return "interrupted"
         return "proved" if self.proved else "effort"
@@ -328,7 +317,7 @@ class _OrrerySearch:
 
     def _walk(self, extra: int) -> None:
         found = False
-        for tree in TreeEnumeration(self.table, self.targets, extra, self._report_progress).trees():
+        for tree in TreeEnumeration(self.table, self.targets, extra, self.tell).trees():
             found = True
             self._offer(tree)
         self.walked = extra
@@ -337,14 +326,8 @@ class _OrrerySearch:
             self.minimum_pairs += 1
 
     def _widen(self, width: int) -> None:
-        for part in BeamSearch(self.table, self.targets, self._report_progress).run(width, _SEEDS_A_PART * width):
+        for part in BeamSearch(self.table, self.targets, self.tell).run(width, _SEEDS_A_PART * width):
             self._offer(part.tree)
-
-    def _report_progress(self, done: int, total: int) -> None:
-        if self.end is not None and time.monotonic() > self.end:
-            raise _TimeUpError
-        if self.tell:
-            self.tell(done, total)
 
     def _offer(self, tree: ArborTree) -> None:
         """Keep a tree if it is better than the best so far: fewer wheels, then fewer pairs, then a smaller maximum
@@ -424,7 +407,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     table, size = search.table, len(search.targets.periods)
     minimum, most = table.counts[0], table.counts[-1]
     walked = f"all trees with up to {size + search.walked} pairs were enumerated; " if search.walked >= 0 else ""
-    stopped = {"time": "the time limit was reached; ", "interrupted": "the search was interrupted; "}.get(ended, "")
+    stopped = "the search was interrupted; " if ended == "interrupted" else ""
     return QuestionError(
         Problem(
             f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",

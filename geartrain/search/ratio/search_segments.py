@@ -173,9 +173,9 @@ class StageFilter:
             # equal counts are neighbours after sorting
             both = np.sort(np.concatenate([tops, beneaths], axis=1), axis=1)
             at = self._filter(at, np.asarray((both[:, 1:] != both[:, :-1]).all(axis=1)), "repeated count")
-        if fit.totals_matter:
-            total, (minimum, most) = tops[at].sum(axis=1) + beneaths[at].sum(axis=1), fit.totals
-            at = self._filter(at, (total >= minimum) & (total <= most), "sum of counts out of bounds")
+        if fit.maximum_total is not None:
+            total = tops[at].sum(axis=1) + beneaths[at].sum(axis=1)
+            at = self._filter(at, total <= fit.maximum_total, "sum of counts out of bounds")
         if fit.pairs_matter:
             possible, _, _ = pairings(tops[at], beneaths[at], fit)
             at = self._filter(at, np.asarray(possible.any(axis=1)), pairing_reason(self.question))

@@ -56,12 +56,8 @@ class StageConstraints(Result):
     """Number of internal meshes, 0 to the number of stages. An internal mesh preserves the sense of rotation, an
     external mesh reverses it. A ring has more teeth than its pinion.
     """
-    minimum_total: int | None = None
-    """Minimum sum of all counts."""
     maximum_total: int | None = None
     """Maximum sum of all counts."""
-    largest: int | None = None
-    """Maximum tooth count of a wheel."""
 
     def sense(self, stages: int) -> int:
         """Return 1 if output and input turn in the same sense, -1 if they turn in opposite senses.
@@ -79,24 +75,12 @@ class StageConstraints(Result):
         return self.hunting or self.reverted or self.internal > 0
 
     @property
-    def totals(self) -> tuple[int, int]:
-        """Minimum and maximum sum of all counts."""
-        minimum = 0 if self.minimum_total is None else self.minimum_total
-        return minimum, (1 << 62) if self.maximum_total is None else self.maximum_total
-
-    @property
-    def totals_matter(self) -> bool:
-        """True if the sum of all counts is bounded."""
-        return self.minimum_total is not None or self.maximum_total is not None
-
-    @property
     def free(self) -> bool:
-        """True if every pair of multisets satisfies all constraints except `largest`."""
-        return not (self.pairs_matter or self.different or self.totals_matter)
+        """True if every pair of multisets satisfies all constraints."""
+        return not (self.pairs_matter or self.different or self.maximum_total is not None)
 
     def check(self, stages: int) -> None:
-        """Raise `QuestionError` if `internal` exceeds the number of stages, or the minimum sum exceeds the maximum
-        sum.
+        """Raise `QuestionError` if `internal` exceeds the number of stages.
 
         Parameters
         ----------
@@ -110,12 +94,6 @@ class StageConstraints(Result):
                     f"a train of {stages} stages has 0 to {stages} internal meshes",
                     f"give a number from 0 to {stages}",
                 )
-            )
-        minimum, most = self.totals
-        if minimum > most:
-            what = f"minimum_total is {minimum}, maximum_total is {most}"
-            raise QuestionError(
-                Problem(what, "the minimum must not exceed the maximum", "exchange the two bounds, or omit one")
             )
 
 
@@ -132,7 +110,7 @@ class StageProblem:
     beneath: Set
     """Admissible counts of the denominator, ascending."""
     fit: StageConstraints
-    """Constraints on the tooth counts; `largest` is already applied to `top` and `beneath`."""
+    """Constraints on the tooth counts."""
     by: str
     """Order of the solutions, a `StageOrder`."""
     best: int

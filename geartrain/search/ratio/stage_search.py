@@ -238,18 +238,16 @@ def find_stages(
     (76, ((30, 19), (127, 15)), True)
     """
     fit = fit or StageConstraints()
-    question, considered, note = _question(wanted, stages, (wheels, pinions), tolerance, best, by, fit)
+    question, note = _question(wanted, stages, (wheels, pinions), tolerance, best, by, fit)
     if wanted.sense and wanted.sense != fit.sense(stages):
-        return _findings(wanted, question, SweepOutcome(question.tolerance), _wrong_sense(question, considered), note)
-    if not (question.top and question.beneath):
-        return _findings(wanted, question, SweepOutcome(question.tolerance), _too_large(question, considered), note)
+        return _findings(wanted, question, SweepOutcome(question.tolerance), _wrong_sense(question), note)
     _check_reach(question)
     means = Execution(executor, journal, tell)
     try:
         outcome = solve(question, None if tolerance is None and by == "error" else question.tolerance, means)
     except KeyboardInterrupt:
         outcome = SweepOutcome(question.tolerance, complete=False)
-    shortfall = explain(question, considered, outcome, wanted.sense, means)
+    shortfall = explain(question, outcome, wanted.sense, means)
     return _findings(wanted, question, outcome, shortfall, note or outcome.note)
 
 
@@ -261,8 +259,8 @@ def _question(
     best: int,
     by: str,
     fit: StageConstraints,
-) -> tuple[StageProblem, int, str]:
-    """Return the problem data, the number of pairs of multisets, and a note on assumptions."""
+) -> tuple[StageProblem, str]:
+    """Return the problem data, and a note on assumptions."""
     check_order(by)
     if not 1 <= stages <= MOST_STAGES:
         raise _question_error(
@@ -279,14 +277,11 @@ def _question(
     fit.check(stages)
     given = [tuple(CountRuns.of(each).as_array().tolist()) for each in counts]
     top, beneath = given if wanted.value >= 1 else given[::-1]
-    considered = multisets(len(top), stages) * multisets(len(beneath), stages)
-    if fit.largest is not None:
-        top, beneath = (tuple(count for count in each if count <= fit.largest) for each in (top, beneath))
     note = ""
     if tolerance is None and by != "error":
         note = f"the order by {by} needs a tolerance, and 1e-6 was used"
     used = DEFAULT_TOLERANCE if tolerance is None else Fraction(tolerance)
-    return StageProblem(wanted.value, stages, top, beneath, fit, by, best, used), considered, note
+    return StageProblem(wanted.value, stages, top, beneath, fit, by, best, used), note
 
 
 def _findings(
@@ -316,7 +311,7 @@ def _stages(key: StageRank, question: StageProblem) -> GearStages:
     return GearStages(top, beneath, ratio, ratio / question.value - 1, pairs)
 
 
-def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
+def _wrong_sense(question: StageProblem) -> Shortfall:
     """Return the counts of rejected candidates of a search whose external and internal meshes contradict the requested
     sense of rotation.
     """
@@ -325,17 +320,11 @@ def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
     rings = internal + 1 if internal < stages else internal - 1
     has = "the same sense as" if question.fit.sense(stages) > 0 else "the opposite sense to"
     return Shortfall(
-        considered,
-        {SENSE: considered},
+        question.considered,
+        {SENSE: question.considered},
         f"with {plural(stages, 'stage')}, {internal} of them internal, the output has {has} the input for all counts",
         f"add an idler, or a stage (stages={stages + 1}), or make a mesh internal (internal={rings})",
     )
-
-
-def _too_large(question: StageProblem, considered: int) -> Shortfall:
-    largest = question.fit.largest
-    reason = f"count above {largest}"
-    return Shortfall(considered, {reason: considered}, f"all counts exceed {largest}", f"give largest above {largest}")
 
 
 def _check_reach(question: StageProblem) -> None:
@@ -363,23 +352,24 @@ def _question_error(what: str, why: str, fix: str) -> QuestionError:
 # ------------------------------------- explanation of short results: nearest miss and constraints to relax
 
 
-def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
-    """Return the number of rejected pairs of multisets by reason; with the solutions, these numbers add up to
-    `considered`.
+def account(question: StageProblem, outcome: SweepOutcome) -> Mapping[str, int]:
+    """Return the number of rejected pairs of multisets by reason; with the solutions, these numbers add up to the
+    number of candidates.
     """
-    removed = {f"count above {question.fit.largest}": considered - question.considered}
-    removed["no pairing with equal centre distances"] = question.considered - question.candidates
+    removed = {"no pairing with equal centre distances": question.considered - question.candidates}
     removed[OUTSIDE] = question.candidates - sum(outcome.removed.values()) - outcome.count
     return {reason: number for reason, number in {**removed, **outcome.removed}.items() if number}
 
 
-def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
+def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
     """Return the rejected pairs of multisets by reason; for an empty result also the nearest miss and suggestions."""
     if not outcome.complete:
-        return Shortfall(considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts")
-    removed = account(question, considered, outcome)
+        return Shortfall(
+            question.considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts"
+        )
+    removed = account(question, outcome)
     if outcome.count:
-        return Shortfall(considered, removed)
+        return Shortfall(question.considered, removed)
     # the journal belongs to the search itself, not to its explanation
     one, means = replace(question, by="error", best=1), replace(means, journal=None)
     try:
@@ -387,8 +377,8 @@ def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sens
         plain = miss if question.fit.free else solve(replace(one, fit=StageConstraints()), None, means)
         advice = "; ".join(_advice(question, miss, removed, sense))
     except KeyboardInterrupt:  # the result is complete, only its explanation is interrupted
-        return Shortfall(considered, removed)
-    return Shortfall(considered, removed, _nearest(question, miss, plain), advice)
+        return Shortfall(question.considered, removed)
+    return Shortfall(question.considered, removed, _nearest(question, miss, plain), advice)
 
 
 def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
@@ -416,7 +406,7 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
     if miss.keys and miss.complete:
         yield f"a tolerance of {decimal(rounded_up(miss.keys[0][1]), 6)} gives a solution"
     for reason, number in removed.items():
-        if reason not in (OUTSIDE, f"count above {question.fit.largest}"):
+        if reason != OUTSIDE:
             yield f"relax the constraint that rejected {number} candidates within the tolerance ({reason})"
     if question.stages < MOST_STAGES:
         yield from _one_more(question, sense)

@@ -20,8 +20,8 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `added_counts`: choices of added counts by variable elimination and tables of products; their sums and random draws
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, enumerated
-- `search_tasks`: independent tasks for any number of processes; their time, extrapolated from a sample
-- `geometry_likelihood`: likelihood of measurements; closed polygons, and layers by dynamic programming over bit masks
+- `search_tasks`: independent tasks for any number of processes
+- `geometry_likelihood`: likelihood of measured modules, radii and distances of axes
 - `reconstruction_search`: counts, most probable candidates, random samples; equality up to the order of arbors
 
 The answer
@@ -29,10 +29,8 @@ The answer
 - `explained_facts`: exact marginals of facts over all trains, the fact of maximum entropy, and the family tree, a
   trie over meshes
 - `dropped_facts`: counts without each hard constraint, and reasons why no train explains the evidence
-- `candidate_rules`: a published train with the names of the evidence, the rules that it breaks, and the problem
-  that would admit it
-- `known_rank`: the rank of a known train, and the smallest sets of facts that distinguish it (all sets of up to
-  three)
+- `candidate_rules`: a published train with the names of the evidence, and the rules that it breaks
+- `known_rank`: the rank of a known train, and the facts that distinguish it
 - `reconstruction`: the request, and all steps in one call
 - `reconstruction_report`: the answer as a document
 - `verb`, `reconstruction_run`: the command

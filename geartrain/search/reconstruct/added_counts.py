@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
-from math import comb, prod
+from math import comb
 from random import Random
 from typing import NamedTuple
 
@@ -86,22 +86,6 @@ def list_choices(
     for common in range(1, last + 1):
         if above := factorings(num * common, drivers, counts):
             yield from product(above, factorings(den * common, driven, counts))
-
-
-@lru_cache(maxsize=1 << 16)
-def quotients_of_parts(
-    quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
-) -> tuple[tuple[Fraction, int], ...]:
-    """Return the quotients of the first of two groups whose total quotient is given, each with its number of
-    choices for both groups.
-
-    A group is given by its numbers of driving and of driven wheels.
-    """
-    found: dict[Fraction, int] = {}
-    for drivers, driven in list_choices(quotient, one[0] + other[0], one[1] + other[1], counts):
-        part = Fraction(prod(drivers[: one[0]]), prod(driven[: one[1]]))
-        found[part] = found.get(part, 0) + 1
-    return tuple(found.items())
 
 
 @lru_cache(maxsize=1 << 16)
@@ -253,21 +237,9 @@ class AddedCounts:
         if bounds[0] == bounds[1]:
             own = count_choices(bounds[0], drivers, driven, self.range)
             return own and own * self._count(rest, divided(wanted, dials, bounds[0]))
-        pair = _pair(groups, wanted)
-        if pair is not None:
-            return self._count_pair(groups, wanted, *pair)
         return sum(
             own * self._count(rest, divided(wanted, dials, quotient))
             for quotient, own in quotients(*bounds, drivers, driven, self.range)
-        )
-
-    def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
-        """Count the assignments by enumeration of the counts of two groups whose total quotient is known."""
-        rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
-        kinds = groups[one][1:], groups[other][1:]
-        return sum(
-            own * self._count(rest, divided(divided(wanted, groups[one][0], part), groups[other][0], both / part))
-            for part, own in quotients_of_parts(both, *kinds, self.range)
         )
 
     def _listed(self, groups: tuple[Group, ...], wanted: Wanted) -> Iterator[Counts]:
@@ -314,21 +286,6 @@ class AddedCounts:
 
 
 _BOUNDLESS = Fraction(10**40)  # beyond every quotient of added counts
-_LISTED_TOGETHER = 3
-"""Maximum number of wheels in two groups whose choices with a given total quotient are enumerated."""
-
-
-def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Return two small groups that determine the speed of a dial of exact speed by themselves, with their total
-    quotient.
-    """
-    best, fewest = None, _LISTED_TOGETHER + 1
-    for dial, (low, high) in wanted:
-        own = [at for at, group in enumerate(groups) if dial in group[0]]
-        wheels = sum(groups[at][1] + groups[at][2] for at in own)
-        if len(own) == 2 and low == high and wheels < fewest:
-            best, fewest = (own[0], own[1], low), wheels
-    return best
 
 
 def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:

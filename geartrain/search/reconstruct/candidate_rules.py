@@ -1,15 +1,14 @@
-"""Rules of a reconstruction problem applied to one candidate: the rules that it breaks, and the problem that would
-admit it.
+"""Rules of a reconstruction problem applied to one candidate: the rules that it breaks.
 
 A published train is read as a candidate: its surviving wheels are identified by their names.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cached_property
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, suggest
@@ -25,9 +24,6 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     PlacedWheel,
     ReconstructionProblem,
     SearchedDial,
-    SurvivingArbor,
-    SurvivingWheel,
-    find_unreachable,
 )
 from geartrain.search.reconstruct.spur_tree import DrivenArbor, candidate_arbor, walk_meshes
 from geartrain.train import Train
@@ -62,8 +58,6 @@ distance  the radii of meshing wheels fit the distance of their axes
 class BrokenRule(Result):
     """Rule of the problem that a candidate breaks, with the change of the evidence that would admit the candidate."""
 
-    KEYS = ("rule", "subject", "what", "change")
-
     rule: Rule
     """Kind of the broken rule, one of `Rule`."""
     subject: tuple[str, ...]
@@ -72,8 +66,6 @@ class BrokenRule(Result):
     """Property of the candidate that breaks the rule."""
     change: str | None
     """Change of the evidence that would admit the candidate; None if no single change would."""
-    values: tuple[Fraction, ...] = ()
-    """Speed or tooth count of the candidate, or limits that would admit its added parts."""
 
 
 def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[BrokenRule, ...]:
@@ -105,21 +97,12 @@ def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
         if not dial.minimum <= (speed if dial.signed else abs(speed)) <= dial.maximum:
             turns = fraction_text(speed)
             what = f"{dial.name} turns at {turns}, not {speed_text(dial)}"
-            yield BrokenRule("speed", (dial.name,), what, f"if {dial.name} turns at {turns}", (speed,))
+            yield BrokenRule("speed", (dial.name,), what, f"if {dial.name} turns at {turns}")
         if dial.place not in (None, arbor.name or NEW):
             at = "an added arbor" if arbor.name is None else arbor.name
             where = "is lost" if dial.place == NEW else f"is {dial.place}"
             change = f"without the fact that the arbor of {dial.name} {where}"
             yield BrokenRule("place", (dial.name,), f"{dial.name} is shown on {at}", change)
-
-
-def as_missing_dial(broken: BrokenRule) -> BrokenRule:
-    """Return a broken rule on the speed of a dial as a broken rule on a missing dial; return other rules
-    unchanged.
-    """
-    if broken.rule != "speed":
-        return broken
-    return replace(broken, rule="dial", change=_without(*broken.subject), values=())
 
 
 def _without(dial: str) -> str:
@@ -158,7 +141,7 @@ def _use_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
                 teeth = used[wheel.name]
                 what = f"{wheel.name} has {teeth} teeth, not {counts_text(wheel.counts)}"
                 change = f"if {wheel.name} has {teeth} teeth"
-                yield BrokenRule("count", (wheel.name,), what, change, (Fraction(teeth),))
+                yield BrokenRule("count", (wheel.name,), what, change)
 
 
 def counts_text(counts: Sequence[tuple[int, Fraction]]) -> str:
@@ -190,13 +173,12 @@ def _addition_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterato
     beyond = [teeth for teeth in added if not limits.minimum <= teeth <= limits.maximum]
     if beyond:
         minimum, maximum = min(limits.minimum, *added), max(limits.maximum, *added)
-        bounds = Fraction(minimum), Fraction(maximum)
         what = f"added wheels have {', '.join(map(str, beyond))} teeth, not {limits.minimum} to {limits.maximum}"
-        yield BrokenRule("teeth", (), what, f"if added wheels may have {minimum} to {maximum} teeth", bounds)
+        yield BrokenRule("teeth", (), what, f"if added wheels may have {minimum} to {maximum} teeth")
     arbors = candidate.added_arbors
     if limits.arbors is not None and arbors > limits.arbors:
         what = f"{arbors} arbors are added, more than {limits.arbors}"
-        yield BrokenRule("arbors", (), what, f"if {arbors} arbors may be added", (Fraction(arbors),))
+        yield BrokenRule("arbors", (), what, f"if {arbors} arbors may be added")
     beside = [arbor.name for arbor in candidate.arbors() if arbor.name and None in _wheel_names(arbor)]
     if limits.on == "new" and beside:
         what = f"wheels are added on {', '.join(beside)}"
@@ -234,90 +216,6 @@ def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
 
 def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
     return frozenset((one, other))
-
-
-# The problem that admits a candidate: all rules that it breaks are removed.
-
-
-def admitting_question(problem: ReconstructionProblem, broken: Iterable[BrokenRule]) -> ReconstructionProblem:
-    """Return the problem without the given broken rules, changed as the field `change` of each rule describes."""
-    return reduce(_admit, broken, problem)
-
-
-def _admit(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
-    rule = broken.rule
-    if rule in ("dial", "speed", "place"):
-        dials = (_admitted_dial(dial, broken) if dial.name in broken.subject else dial for dial in problem.dials)
-        return replace(problem, dials=tuple(dial for dial in dials if dial is not None))
-    if rule in ("wheel", "arbor", "count", "driven"):
-        return _without_parts(problem, broken)
-    limits = problem.additions
-    if rule == "teeth":
-        minimum, maximum = map(int, broken.values)
-        return replace(problem, additions=replace(limits, minimum=minimum, maximum=maximum))
-    if rule == "arbors":
-        return replace(problem, additions=replace(limits, arbors=int(broken.values[0])))
-    if rule == "beside":
-        return replace(problem, additions=replace(limits, on="any"))
-    if rule == "idler":
-        return replace(problem, idlers=True)
-    return _without_pair(problem, broken)
-
-
-def _without_pair(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
-    """Return the problem without a known fact on a pair, or without all distances; unchanged for other rules."""
-    pair = frozenset(broken.subject)
-    if broken.rule == "seen":
-        return replace(problem, meshes=problem.meshes - {pair})
-    if broken.rule == "apart":
-        return replace(problem, apart=problem.apart - {pair})
-    if broken.rule == "coaxial":
-        return replace(problem, coaxial=problem.coaxial - {pair})
-    if broken.rule == "distance":
-        measured = frozenset(find_unreachable((problem.input, *problem.arbors), problem.geometry))
-        return replace(problem, apart=problem.apart - measured, geometry=replace(problem.geometry, reach=None))
-    return problem
-
-
-def _admitted_dial(dial: SearchedDial, broken: BrokenRule) -> SearchedDial | None:
-    if broken.rule == "dial":
-        return None
-    if broken.rule == "place":
-        return replace(dial, place=None)
-    (speed,) = broken.values
-    return replace(dial, minimum=speed, maximum=speed, signed=True)
-
-
-def _without_parts(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
-    """Return the problem without a wheel or an arbor, or with another tooth count."""
-    (name,) = broken.subject
-
-    def changed(arbor: SurvivingArbor) -> SurvivingArbor:
-        if broken.rule == "count":
-            wheels = tuple(_read(wheel, broken) if wheel.name == name else wheel for wheel in arbor.wheels)
-        else:
-            wheels = tuple(wheel for wheel in arbor.wheels if wheel.name != name)
-        return replace(arbor, wheels=wheels)
-
-    gone = {arbor.name for arbor in problem.arbors if arbor.name == name and broken.rule in ("arbor", "driven")}
-    arbors = tuple(changed(arbor) for arbor in problem.arbors if arbor.name not in gone)
-    dials = tuple(replace(dial, place=NEW) if dial.place in gone else dial for dial in problem.dials)
-    left = {wheel.name for arbor in (problem.input, *arbors) for wheel in arbor.wheels}
-    names = {arbor.name for arbor in (problem.input, *arbors)}
-    return replace(
-        problem,
-        input=changed(problem.input),
-        arbors=arbors,
-        dials=dials,
-        meshes=frozenset(pair for pair in problem.meshes if pair <= left),
-        apart=frozenset(pair for pair in problem.apart if pair <= left),
-        coaxial=frozenset(pair for pair in problem.coaxial if pair <= names),
-    )
-
-
-def _read(wheel: SurvivingWheel, broken: BrokenRule) -> SurvivingWheel:
-    (teeth,) = broken.values
-    return replace(wheel, counts=((int(teeth), Fraction(1)),))
 
 
 # ----------------------------------------------------------- a given train as a candidate, in the names of the problem

@@ -4,18 +4,19 @@ without it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 from geartrain.errors import QuestionError
 from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
-from geartrain.search.reconstruct.candidate_rules import BrokenRule, Rule, admitting_question
 from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     ReconstructionProblem,
     SearchedDial,
+    SurvivingArbor,
     find_unreachable,
 )
 from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
@@ -83,48 +84,45 @@ def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
 
-def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """Return the problems that result from dropping each dial in turn; empty for a single dial."""
-    names = [dial.name for dial in problem.dials] if len(problem.dials) > 1 else []
-    return [ChangedQuestion(*_admitting(problem, "dial", (name,), f"without the dial {name}")) for name in names]
-
-
-def _admitting(
-    problem: ReconstructionProblem, rule: Rule, subject: Sequence[str], change: str, *values: Fraction
-) -> tuple[str, ReconstructionProblem]:
-    """Return the description of a change, and the problem without the rule that the change drops."""
-    return change, admitting_question(problem, [BrokenRule(rule, tuple(subject), "", change, values)])
+def without_each_dial(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
+    """Yield the problems that result from dropping each dial in turn; nothing for a single dial."""
+    for dial in problem.dials if len(problem.dials) > 1 else ():
+        left = tuple(each for each in problem.dials if each is not dial)
+        yield ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=left))
 
 
 def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
     measured = frozenset(find_unreachable((problem.input, *problem.arbors), problem.geometry))
-    rule: Rule
-    for rule, pairs, what in (
-        ("seen", problem.meshes, "that {} mesh"),
+    for key, pairs, what in (
+        ("meshes", problem.meshes, "that {} mesh"),
         ("apart", problem.apart - measured, "that {} do not mesh"),
         ("coaxial", problem.coaxial, "that {} are coaxial"),
     ):
         for pair in sorted(map(sorted, pairs)):
-            yield _admitting(problem, rule, pair, f"without the fact {what.format(' and '.join(pair))}")
+            left: Any = {key: getattr(problem, key) - {frozenset(pair)}}
+            yield f"without the fact {what.format(' and '.join(pair))}", replace(problem, **left)
     if measured:
-        # distances exclude pairs in advance, and restrict chains and layers later
-        yield _admitting(problem, "distance", (), "if the distances between axes exclude no meshes")
+        free = replace(problem.geometry, reach=None)
+        changed = replace(problem, apart=problem.apart - measured, geometry=free)
+        yield "if the distances between axes exclude no meshes", changed
     yield from _senses(problem)
     for dial in problem.dials:
         where = "is lost" if dial.place == NEW else f"is {dial.place}"
-        yield _admitting(problem, "place", (dial.name,), f"without the fact that the arbor of {dial.name} {where}")
+        change = f"without the fact that the arbor of {dial.name} {where}"
+        yield change, _with_dials(problem, {dial.name: replace(dial, place=None)})
     yield from _rules(problem)
 
 
 def _senses(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
-    signed = [at for at, dial in enumerate(problem.dials) if dial.signed]
-    for at in signed:
-        dial = problem.dials[at]
-        dials = (*problem.dials[:at], _unsigned(dial), *problem.dials[at + 1 :])
-        yield f"without the sense of {dial.name}", replace(problem, dials=dials)
-    if len(signed) > 1:
-        free = tuple(_unsigned(dial) if dial.signed else dial for dial in problem.dials)
-        yield "without the sense of any dial", replace(problem, dials=free)
+    unsigned = {dial.name: _unsigned(dial) for dial in problem.dials if dial.signed}
+    for name, dial in unsigned.items():
+        yield f"without the sense of {name}", _with_dials(problem, {name: dial})
+    if len(unsigned) > 1:
+        yield "without the sense of any dial", _with_dials(problem, unsigned)
+
+
+def _with_dials(problem: ReconstructionProblem, changed: Mapping[str, SearchedDial]) -> ReconstructionProblem:
+    return replace(problem, dials=tuple(changed.get(dial.name, dial) for dial in problem.dials))
 
 
 def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
@@ -227,5 +225,13 @@ def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]
             near = {count + step for count in counts for step in range(-MISREAD, MISREAD + 1)}
             for count in sorted(near - counts, key=lambda one: (min(abs(one - old) for old in counts), one)):
                 if count > 0:
-                    change = f"if {wheel.name} has {count} teeth"
-                    yield ChangedQuestion(*_admitting(problem, "count", (wheel.name,), change, Fraction(count)))
+                    yield ChangedQuestion(f"if {wheel.name} has {count} teeth", _with_count(problem, wheel.name, count))
+
+
+def _with_count(problem: ReconstructionProblem, name: str, count: int) -> ReconstructionProblem:
+    def changed(arbor: SurvivingArbor) -> SurvivingArbor:
+        counts = ((count, Fraction(1)),)
+        wheels = (replace(wheel, counts=counts) if wheel.name == name else wheel for wheel in arbor.wheels)
+        return replace(arbor, wheels=tuple(wheels))
+
+    return replace(problem, input=changed(problem.input), arbors=tuple(map(changed, problem.arbors)))

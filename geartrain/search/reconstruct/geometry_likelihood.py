@@ -13,181 +13,12 @@ radii divided by the distance between the axes. Misfits of modules and of distan
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
-from itertools import combinations, product
 from typing import NamedTuple
 
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, SurvivingGeometry
-
-# Feasibility of the positions of arbors without known position, between arbors with known positions. A chain of such
-# arbors between two known ones is a polygon, whose sides are the distance between the two and the axis distances of the
-# meshes, each within bounds. The polygon can be closed in the plane if and only if no side must be longer than the sum
-# of the maxima of the others. Each chain is tested separately, so this condition is necessary but not sufficient where
-# three chains meet.
-
-
-Sides = tuple[tuple[float, float], ...]
-"""Minimum and maximum axis distance of each mesh of a chain [mm]."""
-
-_Chain = tuple[str, Sides]
-"""Arbor with a known position at which a chain ends, and the axis distances of the meshes on the chain."""
-_ROUNDING = 1e-9  # relative rounding error of a length
-
-
-def chains_close(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
-    """Return whether every chain between arbors of known position can be closed; True if distances are not bounded."""
-    return geometry.reach is None or _chains(arbor, geometry) is not None
-
-
-def can_close(distance: float, sides: Sides) -> bool:
-    """Return whether a polygon can be closed, with one side of length `distance` and further sides within bounds
-    [mm].
-    """
-    slack = _ROUNDING * (distance + sum(low for low, _ in sides))
-    lengths = ((distance, distance), *sides)
-    return all(
-        low <= sum(high for other, (_, high) in enumerate(lengths) if other != at) + slack
-        for at, (low, _) in enumerate(lengths)
-    )
-
-
-def _chains(arbor: Arbor, geometry: SurvivingGeometry) -> list[_Chain] | None:
-    """Return the chains from an arbor down to arbors of known position; None if the centre distances of one chain
-    cannot connect its two known positions.
-    """
-    by_child: list[list[_Chain]] = []
-    for wheel, child in arbor.driven_arbors():
-        below = _chains(child, geometry)
-        if below is None:
-            return None
-        side = _side(wheel, child, geometry)
-        by_child.append([(end, (side, *sides)) for end, sides in below])
-    if arbor.name is not None and arbor.name in geometry.places:
-        closed = all(_closes(arbor.name, chain, geometry) for chains in by_child for chain in chains)
-        return [(arbor.name, ())] if closed else None
-    for some, others in combinations(by_child, 2):
-        for (end, sides), (other, more) in product(some, others):
-            if not _closes(end, (other, sides + more), geometry):
-                return None
-    return [chain for chains in by_child for chain in chains]
-
-
-def _closes(start: str, chain: _Chain, geometry: SurvivingGeometry) -> bool:
-    square = geometry.square_distance(start, chain[0])
-    assert square is not None
-    return can_close(math.sqrt(square), chain[1])
-
-
-def _side(wheel: PlacedWheel, child: Arbor, geometry: SurvivingGeometry) -> tuple[float, float]:
-    assert child.driven is not None
-    bounds = geometry.distance_bounds((wheel.name, wheel.teeth), (child.driven.name, child.driven.teeth))
-    return (0.0, math.inf) if bounds is None else (float(bounds[0]), float(bounds[1]))
-
-
-# Dynamic programming over subsets (bit masks): can the wheels of a candidate be stacked in layers so that no wheel
-# intersects an arbor? Wheels that mesh are in one layer. A wheel whose pitch circle contains the axis of another arbor
-# must be above or below all wheels of that arbor, because the arbor extends between them. Layers are stacked from
-# below. The permitted next layers depend only on the set of layers already stacked, not on their order, so each set is
-# visited once. Bearings, extensions of arbors to dials, and arbors without a known position are ignored; arbors on one
-# axis may be nested.
-
-
-_MOST_LAYERS = 16
-"""Maximum number of layers that are checked, because the number of subsets doubles with each layer."""
-_Member = tuple[str | None, Fraction]
-"""Arbor of a wheel, and the minimum pitch radius of the wheel [mm]."""
-_Layer = tuple[_Member, ...]
-"""Wheels that mesh with each other, the driving wheel first."""
-
-
-def layers_exist(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
-    """Return whether the wheels can be stacked in layers without intersecting arbors; True if distances are not
-    bounded.
-    """
-    if geometry.reach is None:
-        return True
-    layers = list(_layers(arbor, geometry))
-    # wheels that mesh are tested elsewhere, and overlap only within the permitted misfit
-    if any(_overlap(one, other, geometry) for layer in layers for one, other in combinations(layer, 2)):
-        return False
-    of_arbor = {name: _layers_of(name, layers) for layer in layers for name, _ in layer if name in geometry.places}
-    blocked = [
-        tuple(own for name, own in of_arbor.items() if any(_contains_axis(wheel, name, geometry) for wheel in layer))
-        for layer in layers
-    ]
-    return len(layers) > _MOST_LAYERS or order_exists(blocked)
-
-
-def order_exists(blocked: Sequence[Sequence[frozenset[int]]]) -> bool:
-    """Return whether the layers can be stacked in some order.
-
-    blocked for each layer, sets of layers; all layers of a set must be on the same side of the layer, below or
-    above it
-    """
-    every = frozenset(range(len(blocked)))
-
-    @cache
-    def may_end(below: frozenset[int]) -> bool:
-        return below == every or any(
-            may_end(below | {layer})
-            for layer in every - below
-            if all(others <= below or not others & below for others in blocked[layer])
-        )
-
-    return may_end(frozenset())
-
-
-def _layers(arbor: Arbor, geometry: SurvivingGeometry) -> Iterator[_Layer]:
-    for wheel, children in arbor.drives:
-        yield tuple(_layer(arbor.name, wheel, children, geometry))
-        for child in children:
-            yield from _layers_below(child, geometry)
-
-
-def _layers_below(arbor: Arbor, geometry: SurvivingGeometry) -> Iterator[_Layer]:
-    """Yield the layers in the subtree of an arbor, without the layer of its driven wheel."""
-    yield from _layers(arbor, geometry)
-    for child in arbor.passes:
-        yield from _layers_below(child, geometry)
-
-
-def _layer(
-    name: str | None, wheel: PlacedWheel, children: Sequence[Arbor], geometry: SurvivingGeometry
-) -> Iterator[_Member]:
-    mates = [child.driven for child in children if child.driven is not None]
-    yield name, max(_minimum_radius(wheel, mate, geometry) for mate in mates)
-    for child, mate in zip(children, mates, strict=True):
-        yield child.name, _minimum_radius(mate, wheel, geometry)
-        if child.passes:
-            yield from list(_layer(child.name, mate, child.passes, geometry))[1:]
-
-
-def _minimum_radius(wheel: PlacedWheel, mate: PlacedWheel, geometry: SurvivingGeometry) -> Fraction:
-    bounds = geometry.module_bounds((wheel.name, wheel.teeth), (mate.name, mate.teeth))
-    return Fraction(0) if bounds is None else max(Fraction(0), bounds[0] * wheel.teeth / 2)
-
-
-def _layers_of(name: str | None, layers: Sequence[_Layer]) -> frozenset[int]:
-    return frozenset(at for at, layer in enumerate(layers) if any(arbor == name for arbor, _ in layer))
-
-
-def _contains_axis(wheel: _Member, name: str | None, geometry: SurvivingGeometry) -> bool:
-    """Return whether the axis of an arbor is within the pitch circle of a wheel."""
-    return _is_nearer(wheel[0], name, wheel[1], geometry)
-
-
-def _overlap(one: _Member, other: _Member, geometry: SurvivingGeometry) -> bool:
-    return _is_nearer(one[0], other[0], one[1] + other[1], geometry)
-
-
-def _is_nearer(one: str | None, other: str | None, length: Fraction, geometry: SurvivingGeometry) -> bool:
-    """Return whether two different axes are closer than a length [mm] minus the permitted misfit."""
-    square = geometry.square_distance(one, other)
-    assert geometry.reach is not None
-    return square is not None and 0 < square < max(Fraction(0), length - geometry.reach) ** 2
 
 
 def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
@@ -200,8 +31,6 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
         return 1.0
     meshes = tuple(_meshes(arbor))
     if not all(geometry.may_mesh(*one.driving, *one.driven) for one in meshes):
-        return 0.0
-    if not (chains_close(arbor, geometry) and layers_exist(arbor, geometry)):
         return 0.0
     modules = _Modules(geometry).misfit(arbor) / float(geometry.module) ** 2
     distances = sum(_distance_misfit(one, geometry) for one in meshes) / float(geometry.distance) ** 2

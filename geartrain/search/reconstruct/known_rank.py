@@ -2,24 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations
 
-from geartrain.errors import QuestionError
 from geartrain.numerics.results import Key, Result
-from geartrain.search.reconstruct.candidate_names import NamedArbor
-from geartrain.search.reconstruct.candidate_rules import (
-    BrokenRule,
-    KnownTrain,
-    admitting_question,
-    as_missing_dial,
-    broken_rules,
-    find_known_train,
-)
+from geartrain.search.reconstruct.candidate_rules import BrokenRule, broken_rules, find_known_train
 from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
+    FactKind,
     lost_pointers,
     train_facts,
     uncertain_wheels,
@@ -29,120 +20,49 @@ from geartrain.search.reconstruct.reconstruction_search import (
     Reconstructions,
     is_all_listed,
     rank_of,
-    train_key,
     train_prior,
     weight_ranks,
 )
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
-Search = Callable[[ReconstructionProblem], Reconstructions]
-"""Function that finds all explanations of a problem."""
-
-# Facts that distinguish one train from all other explanations: single facts, and the smallest sets of facts.
-
-
-MAXIMUM, MINIMUM = "maximum", "minimum"
-"""Kinds of facts on the maximum and the minimum tooth count of the added wheels of a train."""
-_KINDS = (*LOOKED_FOR, MAXIMUM, MINIMUM)
-_Subject = tuple[str, str]
-_MOST_TOGETHER = 3
-"""Maximum number of facts in a set that distinguishes one train from all others."""
-_MOST_TRAINS = 2000
-"""Maximum number of trains among which one train is distinguished."""
-
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
     """Distinguishing fact: it is true of a given explanation, but not of all explanations."""
 
-    kind: str
-    """Kind of the fact: one of `LOOKED_FOR`, or `MAXIMUM` or `MINIMUM`."""
+    kind: FactKind
+    """Kind of the fact, one of `LOOKED_FOR`."""
     subject: str
-    """Wheels, arbor or dial of the fact; empty for `MAXIMUM` and `MINIMUM`."""
+    """Wheels, arbor or dial of the fact."""
     answer: str
     """Answer to the fact in the train."""
     solutions: int
     """Number of trains with this answer, including the train itself."""
 
 
-@dataclass(frozen=True, slots=True)
-class TellingFacts(Result):
-    """Facts that distinguish one train from all other explanations, singly and in the smallest sets."""
-
-    facts: tuple[TellingFact, ...]
-    """All distinguishing facts, in ascending order of the number of trains that share them."""
-    sets: tuple[tuple[TellingFact, ...], ...]
-    """Smallest sets of facts that are true only of this train; all sets have the same size, at most three.
-
-    Facts that are true of the same trains are represented by the first of these facts.
-    """
-
-
 def find_telling_facts(
     evidence: Train, problem: ReconstructionProblem, found: Reconstructions, candidate: Arbor
-) -> TellingFacts | None:
-    """Find facts that distinguish one explanation from all others.
+) -> tuple[TellingFact, ...]:
+    """Return the observable facts that distinguish one explanation from others, in ascending order of the number of
+    trains that share them.
 
-    Return None unless all explanations are listed and there are 2 to 2000 of them.
+    The result is empty unless all explanations are listed.
     """
-    if not is_all_listed(found) or not 1 < len(found.candidates) <= _MOST_TRAINS:
-        return None
-    wanted = train_key(candidate)
-    which = next(at for at, one in enumerate(found.candidates) if train_key(one.arbor) == wanted)
-    trains = [named_candidate(evidence, one.arbor) for one in found.candidates]
+    if not is_all_listed(found):
+        return ()
     doubtful, lost = uncertain_wheels(problem), lost_pointers(problem)
-    said = [dict(_observable_facts(train, doubtful, lost)) for train in trains]
-    left: dict[TellingFact, frozenset[int]] = {}
-    for fact, answer in said[which].items():
-        alike = frozenset(_trains_with(said, fact, answer))
-        if len(alike) < len(trains):
-            left[TellingFact(*fact, answer, len(alike))] = alike
-    facts = sorted(left, key=lambda one: (one.solutions, _KINDS.index(one.kind), one.subject))
-    first: dict[frozenset[int], TellingFact] = {}
-    for each in facts:
-        first.setdefault(left[each], each)  # equivalent facts are represented by the first
-    return TellingFacts(tuple(facts), tuple(_smallest_sets(first, which)))
-
-
-def _observable_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[_Subject, str]]:
-    """Yield the observable facts of a train, and the maximum and minimum tooth count of its added wheels."""
-    for fact, answer in train_facts(train, doubtful, lost):
-        if fact.kind in LOOKED_FOR:
-            yield (fact.kind, fact.subject), answer
-    added = [wheel.teeth for arbor in train.arbors() for wheel in arbor.wheels() if wheel.added]
-    if added:
-        yield (MAXIMUM, ""), str(max(added))
-        yield (MINIMUM, ""), str(min(added))
-
-
-def _trains_with(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
-    """Yield the indices of trains for which a fact is true. A fact of the kind `MAXIMUM` or `MINIMUM` is true if all
-    added wheels of the train respect the limit.
-    """
-    for at, one in enumerate(said):
-        own = one.get(fact)
-        if fact[0] == MAXIMUM:
-            agrees = own is None or int(own) <= int(answer)
-        elif fact[0] == MINIMUM:
-            agrees = own is None or int(own) >= int(answer)
-        else:
-            agrees = own == answer
-        if agrees:
-            yield at
-
-
-def _smallest_sets(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterable[tuple[TellingFact, ...]]:
-    """Return the smallest sets of facts that are true only of the given train."""
-    for number in range(1, _MOST_TOGETHER + 1):
-        found = [
-            tuple(first[each] for each in some)
-            for some in combinations(first, number)
-            if frozenset.intersection(*some) == {which}
-        ]
-        if found:
-            return found
-    return ()
+    own, *said = (
+        dict(train_facts(named_candidate(evidence, arbor), doubtful, lost))
+        for arbor in (candidate, *(one.arbor for one in found.candidates))
+    )
+    counted = (
+        TellingFact(*fact, answer, sum(one.get(fact) == answer for one in said))
+        for fact, answer in own.items()
+        if fact.kind in LOOKED_FOR
+    )
+    telling = (fact for fact in counted if fact.solutions < len(said))
+    return tuple(sorted(telling, key=lambda one: (one.solutions, LOOKED_FOR.index(one.kind), one.subject)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,26 +86,6 @@ class TrainPlace(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class AdmittingQuestion(Result):
-    """Changed problem for which a train is an explanation."""
-
-    changes: tuple[str, ...]
-    """Descriptions of the changes of the problem."""
-    wheels: dict[str, int]
-    """Tooth count of each wheel that the train adds."""
-    arbors: int
-    """Number of arbors that the train adds."""
-    requested: int
-    """Maximum number of added wheels in the search: the number that the train adds, or the limit if that is smaller."""
-    solutions: tuple[int, ...]
-    """Number of explanations with exactly 0, 1, 2, ... added wheels."""
-    place: TrainPlace | None
-    """Rank of the train; None if it adds more wheels than the search covers."""
-    refused: str | None = None
-    """Reason why the changed problem was not searched; None if it was searched."""
-
-
-@dataclass(frozen=True, slots=True)
 class KnownRank(Result):
     """Rank of a known train in a problem, or the rules that it breaks."""
 
@@ -201,42 +101,27 @@ class KnownRank(Result):
     """Features of the train that are ignored."""
     place: TrainPlace | None = None
     """Rank of the train; None if it breaks rules or adds more wheels than permitted."""
-    admitted: tuple[AdmittingQuestion, ...] = ()
-    """Ranks in problems without the broken rules: first with the dial speeds of the train, then without these dials."""
-    telling: TellingFacts | None = None
-    """Facts that distinguish the train; None unless the train is an explanation and 2 to 2000 explanations are all
-    listed.
+    telling: tuple[TellingFact, ...] = ()
+    """Facts that distinguish the train; empty unless the train is an explanation and all explanations are listed."""
+
+
+def rank_known_train(
+    train: Train,
+    evidence: Train,
+    problem: ReconstructionProblem,
+    found: Reconstructions,
+    same: Mapping[str, str] | None = None,
+) -> KnownRank:
+    """Rank a known train among the explanations of a problem whose arbors turn in the frame.
+
+    found   all explanations of the problem
+    same    name in the problem of each part that the train names differently; see `find_known_train`
     """
-
-
-@dataclass(frozen=True)
-class RankedQuestion:
-    """Problem with all its explanations, among which known trains are ranked."""
-
-    evidence: Train
-    """Declared evidence in which all arbors turn in the frame."""
-    problem: ReconstructionProblem
-    """Reconstruction problem of the evidence."""
-    found: Reconstructions
-    """All explanations of the problem."""
-    search: Search
-    """Function that finds all explanations of a changed problem, used to rank a train that breaks rules."""
-
-
-def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, str] | None = None) -> KnownRank:
-    """Rank a known train among the explanations of a problem.
-
-    same   name in the problem of each part that the train names differently; see `find_known_train`
-    """
-    problem, found = question.problem, question.found
     known = find_known_train(train, problem, same)
     broken = broken_rules(known.arbor, problem)
     place = None if broken else find_place(known.arbor, problem, found)
-    admitted = tuple(_all_admitted(train, problem, question.search, same or {})) if broken else ()
-    telling = None if place is None else find_telling_facts(question.evidence, problem, found, known.arbor)
-    return KnownRank(
-        train.name, dict(known.added), known.arbor.added_arbors, broken, known.notes, place, admitted, telling
-    )
+    telling = () if place is None else find_telling_facts(evidence, problem, found, known.arbor)
+    return KnownRank(train.name, dict(known.added), known.arbor.added_arbors, broken, known.notes, place, telling)
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
@@ -264,47 +149,3 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
         float(weight / sum(own * number for own, number in every)),
         max(own for own, _ in every) / weight,
     )
-
-
-def _all_admitted(
-    train: Train, problem: ReconstructionProblem, search: Search, same: Mapping[str, str]
-) -> Iterator[AdmittingQuestion]:
-    """Yield the changed problems that admit a train, with its rank in each."""
-    known_changes = set[tuple[str, ...]]()
-    for without_dials in (False, True):
-        changes, changed, known = _changed(train, problem, same, without_dials)
-        if known is None or changes in known_changes:
-            continue
-        known_changes.add(changes)
-        own = known.arbor.added_wheels
-        # trains with more added wheels than this one are not searched
-        requested = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
-        said = changes, dict(known.added), known.arbor.added_arbors, requested.additions.wheels
-        try:
-            found = search(requested)
-        except QuestionError as error:
-            yield AdmittingQuestion(*said, (), None, error.problems[0].what)
-        else:
-            solutions = tuple(count.solutions for count in found.counts)
-            yield AdmittingQuestion(*said, solutions, find_place(known.arbor, requested, found))
-
-
-def _changed(
-    train: Train, problem: ReconstructionProblem, same: Mapping[str, str], without_dials: bool
-) -> tuple[tuple[str, ...], ReconstructionProblem, KnownTrain | None]:
-    """Return the changes by which a train breaks no rule, the changed problem, and the train as read in it (or None).
-
-    The train is read again after each round, because without a dial the problem needs fewer of its arbors and wheels.
-    """
-    changes: dict[str, None] = {}
-    known = find_known_train(train, problem, same)
-    while broken := broken_rules(known.arbor, problem):
-        if without_dials:
-            broken = tuple(as_missing_dial(each) for each in broken)
-        changed = admitting_question(problem, broken)
-        changes.update(dict.fromkeys(each.change for each in broken if each.change is not None))
-        if changed == problem or not changed.dials:
-            return (), problem, None
-        problem = changed
-        known = find_known_train(train, problem, same)
-    return tuple(changes), problem, known

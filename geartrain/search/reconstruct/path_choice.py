@@ -4,20 +4,21 @@ Bit masks represent shared arbors and wheels. After each choice only paths of th
 with all chosen ones, and the dial with the fewest paths is next.
 
 The distance between two dials is the number of added wheels on exactly one of their paths. A table of quotients gives a
-lower bound of it, and thus of the number of added wheels on two paths, and on three by the shortest tour of their ends.
+lower bound of it, and thus of the number of added wheels on two paths.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import cache, reduce
+from functools import reduce
+from itertools import cycle
 from operator import or_
 
 import numpy as np
 
-from geartrain.numerics.arrays import Bools, Floats
+from geartrain.numerics.arrays import Bools
 from geartrain.search.reconstruct.path_lists import PathList, Rows
-from geartrain.search.reconstruct.quotient_tables import ROUNDING, QuotientTables
+from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
 
@@ -124,12 +125,12 @@ class PathChoice:
         """
         self._added = added
         lists = {dial: np.flatnonzero(paths.wheels <= added) for dial, paths in self.lists.items()}
-        yield from self._extended({}, lists, _RoundRobin(part, parts))
+        yield from self._extended({}, lists, cycle(at == part for at in range(parts)))
 
-    def _extended(self, chosen: Choice, lists: dict[str, Rows], share: _RoundRobin | None) -> Iterator[Choice]:
+    def _extended(self, chosen: Choice, lists: dict[str, Rows], share: Iterator[bool] | None) -> Iterator[Choice]:
         """Yield all choices that extend the chosen paths by paths to the other dials.
 
-        share   distribution of the next paths over the parts of the search; None if an earlier path was distributed
+        share   whether each next path belongs to this part of the search; None if an earlier path was distributed
         """
         dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
         rows = lists[dial]
@@ -140,7 +141,7 @@ class PathChoice:
         # few paths are not distributed evenly; the paths to the next dial are distributed then
         own = share if not others or len(rows) >= _EVEN_SHARES else None
         for row in rows.tolist():
-            if own is not None and not own.is_own():
+            if own is not None and not next(own):
                 continue
             if not others:
                 yield {**chosen, dial: row}
@@ -153,18 +154,13 @@ class PathChoice:
         """
         kept = {}
         for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
-            rows = rows if chosen else self._agreeing(dial, row, other)
             rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
             for path in chosen.items():
                 rows = rows[self._fork(path, (dial, row), other, rows)]
             far = self._distances(dial, row, other, rows)
             near = self.lists[dial].wheels[row] + self.lists[other].wheels[rows] + far <= 2 * self._added
-            rows, far = rows[near], far[near]
-            for path in chosen.items():
-                near = self._close(path, (dial, row), other, rows, far)
-                rows, far = rows[near], far[near]
-            kept[other] = rows
-            if not len(rows):
+            kept[other] = rows[near]
+            if not len(kept[other]):
                 return None
         return kept
 
@@ -180,28 +176,6 @@ class PathChoice:
         on_first, on_second, apart = (first & third) == in_all, (second & third) == in_all, (first & second) == in_all
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
-    def _agreeing(self, end: str, row: int, dial: str) -> Rows:
-        """Return the paths that have the quotient of the first chosen path, or permit added wheels on one of the two
-        paths only.
-        """
-        (low, high), exact = self.lists[end].bounds, self.lists[dial].dial.is_exact
-        kept = []
-        for wheels in range(self._added + 1):
-            rows, quotients = self._sorted(dial, wheels)
-            room = 2 * self._added + self._idlers - int(self.lists[end].wheels[row]) - wheels
-            if room == 0 and exact:  # few of many paths, found by bisection
-                ends = np.searchsorted(quotients, (low[row] * (1 - ROUNDING), high[row] * (1 + ROUNDING)))
-                rows = rows[slice(*ends)]
-            kept.append(rows if room >= 0 else rows[:0])
-        return np.concatenate(kept)
-
-    @cache  # noqa: B019 -- lives as long as the lists
-    def _sorted(self, dial: str, wheels: int) -> tuple[Rows, Floats]:
-        """Return the paths with a given number of added wheels in ascending order of the minimum quotient."""
-        rows = np.flatnonzero(self.lists[dial].wheels == wheels)
-        rows = rows[np.argsort(self.lists[dial].bounds[0][rows])]
-        return rows, self.lists[dial].bounds[0][rows]
-
     def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
         """Return a lower bound of the distance of each path from a chosen path."""
         first, second = self.lists[end], self.lists[dial]
@@ -214,25 +188,3 @@ class PathChoice:
             passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
         return np.asarray(far, dtype=np.int64)
-
-    def _close(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows, far: Rows) -> Bools:
-        """Return whether a tour from the input past the ends of two chosen paths and of each path and back is short
-        enough, where `far` is the distance from the second path. A tour around a tree passes each added wheel twice.
-        """
-        (near,) = self._distances(*one, other[0], np.array([other[1]]))
-        apart, own = self._distances(*one, dial, rows), self.lists[dial].wheels[rows]
-        first, second = (self.lists[end].wheels[row] for end, row in (one, other))
-        tours = (first + near + far + own, first + apart + far + second, second + near + apart + own)
-        return np.asarray(np.minimum.reduce(tours) <= 2 * self._added)
-
-
-class _RoundRobin:
-    """Round-robin distribution of numbered items over the parts of a search."""
-
-    def __init__(self, part: int, parts: int) -> None:
-        self.part, self.parts = part, parts
-        self._number = -1
-
-    def is_own(self) -> bool:
-        self._number += 1
-        return self._number % self.parts == self.part

@@ -20,8 +20,6 @@ _FEW = 2
 """Maximum number of added wheels whose quotients are all tabulated."""
 _LONGEST = 12_000_000
 """Maximum number of quotients in a table. Larger tables are not built, and every number is then accepted."""
-_SCARCE = 500
-"""Number of quotients below which a table of three wheels costs more than trying each count of one wheel."""
 ROUNDING = 1e-12
 """Relative rounding error of a quotient."""
 
@@ -39,12 +37,6 @@ class QuotientTables:
         """Return whether each range contains a product of `drivers` added counts divided by a product of `driven`
         added counts, without false negatives.
         """
-        low, high = bounds
-        if drivers + driven == 3 and len(low) < _SCARCE:
-            up = drivers > driven
-            factors = (self._counts if up else 1 / self._counts)[:, None]
-            fewer = self.may_hold((low / factors, high / factors), drivers - up, driven - (not up))
-            return np.asarray(fewer.any(axis=0))
         return _contain(self._table(drivers, driven), bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:

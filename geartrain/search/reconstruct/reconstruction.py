@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from typing import Literal
@@ -20,7 +20,7 @@ from geartrain.search.reconstruct.dropped_facts import (
 )
 from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion, evidence_question
 from geartrain.search.reconstruct.explained_facts import NO_FINDINGS, CandidateFindings, find_facts
-from geartrain.search.reconstruct.known_rank import KnownRank, RankedQuestion, rank_known_train
+from geartrain.search.reconstruct.known_rank import KnownRank, rank_known_train
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem, RequestedQuestion
 from geartrain.search.reconstruct.reconstruction_search import (
@@ -32,7 +32,6 @@ from geartrain.search.reconstruct.reconstruction_search import (
     find_reconstructions,
     rank_of,
 )
-from geartrain.search.reconstruct.search_tasks import ExpectedCost, expect_cost
 from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, lost_evidence
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
@@ -98,10 +97,7 @@ class ReconstructionRun:
     def begin(self, problem: ReconstructionProblem) -> None:
         """Receive the problem before the search begins."""
 
-    def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Receive the expected cost of the search before it begins."""
-
-    def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> AbstractContextManager[Execution]:
+    def search(self, problem: ReconstructionProblem) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor of the search."""
         return nullcontext(Execution())
 
@@ -166,7 +162,6 @@ class ReconstructionAnswer(Result):
     KEYS = (
         "name",
         "requested",
-        "expected",
         "counts",
         "complete",
         "unused",
@@ -199,8 +194,6 @@ class ReconstructionAnswer(Result):
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
     """Links that form one arbor because given couplings join them, by the name of the arbor."""
-    expected: ExpectedCost | None = None
-    """Estimated cost of the search, computed before the search."""
     drawn: tuple[RankedTrain, ...] = ()
     """Randomly sampled trains. Their field `rank` is the number of the draw."""
     known: tuple[KnownRank, ...] = ()
@@ -258,12 +251,10 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     _check_known(request, question)
     problem = question.problem
     run.begin(problem)
-    expected = expect_cost(problem)
-    run.expect(problem, expected)
     listing = (
         0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
     )
-    with run.search(problem, expected) as execution:
+    with run.search(problem) as execution:
         found = find_reconstructions(problem, execution, listing, request.prior_of)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
@@ -276,12 +267,11 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
         found.complete,
         question.unused,
         best=tuple(_ranked(evidence, listed)),
-        known=_ranks_of_known(request, evidence, problem, found, run),
+        known=tuple(rank_known_train(train, evidence, problem, found, request.same) for train in request.known),
         original=None if original is None else rank_of(original, found),
         findings=_findings(evidence, problem, found, dropped, request.counts_only, run),
         base=question.base,
         joined=question.joined,
-        expected=expected,
         drawn=tuple(_ranked(evidence, drawn)),
         evidence=evidence,
         candidates=listed,
@@ -312,36 +302,6 @@ def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tu
         for each in changed_counts(changed, execution):
             counted.append(each)
     return tuple(counted)
-
-
-def _ranks_of_known(
-    request: ReconstructionRequest,
-    evidence: Train,
-    problem: ReconstructionProblem,
-    found: Reconstructions,
-    run: ReconstructionRun,
-) -> tuple[KnownRank, ...]:
-    ranked: list[KnownRank] = []
-    for train in request.known:
-        with run.part(f"rank of {train.name}") as execution:
-            question = RankedQuestion(evidence, problem, found, _whole_search(execution))
-            ranked.append(rank_known_train(train, question, request.same))
-    return tuple(ranked)
-
-
-def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Reconstructions]:
-    """Return a function that runs a reconstruction search to completion, without listing candidates.
-
-    The function raises `KeyboardInterrupt` if the search is interrupted.
-    """
-
-    def search(requested: ReconstructionProblem) -> Reconstructions:
-        answer = find_reconstructions(requested, execution, listed=0)
-        if not answer.complete:  # an interrupted search returns a partial result
-            raise KeyboardInterrupt
-        return answer
-
-    return search
 
 
 def _findings(

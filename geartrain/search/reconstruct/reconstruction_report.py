@@ -22,14 +22,7 @@ from geartrain.search.reconstruct.explained_facts import (
     FamilyTrain,
     NextFact,
 )
-from geartrain.search.reconstruct.known_rank import (
-    MAXIMUM,
-    MINIMUM,
-    AdmittingQuestion,
-    KnownRank,
-    TellingFact,
-    TellingFacts,
-)
+from geartrain.search.reconstruct.known_rank import KnownRank, TellingFact
 from geartrain.search.reconstruct.reconstruction import RankedTrain, ReconstructionAnswer
 from geartrain.search.reconstruct.reconstruction_problem import NEW, SearchedDial
 
@@ -38,7 +31,6 @@ _MOST_ALIKE = 2
 _MOST_MESHES = 40
 _MOST_NEXT = 12
 _MOST_UNCERTAINTIES = 30
-_MOST_SETS = 12
 _MOST_BRANCHES = 60
 _MOST_TRAINS = 6
 
@@ -63,8 +55,6 @@ _FACTS = {
     "pointer": "the pointer of {} is on {}",
     "count": "{} has {}",
     "added": "{} has {}",
-    MAXIMUM: "no added wheel has more than {1}",
-    MINIMUM: "no added wheel has fewer than {1}",
 }
 _USE = {
     "wheels": "every surviving wheel meshes",
@@ -232,9 +222,7 @@ def _place(dial: SearchedDial) -> str:
 
 
 def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
-    """Yield sections on the ranks of known trains, the rules that they break, and their ranks if these rules are
-    dropped.
-    """
+    """Yield sections on the ranks of known trains and the rules that they break."""
     if not known:
         return
     header = ("train", "added wheels", "added arbors", "rank", "rank, equal wheels", "weight", "maximum / weight")
@@ -243,32 +231,17 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
         if one.broken:
             rows = dict.fromkeys((each.what, each.change or "no single change") for each in one.broken)
             table = Table(("property of the train", "change that would admit it"), list(rows))
-            yield Section(
-                f"Rules that {one.train} breaks", [*_note_sentences(one), *_admission_sentences(one)], [table]
-            )
+            yield Section(f"Rules that {one.train} breaks", list(_note_sentences(one)), [table])
         elif one.notes:
             yield Section(f"Notes on {one.train}", list(_note_sentences(one)))
-        if one.telling is not None and one.place is not None:
+        if one.telling and one.place is not None:
             yield _telling(one.train, one.telling, one.place.trains)
 
 
-def _telling(train: str, found: TellingFacts, trains: int) -> Section:
-    """Return the section on facts that distinguish a train, singly and in the smallest sets."""
-    many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
-    alone = [each for each in found.facts if each.solutions == 1]
-    lines = ["Facts that are true of this train but not of all, with the number of trains that each would leave."]
-    tables = [Table(("fact", f"left of {trains}"), _fact_rows(found.facts))]
-    if not found.sets:
-        lines.append("No set of three facts leaves only this train.")
-    elif not alone:
-        ways = plural(len(found.sets), "way")
-        lines.append(
-            f"{many_facts[len(found.sets[0])]} together leave only this train, in {ways}. "
-            "Equivalent facts are listed once."
-        )
-        rows = [("; ".join(map(_fact_text, some)),) for some in found.sets]
-        tables.append(Table(("facts that together leave only this train",), cut(rows, most=_MOST_SETS)))
-    return Section(f"Facts that distinguish {train}", lines, tables)
+def _telling(train: str, facts: Sequence[TellingFact], trains: int) -> Section:
+    """Return the section on the facts that distinguish a train."""
+    line = "Facts that are true of this train but not of all, with the number of trains that each would leave."
+    return Section(f"Facts that distinguish {train}", [line], [Table(("fact", f"left of {trains}"), _fact_rows(facts))])
 
 
 def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
@@ -305,35 +278,6 @@ def _ranks(ranks: tuple[int, int], trains: int) -> str:
 
 def _note_sentences(one: KnownRank) -> Iterator[str]:
     yield from (f"{note}." for note in one.notes)
-
-
-def _admission_sentences(one: KnownRank) -> Iterator[str]:
-    """Yield a sentence on the rank of a train in each changed problem that admits it."""
-    all_that = tuple(dict.fromkeys(each.change for each in one.broken))
-    for admitted in one.admitted:
-        changes = (
-            "all these changes" if admitted.changes == all_that else f"the changes ({'; '.join(admitted.changes)})"
-        )
-        yield _admission_text(changes, admitted)
-
-
-def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
-    own = plural(len(admitted.wheels), "wheel") + (f" ({teeth_text(admitted.wheels)})" if admitted.wheels else "")
-    begins = f"With {changes} it adds {own}"
-    if admitted.refused is not None:
-        return f"{begins}. Not searched: {admitted.refused}."
-    listed = [f"{number} with {added}" for added, number in enumerate(admitted.solutions) if number]
-    if admitted.place is None:
-        trains = f"the trains by added wheels are {', '.join(listed)}" if listed else "nothing fits"
-        return f"{begins}. With at most {plural(admitted.requested, 'wheel')} {trains}."
-    place = admitted.place
-    outweighed = (
-        "no train weighs more" if place.dearer == 1 else f"the best weighs {figure(place.dearer)} times as much"
-    )
-    return (
-        f"{begins}. Trains by added wheels: {', '.join(listed)}. It ranks {_ranks(place.ranks, place.trains)}, and "
-        f"{_ranks(place.ranks_alike, place.trains_alike)} with the same number of wheels; {outweighed}."
-    )
 
 
 # ---------------------------------------- facts common to all candidates, facts that differ, the next fact, assumptions

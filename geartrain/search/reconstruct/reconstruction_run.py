@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,17 +13,14 @@ from geartrain.numerics.exact import plural
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.reconstruct.reconstruction import ReconstructionRun
 from geartrain.search.reconstruct.reconstruction_problem import RequestedQuestion, question_digest
-from geartrain.search.reconstruct.search_tasks import count_choices, done_shares, rough
+from geartrain.search.reconstruct.search_tasks import count_choices
 
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.dropped_facts import ChangedCount, ChangedQuestion
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
     from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
-    from geartrain.search.reconstruct.search_tasks import ExpectedCost
 
 _LARGE = 15  # decimal logarithm of the number of choices of tooth counts above which it is printed
-_STEPS = 1000
-"""Number of steps into which a progress bar is divided."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 
 
@@ -44,23 +40,14 @@ class CommandRun(ReconstructionRun):
         if (size := count_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} combinations")
 
-    def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Print the expected cost of the search."""
-        tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in cost.paths.items())}")
-        if seconds := rough(cost.whole):
-            workers = self._options.workers
-            shared = f", shared by {workers} processes" if workers not in (None, "1") else ""
-            timed = f"a few of {cost.parts} parts of the search were timed"
-            tell(f"expected time: about {_duration_text(seconds)} in one process{shared}; {timed}")
-
     @contextmanager
-    def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
+    def search(self, problem: ReconstructionProblem) -> Iterator[Execution]:
         """Yield an executor whose journal is kept until all searches are complete."""
         # tasks do not depend on the listing or on the unit of the prior
         requested = {"question": question_digest(problem)}
         with long_run("reconstruct", requested, self._folder, self._options) as given:
             self._journal = given.journal
-            yield _weighted(given, problem, cost)
+            yield given
 
     @contextmanager
     def assume(
@@ -94,25 +81,6 @@ class CommandRun(ReconstructionRun):
                 yield Execution(executor, tell=bar.reach)
         except KeyboardInterrupt:
             tell(f"interrupted: {what} omitted")
-
-
-def _weighted(execution: Execution, problem: ReconstructionProblem, expected: ExpectedCost) -> Execution:
-    """Return the executor with progress in proportion to the expected time of the tasks."""
-    shares, report_progress = done_shares(problem, expected), execution.tell
-
-    def reach(done: int, _: int) -> None:
-        if report_progress is not None:
-            report_progress(round(_STEPS * shares[done]), _STEPS)
-
-    return replace(execution, tell=reach)
-
-
-def _duration_text(seconds: float) -> str:
-    """Format a rough duration [s] in seconds, minutes, hours or days."""
-    for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
-        if seconds >= 2 * size:
-            return f"{seconds / size:.0f} {unit}"
-    return f"{seconds:.0f} seconds"
 
 
 def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:

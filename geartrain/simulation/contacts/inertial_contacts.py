@@ -46,7 +46,6 @@ _SLOPE = 1e-12  # tolerance, relative to the mean ratio, of tables of the speed 
 # degree of these tables: the derivative loses one order, and few cells must reach the tolerance
 _DEGREE = 9
 _LEAP = 1e-7  # relative to the larger of the input's and the link's maximum speed: smaller jumps are rounding
-_MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of their functions, tolerance in pitches
 _NUMBERS = 1 << 22  # maximum number of matrix entries in one batch
 
 
@@ -87,8 +86,7 @@ class InertialContacts:
     ) -> None:
         self.moving, self.acting, self.rubbing = moving, acting, rubbing or {}
         outputs = {link: (link, moving.frame) for link in moving.system.links}
-        # tables cost a setup but make every further evaluation cheaper
-        self.motion = Motion(moving, outputs, _TABLES if len(moving.circuits) > _MANY else None)
+        self.motion = Motion(moving, outputs)
         self.sources: tuple[PairErrorSource, ...] = self.motion._forward.sources
 
     # ------------------------------------------------------------------------------------------------------- components
@@ -121,7 +119,7 @@ class InertialContacts:
     def _senses(self) -> Floats:
         """Sense of rotation of the driven side of each pair in mean motion: 1 forwards, -1 backwards."""
         circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in self.moving.circuits}
-        errors = PairErrors(self.moving, None, ())
+        errors = PairErrors(self.moving, ())
         return np.array([errors.sense(circuits[name]) for name in self.pairs], dtype=float)
 
     def _by_link(self, values: Mapping[str, float]) -> Floats:

@@ -5,8 +5,7 @@ lose less energy. Therefore cells end at `transmission.kinks()`, and each side o
 and speed ratio come from one polynomial and its derivative, so the constraint that keeps two flanks in contact is the
 exact gradient of their gap.
 
-`Motion`, which evaluates one function at many angles at once, uses separate tables of error and speed
-(`teeth.transmission_table`). The kernels evaluate many functions in turn at one angle.
+The kernels evaluate many functions in turn at one angle.
 """
 
 from __future__ import annotations

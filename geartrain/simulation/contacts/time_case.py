@@ -179,9 +179,9 @@ def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: Mo
     way = -1.0 if speed < 0 else 1.0
     hand = drive.hand
     inertia = 0.0 if hand is None or hand.inertia is None else hand.inertia.si
-    if drive.weight is not None and drive.drum is not None:
-        # a falling weight adds m R^2 to the link of its drum
-        inertia = drive.weight.si * drive.drum.si**2
+    if drive.weight is not None and drive.arm is not None:
+        # a falling weight adds m r^2 to the link of its drum, with its descent r per radian
+        inertia = drive.weight.si * drive.arm**2
     if drive.steady_torque is not None:
         return PowerInput(link, "torque", torque=way * drive.steady_torque, inertia=inertia)
     if drive.spring is not None:

@@ -1,7 +1,6 @@
 """Time-domain simulation of a train (docs/dynamics.md, 4 to 6).
 
-train_in_time         entry points: a run, modes of vibration
-time_study            two runs with time steps h and h/2, and their comparison
+train_in_time         entry points: two runs with time steps h and h/2 and their comparison, modes of vibration
 run_figures           results of one run, with confidence intervals by batch means, and spectra under a Hann window
 time_run              classes of the results
 stepwise_simulation   a simulation that is advanced step by step

@@ -22,38 +22,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
-    from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission, pair_outlines
-    from geartrain.teeth.conjugate.path_losses import PathLosses, PathMeasures, efficiency, measure
-    from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
-    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm as ConjugateToothForm
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair as ConjugatePair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission as ConjugateTransmission
+    from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission as OffDesignTransmission
+    from geartrain.teeth.conjugate.displaced_contact import pair_outlines as pair_outlines
+    from geartrain.teeth.conjugate.path_losses import PathLosses as PathLosses
+    from geartrain.teeth.conjugate.path_losses import PathMeasures as PathMeasures
+    from geartrain.teeth.conjugate.path_losses import efficiency as efficiency
+    from geartrain.teeth.conjugate.path_losses import measure as measure
+    from geartrain.teeth.conjugate.path_of_contact import PathContact as PathContact
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact as PathOfContact
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair as WheelPair
 
-__all__ = [
-    "ConjugatePair",
-    "ConjugateToothForm",
-    "ConjugateTransmission",
-    "OffDesignTransmission",
-    "PathContact",
-    "PathLosses",
-    "PathMeasures",
-    "PathOfContact",
-    "WheelPair",
-    "efficiency",
-    "measure",
-    "pair_outlines",
-]
-
-_PLACES = {
-    **dict.fromkeys(("ConjugatePair", "ConjugateTransmission"), "conjugate_transmission"),
-    "ConjugateToothForm": "conjugate_form",
-    **dict.fromkeys(("OffDesignTransmission", "pair_outlines"), "displaced_contact"),
-    **dict.fromkeys(("PathContact", "PathOfContact"), "path_of_contact"),
-    **dict.fromkeys(("PathLosses", "PathMeasures", "efficiency", "measure"), "path_losses"),
-    "WheelPair": "wheel_pair",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "conjugate_form": "ConjugateToothForm",
+        "conjugate_transmission": "ConjugatePair ConjugateTransmission",
+        "displaced_contact": "OffDesignTransmission pair_outlines",
+        "path_losses": "PathLosses PathMeasures efficiency measure",
+        "path_of_contact": "PathContact PathOfContact",
+        "wheel_pair": "WheelPair",
+    },
+)

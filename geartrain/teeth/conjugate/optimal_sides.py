@@ -20,16 +20,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.chebyshev import ChebyshevSeries, differentiation, points
+from geartrain.numerics.chebyshev import differentiation, points, series_through, tail
 from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate.path_of_contact import PathPiece, PathSide, ray, sampled, steady_speed
 
 if TYPE_CHECKING:
+    from numpy.polynomial import Chebyshev
+
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
     Weight = Callable[[Floats], Floats]
-    PieceMaker = Callable[[PitchSurfaces, "ValueAndSlope", ChebyshevSeries, float], PathPiece]
+    PieceMaker = Callable[[PitchSurfaces, "ValueAndSlope", Chebyshev, float], PathPiece]
 
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
@@ -117,7 +119,7 @@ def _solutions(
 
     Each solution is the initial guess of the next one.
     """
-    last: ChebyshevSeries | None = None
+    last: Chebyshev | None = None
 
     def made(end: float) -> PathPiece:
         nonlocal last
@@ -127,24 +129,24 @@ def _solutions(
     return made
 
 
-def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
+def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev, end: float) -> PathPiece:
     """Return the piece of a path of contact for a solution v = sin psi, the sine of the pressure angle at distances
     d.
     """
-    return sampled(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
+    return sampled(v, _slope(pitch, f, v), v.domain[0], end, max(len(v.coef), 64))
 
 
-def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callable[[Floats], Floats]:
+def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev) -> Callable[[Floats], Floats]:
     """Return a function that computes the derivative v' of a solution v of S v' + f(d, v) = 0.
 
     It uses the differential equation, and the series close to the pitch point, where the equation gives 0/0.
     """
-    steep = v.derivative()
+    steep = v.deriv()
 
     def slope(d: Floats) -> Floats:
         S = pitch.S(d)
         with np.errstate(invalid="ignore", divide="ignore"):
-            return np.where(d > _NEAR * v.end, -f(d, v(d))[0] / S, steep(d))
+            return np.where(d > _NEAR * v.domain[1], -f(d, v(d))[0] / S, steep(d))
 
     return slope
 
@@ -179,7 +181,7 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
     return f
 
 
-def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
+def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: float) -> PathPiece:
     """Return the piece of a path of contact for a solution g = sin psi / S of 2 S' g + S g' = beta + gamma / cos
     psi.
     """
@@ -189,7 +191,7 @@ def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, 
         lambda d: pitch.S_slope(d) * g(d) + pitch.S(d) * steep(d),
         0.0,
         end,
-        max(len(g.coefficients), 64),
+        max(len(g.coef), 64),
     )
 
 
@@ -292,8 +294,8 @@ def solved(
     first: float,
     end: float,
     start: float = 0.0,
-    near: ChebyshevSeries | None = None,
-) -> ChebyshevSeries:
+    near: Chebyshev | None = None,
+) -> Chebyshev:
     """Return the solution v(d) of S v' + f(d, v) = 0 on [start, end] with v = `first` at `start`, by Chebyshev
     collocation. S is d, or sin d for bevel gears.
 
@@ -305,14 +307,14 @@ def solved(
     if the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
     """
     # a constant is the involute (v = sin psi) or the cycloid (g = sin psi / S), from which Newton's method converges
-    series = near or ChebyshevSeries.through(np.full(_NODES[0], first), start, end)
+    series = near or series_through(np.full(_NODES[0], first), start, end)
     for nodes in _NODES:
-        if near and nodes < len(near.coefficients):
+        if near and nodes < len(near.coef):
             continue
         series = fitted(pitch, f, first, end, start, nodes, series)
-        if series.tail < _FALLEN:
+        if tail(series) < _FALLEN:
             break
-    if series.tail > _UNFINISHED:
+    if tail(series) > _UNFINISHED:
         raise unreachable_end(end)
     return series
 
@@ -324,14 +326,14 @@ def fitted(
     end: float,
     start: float,
     nodes: int,
-    near: ChebyshevSeries | None = None,
-) -> ChebyshevSeries:
+    near: Chebyshev | None = None,
+) -> Chebyshev:
     """Return the solution of the differential equation in `solved` with a fixed number of Chebyshev nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges
-    guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
-    return ChebyshevSeries.through(_collocated(pitch, f, first, d, guess), start, end)
+    guess = near(np.minimum(d, near.domain[1])) if near else np.full(nodes, first)
+    return series_through(_collocated(pitch, f, first, d, guess), start, end)
 
 
 def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats, v: Floats) -> Floats:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.chebyshev import ChebyshevSeries
+from geartrain.numerics.chebyshev import points, series_through
 from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
@@ -66,7 +66,8 @@ def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int =
     """Return the piece of a path of contact with a given sine of the pressure angle psi. Its arc X is an
     integrated Chebyshev series of 1 / cos psi.
     """
-    travel = ChebyshevSeries.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
+    d = start + (end - start) * (points(nodes)[0] + 1) / 2
+    travel = series_through(1 / np.sqrt(1 - sin_psi(d) ** 2), start, end).integ(lbnd=start)
     return PathPiece(start, end, sin_psi, slope, travel)
 
 

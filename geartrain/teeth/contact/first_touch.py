@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from geartrain.numerics.arrays import joined, some
-from geartrain.numerics.polynomial_pieces import value, value_alone
+from geartrain.numerics.polynomial_pieces import value
 from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
@@ -251,7 +251,7 @@ class FirstTouchSearch:
             x, piece = tooth_pairs.x[cells.tooth_pair[which]], cells.piece1[which]
 
             def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
-                r, a = (value_alone(each, piece[these], at) for each in (self.first.radius, self.first.azimuth))
+                r, a = (value(each, piece[these], at)[0] for each in (self.first.radius, self.first.azimuth))
                 return DrivenFrame(self.axles, r, a + x[these]).radius - goal[these]
 
             u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.polar2[0][:, which] - goal))
@@ -342,5 +342,5 @@ class FirstTouchSearch:
             speed = ahead - slant * drift
         # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding error
         angle = view.azimuth - a - correction - tooth_pairs.place[segments.tooth_pair]
-        radius1 = value_alone(self.first.radius, piece1, u)
+        radius1, _ = value(self.first.radius, piece1, u)
         return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.tooth_pair)

@@ -14,7 +14,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.multiples_of_pi import PI
+from geartrain.numerics.exact import PI
 from geartrain.numerics.plain_values import Boolean, whole_from
 from geartrain.numerics.quantity import Angle, MeasuredLength, above_zero, bad, below_right_angle, millimetres
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, Efficiencies

@@ -14,32 +14,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
-    from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
-    from geartrain.teeth.triangular.triangular_form import Triangular
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+    from geartrain.teeth.triangular.clearance_window import ClearanceWindow as ClearanceWindow
+    from geartrain.teeth.triangular.clearance_window import find_window as find_window
+    from geartrain.teeth.triangular.pair_geometry import TriangularSizes as TriangularSizes
+    from geartrain.teeth.triangular.pair_geometry import equal_depth as equal_depth
+    from geartrain.teeth.triangular.pair_geometry import pitch_true as pitch_true
+    from geartrain.teeth.triangular.triangular_form import Triangular as Triangular
+    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission as TriangularTransmission
 
-__all__ = [
-    "ClearanceWindow",
-    "Triangular",
-    "TriangularSizes",
-    "TriangularTransmission",
-    "equal_depth",
-    "find_window",
-    "pitch_true",
-]
-
-_PLACES = {
-    "ClearanceWindow": "clearance_window",
-    "Triangular": "triangular_form",
-    "TriangularSizes": "pair_geometry",
-    "TriangularTransmission": "triangular_transmission",
-    "equal_depth": "pair_geometry",
-    "find_window": "clearance_window",
-    "pitch_true": "pair_geometry",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "clearance_window": "ClearanceWindow find_window",
+        "pair_geometry": "TriangularSizes equal_depth pitch_true",
+        "triangular_form": "Triangular",
+        "triangular_transmission": "TriangularTransmission",
+    },
+)

@@ -108,7 +108,7 @@ class TriangularContact:
         ends = min(backlash(0.0), backlash(2 * half))
         if not slope(0.0) < 0 < slope(2 * half):
             return ends
-        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)  # a derivative of 0 makes it bisect
+        step = bracketed_root(slope, 0.0, 2 * half)
         return min(ends, backlash(step))
 
     @cached_property

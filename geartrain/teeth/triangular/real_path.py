@@ -130,8 +130,7 @@ class RealPath:
         """
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
-        x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.tooth_pair.slope(phase, x), low, high)
-        return [self.g(phase, x)]
+        return [self.g(phase, bracketed_root(lambda x: self.slope(phase, x), low, high))]
 
     # ------------------------------------------------------------------------------------------------ all tooth pairs
 
@@ -157,12 +156,7 @@ class RealPath:
             return [left]
         if self._rise(piece.phase, high - pitch) <= 0:
             return [right]
-        start = bracketed_root(
-            lambda x: self._rise(piece.phase, x),
-            lambda x: self.tooth_pair.speed(piece.phase, x + pitch) - self.tooth_pair.speed(piece.phase, x),
-            low,
-            high - pitch,
-        )
+        start = bracketed_root(lambda x: self._rise(piece.phase, x), low, high - pitch)
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
@@ -276,7 +270,7 @@ class RealPath:
             return ours[0] - theirs[1], ours[1] - theirs[0]
 
         for c, d in sign_changes(difference, bounds, low, high):
-            yield bracketed_root(difference, slope, c, d) - i * self.pitch
+            yield bracketed_root(difference, c, d) - i * self.pitch
 
 
 def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
@@ -392,9 +386,4 @@ def _arrival(path: RealPath, interval: DriveInterval, y: float) -> float:
     """Return the angle alpha_1 of the driver's apex [rad] at which a tooth pair reaches a driven wheel that dwells
     at alpha_2 = y [rad].
     """
-    return bracketed_root(
-        lambda x: path.tooth_pair.angle(interval.phase, x) - y,
-        lambda x: path.tooth_pair.speed(interval.phase, x),
-        interval.end,
-        interval.start,
-    )
+    return bracketed_root(lambda x: path.tooth_pair.angle(interval.phase, x) - y, interval.end, interval.start)

@@ -252,8 +252,8 @@ class TriangularTransmission(ToothTransmission):
             return 0.0
         tooth_pair = self.contact.path.tooth_pair
         low, high = max(self.sizes.matching, -self.sizes.reach1), self.sizes.reach1
-        angle, speed = (partial(function, APPROACH) for function in (tooth_pair.angle, tooth_pair.speed))
-        return bracketed_root(angle, speed, low, high) if angle(low) < 0 < angle(high) else inf
+        angle = partial(tooth_pair.angle, APPROACH)
+        return bracketed_root(angle, low, high) if angle(low) < 0 < angle(high) else inf
 
     def _end_values(self, what: Callable[[DriveInterval, Any], Any]) -> list[float]:
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]

@@ -3,7 +3,7 @@
 import { PARTS } from "./colours.js";
 import { rodsOf } from "./parts.js";
 import { bar, plate, roundEnded, Shape, swept, band } from "./shape.js";
-import { across, along, foot, frameAt, isParallel, offAxis, onAxis, sharesAxis } from "./space.js";
+import { across, along, foot, frameAt, isParallel, offAxis, onAxis, sharesAxis, vector } from "./space.js";
 
 /** A straight round bar between two points: {shape, matrix}. */
 export function barBetween(from, to, radius) {
@@ -36,8 +36,9 @@ export function spans(scene) {
     places[pin].push(along(scene.bodies[pin], pin_at));
     places[slot].push(along(scene.bodies[slot], slot_at));
   }
-  for (const { body, place, height, direction } of scene.shapes) {
-    if (isParallel(scene.bodies[body].direction, direction)) places[body].push(along(scene.bodies[body], place) - height, along(scene.bodies[body], place) + height);
+  for (const { body, place, height, direction, bands } of scene.shapes) {
+    const ends = bands.length ? [bands[0][0], bands.at(-1)[1]] : [-height, height];
+    if (isParallel(scene.bodies[body].direction, direction)) places[body].push(...ends.map((end) => along(scene.bodies[body], vector(place).addScaledVector(vector(direction), end))));
   }
   for (const { body, dial } of scene.pointers) {
     if (dial !== null && !scene.dials[dial].plate && scene.dials[dial].look !== "ball") places[body].push(along(scene.bodies[body], scene.dials[dial].centre));

@@ -5,13 +5,16 @@ import { band, plate, Shape, swept } from "./shape.js";
 /** Number of vertices of a circle, according to its radius relative to the size of the train. */
 const rounds = (radius, size) => Math.round(Math.min(84, Math.max(18, 125 * Math.sqrt(radius / size))));
 
-/** A disc with a hub, with arms if there is space between hub and rim; `depth`, height of its teeth (mm) */
-export function discShape(radius, thickness, hub, depth, size) {
+/** Inner radius of the rim of a disc, and radius of its boss, 0 without space for arms; `depth`, height of its teeth (mm). */
+export function webOf(radius, hub, depth) {
+  const [rim, boss] = [radius - Math.max(1.3 * depth, 0.09 * radius), Math.max(1.9 * hub, 0.09 * radius)];
+  return rim < 2.1 * boss ? { rim: 0.9 * hub, boss: 0 } : { rim, boss };
+}
+
+/** The boss and the arms of a disc within its rim. */
+export function armsShape(radius, thickness, { rim, boss }) {
   const [shape, half] = [new Shape(), thickness / 2];
-  const rim = radius - Math.max(1.3 * depth, 0.09 * radius);
-  const boss = Math.max(1.9 * hub, 0.09 * radius);
-  if (rim < 2.1 * boss) return swept(shape, band(0, radius, -half, half), rounds(radius, size));
-  swept(shape, band(rim, radius, -half, half), rounds(radius, size));
+  if (!boss) return shape;
   swept(shape, band(0, boss, -1.15 * half, 1.15 * half), 18);
   const arms = rim < 5 * boss ? 4 : rim < 9 * boss ? 5 : 6;
   const width = Math.max(0.42 * boss, 0.03 * radius);
@@ -27,12 +30,7 @@ function arm(shape, angle, from, to, width, half) {
   plate(shape, stations, -half, half, ([x, y, z]) => [x * cosine - y * sine, x * sine + y * cosine, z]);
 }
 
-/** A plain rim between two radii. */
-export function rimShape(inner, outer, thickness, size) {
-  return swept(new Shape(), band(inner, outer, -thickness / 2, thickness / 2), rounds(outer, size));
-}
-
-/** The same with sharp edges, which replaces the teeth. */
+/** A plain rim between two radii, which replaces the teeth. */
 export function plainRimShape(inner, outer, thickness, size) {
   const half = thickness / 2;
   return swept(new Shape(), [[inner, -half], [outer, -half], [outer, half], [inner, half]], rounds(outer, size));

@@ -1,7 +1,7 @@
 // Dials with circular or spiral scales, and the hands that move over them.
 
 import { NEEDLES, PARTS } from "./colours.js";
-import { band, halfBall, plate, Shape, swept } from "./shape.js";
+import { ball, band, halfBall, plate, Shape, swept } from "./shape.js";
 import { frameAt, vector } from "./space.js";
 
 const WIDER = 1.45; // width factor of lines on metal, which are seen from a distance
@@ -101,9 +101,49 @@ export function orderOf(scene, index) {
 }
 
 /** Outline of a hand: [x, half width], as long as its scale requires; each hand above others is slightly shorter. */
-export function handOf({ outline, reach }, size, order) {
-  const length = size * reach * (1 - SHORTER * (order % 4));
+export function handOf({ outline, reach, ball: round }, size, order) {
+  const length = size * reach * (round ? 1 : 1 - SHORTER * (order % 4));
   return outline.map(([x, w]) => [length * x, length * w]);
+}
+
+const OBLIQUITY = (23.44 * Math.PI) / 180; // of the ecliptic
+const FAR = 0.62; // radius of the ecliptic's outermost point on a dial, relative to its scale
+const BROAD = 0.05; // width of the ring of the ecliptic, in the same way
+
+/** Point of the ecliptic at a longitude [rad], in the stereographic projection from the north pole, the summer solstice at 1. */
+export function eclipticAt(longitude) {
+  const rise = Math.asin(Math.sin(OBLIQUITY) * Math.sin(longitude));
+  const ascension = Math.atan2(Math.cos(OBLIQUITY) * Math.sin(longitude), Math.cos(longitude));
+  const far = Math.tan((Math.PI / 2 + rise) / 2) / Math.tan((Math.PI / 2 + OBLIQUITY) / 2);
+  return [far * Math.cos(ascension), far * Math.sin(ascension)];
+}
+
+/** What a hand carries: the sphere at its end, with its ring, or the eccentric ring of the ecliptic, divided into signs. */
+function carried({ hand, ball: radius, reach }, dial, common, [low, high]) {
+  const size = dial.scale.outer * dial.radius;
+  if (hand === "ecliptic") {
+    const points = Array.from({ length: 120 }, (_, n) => eclipticAt((Math.PI * n) / 60).map((value) => FAR * size * value));
+    const middle = (points[30][1] + points[90][1]) / 2; // the projection of a circle is a circle, here about a point of the y axis
+    const wide = points[30][1] - middle;
+    const ring = swept(new Shape(), band(wide - BROAD * size, wide, low, high), 96);
+    for (let n = 0; n < ring.corners; n += 1) ring.points[3 * n + 1] += middle;
+    const signs = new Shape();
+    for (let n = 0; n < 120; n += 10) {
+      const [x, y] = points[n];
+      const inner = 1 - (BROAD * size) / wide;
+      stroke(signs, [x, y], [inner * x, middle + inner * (y - middle)], 0.008 * size, high + 0.002 * size);
+    }
+    return [{ ...common, colour: PARTS.bezel, shape: ring }, { ...common, colour: PARTS.mark, gloss: 0, shape: signs }];
+  }
+  if (!radius) return [];
+  const [orbit, wide] = [reach * size - radius * dial.radius, radius * dial.radius];
+  const sphere = ball(wide, 20);
+  for (let n = 0; n < sphere.corners; n += 1) {
+    sphere.points[3 * n] += orbit;
+    sphere.points[3 * n + 2] += high + 0.6 * wide;
+  }
+  const ring = hand === "bead" ? swept(new Shape(), band(orbit - 0.3 * wide, orbit + 0.3 * wide, low, high), 72) : new Shape();
+  return [{ ...common, shape: sphere }, { ...common, colour: PARTS.bezel, shape: ring }];
 }
 
 /** A hand from the middle of its dial: {colour, shape, matrix, at, dial}; on a spiral, an arm with a slide whose pin follows the groove. */
@@ -116,7 +156,7 @@ function handParts(scene, index, order) {
   const at = vector(dial.centre);
   const common = { colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
   const hub = (shape) => swept(shape, band(0, Math.max(0.05 * radius, Math.min(0.75 * pointer.seat, Math.max(0.55 * pointer.seat, 0.35 * radius))), low, high + 0.004 * radius), 20);
-  if (scale.turns === 1) return [{ ...common, shape: hub(plate(new Shape(), handOf(pointer, scale.outer * radius, order), low, high)) }];
+  if (scale.turns === 1) return [{ ...common, shape: hub(plate(new Shape(), handOf(pointer, scale.outer * radius, order), low, high)) }, ...carried(pointer, dial, common, [low, high])];
   const [inner, travel] = [scale.inner * radius, (scale.outer - scale.inner) * radius];
   const arm = [[-0.2, 0.02], [-0.16, 0.035], [-0.1, 0.03], [0, 0.026], [scale.inner - 0.14, 0.026], [scale.inner - 0.12, 0.034], [scale.inner - 0.06, 0.034], [scale.inner - 0.05, 0.026]];
   const shape = hub(plate(new Shape(), arm.map((station) => station.map((each) => each * radius)), low, high));

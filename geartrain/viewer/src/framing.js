@@ -6,11 +6,13 @@ import { vector } from "./space.js";
  * Target point and distance of the camera.
  *
  * points       points that must be visible
- * towards      unit vector from the target to the camera
+ * towards      unit vector from the target to the camera; `above`: upward direction of the picture
  * wide, high   tangents of half the field of view, horizontally and vertically
  */
-export function frame(points, towards, wide, high) {
-  const right = vector([0, 1, 0]).cross(towards).normalize();
+export function frame(points, towards, above, wide, high) {
+  const right = vector(above).cross(towards);
+  if (right.length() < 1e-6) right.set(1, 0, 0); // seen from above
+  right.normalize();
   const up = towards.clone().cross(right);
   // a point (x, z) is in the field of view of a camera at x = c and distance d if |x - c| <= (d - z) wide
   const fit = (axis, slope) => {

@@ -2,6 +2,8 @@
 
 import { CircleGeometry, GLSL3, Mesh, RawShaderMaterial } from "three";
 
+import { frameAt, vector } from "./space.js";
+
 const BELOW = 0.012; // distance below the train's lowest point, relative to its size
 const SOFT = 0.32; // width of the edge of the shadow, relative to the size
 const DARK = 0.34;
@@ -34,19 +36,22 @@ void main() {
 
 /** A mesh below the points of an outline; `fit` moves it below other points. */
 export class Ground {
-  constructor(size) {
+  constructor(size, up) {
     const number = (value) => ({ value });
     this.uniforms = { middle: number([0, 0]), half_wide: number([1, 1]), soft: number(SOFT * size), low: number(0), dark: number(DARK) };
     const about = { glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, uniforms: this.uniforms, transparent: true, depthWrite: false };
     // clockwise seen from above, so that it is invisible from below
     this.mesh = new Mesh(new CircleGeometry(1.05, 48), new RawShaderMaterial({ ...about, side: 1 }));
-    this.mesh.frustumCulled = false;
+    this.mesh.matrixAutoUpdate = this.mesh.frustumCulled = false;
+    this.mesh.matrix.copy(frameAt([0, 0, 0], vector([1, 0, 0]).cross(vector(up)).toArray(), [1, 0, 0])); // its y axis is upwards
+    this.back = this.mesh.matrix.clone().invert();
     this.mesh.renderOrder = -1;
     this.size = size;
   }
 
   fit(points) {
-    const range = (key) => points.reduce(([low, high], point) => [Math.min(low, point[key]), Math.max(high, point[key])], [Infinity, -Infinity]);
+    const own = points.map((point) => point.clone().applyMatrix4(this.back));
+    const range = (key) => own.reduce(([low, high], point) => [Math.min(low, point[key]), Math.max(high, point[key])], [Infinity, -Infinity]);
     const [[left, right], [low], [back, front]] = ["x", "y", "z"].map(range);
     if (!Number.isFinite(low)) return;
     this.uniforms.middle.value = [(left + right) / 2, (back + front) / 2];

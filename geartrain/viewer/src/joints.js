@@ -6,7 +6,7 @@ import { armBetween } from "./arbors.js";
 import { HANDLE, PARTS } from "./colours.js";
 import { colourOf, ROUND, turnedShape } from "./parts.js";
 import { ball, band, bar, plate, roundEnded, Shape, swept } from "./shape.js";
-import { along, across, frameAt, onAxis, vector } from "./space.js";
+import { along, across, frameAt, isParallel, onAxis, vector } from "./space.js";
 
 /** Parts of a pin and its slot: {body, colour, shape, matrix, at}. */
 export function couplingParts(scene, coupling, size) {
@@ -79,6 +79,69 @@ export function crankOf(scene, index, end, side, reach, size) {
   ].map((part) => ({ body: index, at, ...part }));
   const knob = vector([reach, 0, out]).applyMatrix4(frame);
   return { body: index, at, end: onAxis(body, end + 2 * out), knob, touch: 0.06 * size, reach, parts };
+}
+
+const STEEL = { gloss: 0.5, colour: PARTS.slot };
+
+/** A motor, a spring in its barrel, or a fusee at one end of the driven arbor, as in `crankOf`; it is turned at its axis. */
+export function machineOf(scene, index, end, side, size) {
+  const { direction, parent } = scene.bodies[index];
+  const at = onAxis(scene.bodies[index], end);
+  const matrix = frameAt(at.toArray(), vector(direction).multiplyScalar(side).toArray(), across(direction).toArray());
+  const [made, reach, length] = scene.drive === "motor" ? motor(parent, 0.075 * size) : scene.fusee.length ? fusee(scene.fusee) : mainspring(0.09 * size);
+  const parts = made.map((part) => ({ body: index, at, matrix, ...part }));
+  return { body: index, at, end: at.clone().addScaledVector(vector(direction), side * length), knob: at, touch: 0.6 * reach, reach, parts };
+}
+
+/** A coupling on the shaft, and the motor on the frame: its ribbed body between two shields, and its terminal box. */
+function motor(frame, radius) {
+  const [low, high] = [0.5 * radius, 2.5 * radius];
+  const ribs = Array.from({ length: 11 }, (_, n) => [n % 2 ? 0.9 : 1, low + 0.2 * radius + (n / 10) * (high - low - 0.4 * radius)]).flatMap(([r, z], n, all) => [[(n ? all[n - 1][0] : r) * radius, z], [r * radius, z]]);
+  const body = swept(new Shape(), [[0, low], [0.8 * radius, low], ...ribs, [0.8 * radius, high], [0, high]], 48);
+  const box = plate(new Shape(), [[0.8 * radius, 0.4 * radius], [1.25 * radius, 0.4 * radius]], 1.1 * radius, 1.9 * radius);
+  return [[{ ...STEEL, shape: bar(0.4 * radius, 0, 0.35 * radius, 32) }, { colour: PARTS.arbor, shape: bar(0.15 * radius, -0.1 * radius, low) }, { ...STEEL, body: frame, shape: body }, { ...STEEL, colour: PARTS.pin, body: frame, shape: box }], 1.25 * radius, high];
+}
+
+/** An open barrel with its coiled spring. */
+function mainspring(radius) {
+  const high = 0.5 * radius;
+  const drum = swept(swept(new Shape(), band(0.93 * radius, radius, 0, high), 64), band(0, radius, 0, 0.08 * high), 64);
+  const [coil, turns] = [new Shape(), 6];
+  const place = (n) => [(0.2 + (0.7 * n) / (48 * turns)) * radius, (2 * Math.PI * n) / 48];
+  for (let n = 0; n < 48 * turns; n += 1) {
+    const [[r0, t0], [r1, t1]] = [place(n), place(n + 1)];
+    const corner = (r, t, z) => [r * Math.cos(t), r * Math.sin(t), z];
+    const [inner, outer] = [0, 0.035 * radius].map((thick) => [[r0 + thick, t0], [r1 + thick, t1]]);
+    const up = 0.92 * high;
+    coil.face([...inner, ...outer.toReversed()].map(([r, t]) => corner(r, t, up)), [0, 0, 1], [-Math.sin(t0), Math.cos(t0), 0]);
+    for (const [line, sign] of [[inner, -1], [outer, 1]]) {
+      const [[ra, ta], [rb, tb]] = line;
+      coil.face([corner(ra, ta, 0), corner(rb, tb, 0), corner(rb, tb, up), corner(ra, ta, up)], [sign * Math.cos(t0), sign * Math.sin(t0), 0], [-Math.sin(t0), Math.cos(t0), 0]);
+    }
+  }
+  return [[{ colour: PARTS.pipe, shape: drum }, { colour: PARTS.arbor, shape: coil }, { colour: PARTS.arbor, shape: bar(0.2 * radius, 0, 1.2 * high) }], radius, 1.2 * high];
+}
+
+/** A fusee in true size, with a groove for each of its radii. */
+function fusee(radii) {
+  const [most, step] = [Math.max(...radii), (1.4 * Math.max(...radii)) / radii.length];
+  const grooved = radii.flatMap((r, n) => [[r + 0.2 * step, n * step], [r - 0.3 * step, (n + 0.5) * step]]);
+  const top = radii.length * step;
+  const shape = swept(new Shape(), [[0, 0], ...grooved, [radii.at(-1), top], [0, top]], 64);
+  return [[{ colour: PARTS.pipe, shape }, { colour: PARTS.pipe, shape: bar(1.1 * most, -0.8 * step, 0, 64) }], 1.1 * most, top];
+}
+
+const GAP = 0.02; // in the rod of a shortened pendulum, relative to its length
+
+/** The turned parts of a hanging part; a pendulum longer than `most` (mm) is shortened, with a gap in its rod. */
+export function partsOfHanger({ kind, length, down, parts }, most) {
+  const less = length - most;
+  if (kind !== "pendulum" || less <= 0) return parts;
+  const broken = ([low, high, ...radii]) => [[low, most * (0.6 - GAP), ...radii], [most * (0.6 + GAP), high - less, ...radii]];
+  return parts.map((part) => {
+    if (isParallel(part.direction, down)) return { ...part, bands: part.bands.flatMap(broken) };
+    return { ...part, place: vector(part.place).addScaledVector(vector(down), -less).toArray() };
+  });
 }
 
 /** The turned parts of a hanging part, or its line: {colour, shape, matrix, at}. */

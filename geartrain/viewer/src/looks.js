@@ -30,7 +30,7 @@ export class Looks {
   }
 
   highlight(chosen, colour) {
-    this.chosen = chosen && { wheels: this.wheelsOf(chosen), colour: colour ?? CHOSEN };
+    this.chosen = chosen && { wheels: this.wheelsOf(chosen), bodies: chosen.bodies ?? [], colour: colour ?? CHOSEN };
     this.recolour();
   }
 
@@ -56,7 +56,7 @@ export class Looks {
       const plain = this.mode !== "plain" || broken || lit || selected; // reflections must not hide a colour that has a meaning
       part.paint({ colour, gloss: plain ? 0.35 : GLOSS, opacity: chosen && !lit && !selected ? GHOST : 1 });
     });
-    const bodies = new Set([...(chosen?.wheels ?? [])].map((index) => this.scene.wheels[index].body));
+    const bodies = new Set([...[...(chosen?.wheels ?? [])].map((index) => this.scene.wheels[index].body), ...(chosen?.bodies ?? [])]);
     const kept = ({ body, plate }) => !chosen || (bodies.has(body) && !plate);
     for (const part of this.parts) {
       const opacity = kept(part) ? (this.isGlass(part) ? GLASS : 1) : GHOST;

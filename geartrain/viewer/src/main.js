@@ -84,6 +84,7 @@ async function begin(build) {
   await painted();
   performance.mark("first picture");
   for (const stage of app.stages) stage?.cut();
+  app.interface.begin?.();
   globalThis.geartrain.firstPicture = performance.getEntriesByName("first picture")[0].startTime;
   globalThis.geartrain.ready = true;
   await painted();

@@ -8,7 +8,8 @@ import { Shape, swept } from "./shape.js";
 import { barOf, paneOf } from "./sight.js";
 import { along, endsOf, frameAt, isParallel, offAxis, vector } from "./space.js";
 
-const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4] };
+const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4], guide: PARTS.slot, road: PARTS.arm, hub: PARTS.arm, figure: PARTS.bezel };
+const SMOOTH = ["figure"]; // turned parts whose bands are joined by cones
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // wall of a cup, which continues a flexible wheel
 export const ROUND = 84; // vertices of a circle as wide as a train
@@ -36,7 +37,7 @@ function partsOf(scene, parts, main) {
     const flat = part.outlines.length > 0;
     const upright = isParallel(direction, main.toArray());
     const cover = COVERS.includes(kind) ? vector(direction) : null;
-    const shape = flat ? flatShape(part) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL ? ROUND : 40);
+    const shape = flat ? flatShape(part) : SMOOTH.includes(kind) ? smoothShape(part.bands) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL ? ROUND : 40);
     // parts along the direction in which layers move are stretched
     const at = upright && !flat ? null : vector(place);
     return { body, kind, cover, colour: colourOf(part), gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
@@ -63,6 +64,12 @@ export function turnedShape(bands, most) {
   return shape;
 }
 
+/** A turned part whose outline passes through the middle of each band. */
+export function smoothShape(bands) {
+  const outline = bands.map(([low, high, radius]) => [radius, (low + high) / 2]);
+  return swept(new Shape(), [[0, bands[0][0]], [bands[0][2], bands[0][0]], ...outline, [0, bands.at(-1)[1]]], 32);
+}
+
 /** Chamfers the sharp outer edges of the ends, so that they reflect light. */
 function chamfered(outline) {
   const heights = outline.map(([, z]) => z);
@@ -77,8 +84,8 @@ function chamfered(outline) {
   });
 }
 
-/** A flat part, with outlines of alternating x and y: first its edge, then its holes. */
-export function flatShape({ outlines, height }) {
+/** A flat part, with outlines of alternating x and y: first its edge, then its holes; without walls before outline `walled`. */
+export function flatShape({ outlines, height }, walled = 0) {
   const shape = new Shape();
   const rings = outlines.map((line) => {
     const points = [];
@@ -96,7 +103,7 @@ export function flatShape({ outlines, height }) {
     for (const { x, y } of points) shape.corner([x, y, (side * height) / 2], [0, 0, side], [1, 0, 0]);
     for (const [a, b, c] of triangles) shape.indices.push(first + a, first + b, first + c);
   }
-  for (const ring of rings) wall(shape, ring, height / 2);
+  for (const ring of rings.slice(walled)) wall(shape, ring, height / 2);
   return shape;
 }
 
@@ -121,8 +128,8 @@ export function rodsOf(scene, index) {
 }
 
 /** Points whose convex hull contains all parts in the zero pose: {point, body, at}, with `at` of the part. */
-export function cornersOf(scene, main) {
-  return [...scene.parts, ...scene.shapes].flatMap(({ body, place, direction, across, bands, outlines, height }) => {
+export function cornersOf(parts, main) {
+  return parts.flatMap(({ body, place, direction, across, bands, outlines, height }) => {
     const matrix = frameAt(place, direction, across);
     const flat = (outlines[0] ?? []).flatMap((x, n, all) => (n % 2 ? [] : [[x, all[n + 1], height / 2], [x, all[n + 1], -height / 2]]));
     const round = bands.flatMap(([low, high, r]) => [low, high].flatMap((z) => [[r, 0, z], [-r, 0, z], [0, r, z], [0, -r, z]]));

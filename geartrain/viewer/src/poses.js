@@ -59,6 +59,7 @@ export class Poses {
       if (body.parent === null) return;
       const joint = this.machine.moves ? this.machine.joint(body.as ?? index) : 0;
       const { matrix } = this.nodes[index];
+      if (body.to !== undefined && body.to !== null) return; // after all other bodies
       if (body.hangs !== undefined) return hung(matrix, body, this.unwound(body.as, joint));
       const point = vector(body.point);
       if (body.travels) return matrix.makeTranslation(vector(body.direction).multiplyScalar(joint / (2 * Math.PI)).add(this.shifts[index]));
@@ -67,7 +68,17 @@ export class Poses {
       matrix.setPosition(point.clone().sub(out).applyMatrix4(matrix).negate().add(point).add(this.shifts[index]));
     });
     this.root.updateMatrixWorld(true);
+    this.bodies.forEach((body, index) => typeof body.to === "number" && this.#stretch(body, this.nodes[index].matrixWorld));
     this.nodes.forEach((node, index) => array.set(node.matrixWorld.elements, 16 * index));
+  }
+
+  /** Pose of a rod or a rope between points of two bodies, which it follows. */
+  #stretch({ body, to, point, direction, down, length }, matrix) {
+    const from = vector(point).applyMatrix4(this.nodes[body].matrixWorld);
+    const end = vector(point).addScaledVector(vector(down), length).applyMatrix4(this.nodes[to].matrixWorld);
+    const way = end.sub(from);
+    const axis = vector(direction).transformDirection(this.nodes[body].matrixWorld);
+    matrix.copy(frameAt(from.toArray(), axis.toArray(), way.toArray())).scale(vector([way.length() / length, 1, 1])).multiply(frameAt(point, direction, down).invert());
   }
 
   /** The angle of a body with its completed turns. */

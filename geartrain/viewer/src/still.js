@@ -2,8 +2,8 @@
 
 import { svg } from "./ui/element.js";
 
-/** One picture of the displayed stages side by side, in the size on the screen: a promise of a PNG. */
-export function pictureOf(stages) {
+/** A canvas with the pictures of the displayed stages side by side, in the size on the screen. */
+export function copyOf(stages) {
   const canvases = stages.map((stage) => stage.canvas);
   const sheet = document.createElement("canvas");
   sheet.width = canvases.reduce((sum, { width }) => sum + width, 0);
@@ -15,8 +15,11 @@ export function pictureOf(stages) {
     pen.drawImage(canvases[n], left, 0);
     left += canvases[n].width;
   });
-  return new Promise((done) => sheet.toBlob(done, "image/png"));
+  return sheet;
 }
+
+/** The same: a promise of a PNG. */
+export const pictureOf = (stages) => new Promise((done) => copyOf(stages).toBlob(done, "image/png"));
 
 const WORN = ["fill", "fill-opacity", "fill-rule", "stroke", "stroke-width", "stroke-linejoin", "vector-effect", "opacity", "display", "text-anchor", "font-family"];
 

@@ -1,9 +1,12 @@
 // One tooth as a solid: its profile between two faces, cylindrical, tapered to an apex, or standing on a crown wheel.
 
+import { ShapeUtils, Vector2 } from "three";
+
 import { Shape } from "./shape.js";
 
 const TURN = 2 * Math.PI;
 const PROUD = 0.02; // relative to a lantern's thickness: ends of pins protrude, because coplanar faces flicker
+const ROUND = 72; // minimum number of vertices of a circle
 const FINE = 0.02; // relative to a tooth's height: smaller deviations of the outline are not drawn
 
 /**
@@ -39,22 +42,49 @@ export function blankOf(wheel, apex) {
   };
 }
 
-/** The tooth between its profile and the relative radius `base`, on a blank; `hand` is -1 for a mirrored blank. */
-export function toothShape(points, base, at, fine = FINE, hand = 1) {
+/**
+ * A sector of a wheel: a tooth between its profile and a wall at the relative radius `base`. All sectors together are a
+ * closed surface, because each shares its vertices with the next.
+ *
+ * hand    -1 for a mirrored blank
+ * walled  the chamfer of the wall, relative to the thickness; null without a wall
+ */
+export function toothShape(points, base, at, fine = FINE, { hand = 1, walled = null } = {}) {
   const ring = base > Math.max(...points.map(([radius]) => radius));
   const side = ring ? -1 : 1; // the material of a ring is on the other side of its outline
   const edge = simplify(points, fine, side);
   const way = side * hand;
   const shape = flanks(new Shape(), edge, at, way);
+  const arc = arcOf(edge[0][1], edge.at(-1)[1]);
+  const chamfer = walled && (walled * Math.hypot(...minus(at(1, 0, 1), at(1, 0, 0)))) / Math.hypot(...at(1, 0, 0.5));
+  const face = [...arc.map((t) => [base - chamfer, t]).reverse(), ...edge];
+  const triangles = ShapeUtils.triangulateShape(face.map(([r, t]) => new Vector2(r * Math.cos(t), r * Math.sin(t))), []);
   for (const end of [0, 1]) {
-    for (let n = 1; n < edge.length; n += 1) {
-      const [[r0, t0], [r1, t1]] = [edge[n - 1], edge[n]];
-      const corners = [at(base, t0, end), at(base, t1, end), at(r1, t1, end), at(r0, t0, end)];
-      shape.face(corners, facing(corners, end ? -way : way), [t0, t1, t1, t0].map((t) => [-Math.sin(t), Math.cos(t), 0]));
+    const first = shape.corners;
+    const normal = facing([face[arc.length - 1], face[0], face.at(-1), face[arc.length]].map(([r, t]) => at(r, t, end)), end ? -way : way);
+    for (const [r, t] of face) shape.corner(at(r, t, end), normal, tangent(t));
+    for (const [a, b, c] of triangles) shape.indices.push(first + a, first + b, first + c);
+  }
+  if (walled === null) return shape;
+  const profile = chamfer ? [[base - chamfer, 0], [base, walled], [base, 1 - walled], [base - chamfer, 1]] : [[base, 0], [base, 1]];
+  for (let n = 1; n < profile.length; n += 1) {
+    for (let k = 1; k < arc.length; k += 1) {
+      const [turns, [low, high]] = [[arc[k - 1], arc[k]], [profile[n - 1], profile[n]]];
+      const corners = [...turns.map((t) => at(low[0], t, low[1])), ...turns.toReversed().map((t) => at(high[0], t, high[1]))];
+      shape.face(corners, facing(corners, -way), [...turns, ...turns.toReversed()].map(tangent));
     }
   }
   return shape;
 }
+
+/** Angles from one to another, in steps of at most a `ROUND`-th of a turn. */
+export function arcOf(from, to) {
+  const steps = Math.max(1, Math.ceil((ROUND * (to - from)) / TURN - 1e-6));
+  return Array.from({ length: steps + 1 }, (_, n) => from + (n / steps) * (to - from));
+}
+
+const tangent = (t) => [-Math.sin(t), Math.cos(t), 0];
+const minus = (a, b) => a.map((value, k) => value - b[k]);
 
 /** A pin, or a solid with another closed section, whose ends extend beyond the two faces. */
 export function pinShape(points, at) {

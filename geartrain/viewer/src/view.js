@@ -3,6 +3,7 @@
 import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
+import { aimAt } from "./aim.js";
 import { Fraction } from "./fraction.js";
 import { frame } from "./framing.js";
 import { Hands } from "./picking.js";
@@ -19,6 +20,9 @@ const NEARLY = 0.95; // relative to the best visibility
 const INTO = [0.62, 0.46, 0.64]; // oblique view into a train that is cut open
 const BEHIND = [INTO[0], INTO[1], -INTO[2]]; // the same from behind
 const MARGIN = 1.05;
+const NEAR = 1.7; // distance of the camera from a part, relative to that at which the part fills the picture
+const BEYOND = 0.02; // distance of a part behind the middle for which it is seen from behind, relative to the size of the train
+const FLIGHT = 1200; // [ms] to another part
 const ASIDE = 0.55; // cosine of the angle between the view of a full exploded view and the main direction
 
 export class Stage {
@@ -29,6 +33,7 @@ export class Stage {
     this.onPick = () => {};
     this.onCrank = () => {};
     this.onOrbit = () => {};
+    this.onDraw = () => {};
     this.frameMilliseconds = 0;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
     this.renderer.debug.checkShaderErrors = false; // a check would wait for the GPU
@@ -39,6 +44,7 @@ export class Stage {
     this.setting.matrixAutoUpdate = false;
     this.setting.add(this.world.root);
     this.camera = new PerspectiveCamera(FIELD, 1, 0.02 * this.world.size, 60 * this.world.size);
+    this.camera.up.set(...machine.scene.up);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.1 * this.world.size;
     this.controls.maxDistance = 30 * this.world.size;
@@ -148,6 +154,44 @@ export class Stage {
     this.request();
   }
 
+  /** Moves the camera to a part of a tour, {kind, name}, and highlights it; with null, to the whole train. */
+  visit(part, colour, calm) {
+    const { points, towards = null, chosen = null } = part ? aimAt(this.world, part) : { points: this.world.outline() };
+    this.highlight(chosen, colour);
+    const way = towards ?? this.nearer(points);
+    const { target, distance } = frame(points, way, ...this.slopes);
+    const whole = this.framed(way).distance;
+    this.from = null;
+    this.onOrbit();
+    this.fly(target, target.clone().addScaledVector(way, part ? Math.min(NEAR * distance, whole) : whole), calm ? 0 : FLIGHT);
+  }
+
+  /** The initial viewing direction, reflected if points are on the other side of the train. */
+  nearer(points) {
+    const { main, ball, size } = this.world;
+    const way = this.opening().clone();
+    const depth = points.reduce((sum, point) => sum + point.clone().sub(ball.center).dot(main), 0) / points.length;
+    const straight = way.dot(main);
+    return depth * straight < -BEYOND * size ? way.addScaledVector(main, -2 * straight) : way;
+  }
+
+  /** Moves the camera and its target within a time [ms]. */
+  fly(target, position, time) {
+    const { camera, controls } = this;
+    const [from, eye, began, own] = [controls.target.clone(), camera.position.clone(), performance.now(), (this.flight = {})];
+    const move = (now) => {
+      if (this.flight !== own || this.disposed || this.orbiting) return;
+      const part = time ? Math.min(1, Math.max(0, now - began) / time) : 1;
+      const share = part * part * (3 - 2 * part);
+      controls.target.lerpVectors(from, target, share);
+      camera.position.lerpVectors(eye, position, share);
+      controls.update();
+      this.request();
+      if (part < 1) requestAnimationFrame(move);
+    };
+    move(began);
+  }
+
   /** Moves the camera to the front, the back, a side, or an oblique view, with the whole train in the picture. */
   look(from) {
     const straight = from in LOOKS && from !== "free";
@@ -156,9 +200,10 @@ export class Stage {
     else this.fit(this.aside(this.opening()));
   }
 
-  /** A viewing direction, given relative to the front. */
+  /** A viewing direction, given relative to the front; for an observer above, to the side on which the front is lowest. */
   towards([x, y, z]) {
-    const front = this.machine.scene.front || 1;
+    const { front = 1, up } = this.machine.scene;
+    if (up[2] && (x || y)) return vector([x * front, -z, y * front]).normalize();
     return vector([x * front, y, z * front]).normalize();
   }
 
@@ -195,6 +240,7 @@ export class Stage {
 
   /** Moves the camera to a direction, as near as the extent allows. */
   fit(towards) {
+    this.flight = null;
     const { target, distance } = this.framed(towards);
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(towards, distance);
@@ -204,8 +250,13 @@ export class Stage {
 
   /** The camera position, as near as the extent allows, in the current direction or another one. */
   framed(towards = this.camera.position.clone().sub(this.controls.target).normalize()) {
+    return { towards, ...frame(this.world.outline(), towards, ...this.slopes) };
+  }
+
+  /** Upward direction, and tangents of half the field of view, horizontally and vertically, reduced by a margin. */
+  get slopes() {
     const high = Math.tan((FIELD * DEGREE) / 2) / MARGIN;
-    return { towards, ...frame(this.world.outline(), towards, high * this.camera.aspect, high) };
+    return [this.machine.scene.up, high * this.camera.aspect, high];
   }
 
   orbited() {
@@ -245,6 +296,7 @@ export class Stage {
     this.world.glaze(this.camera.position);
     this.world.refresh();
     this.renderer.render(this.setting, this.camera);
+    this.onDraw();
     const took = performance.now() - began;
     this.frameMilliseconds = this.drawn ? 0.9 * this.frameMilliseconds + 0.1 * took : took;
     this.drawn = true;

@@ -1,15 +1,16 @@
 // A wheel as drawn: its body, its teeth as copies of one tooth, and a plain rim that replaces the teeth.
 
-import { coneShape, discShape, lanternShape, plainRimShape, rimShape, wormShape } from "./blanks.js";
+import { armsShape, coneShape, lanternShape, plainRimShape, webOf, wormShape } from "./blanks.js";
 import { ringRim } from "./extent.js";
 import { flatShape } from "./parts.js";
 import { frameAt, vector } from "./space.js";
-import { blankOf, pinShape, toothShape } from "./tooth.js";
+import { arcOf, blankOf, pinShape, toothShape } from "./tooth.js";
 
 const MOST_TEETH = 2000; // maximum for one wheel: more teeth cannot be distinguished
 const MANY_TEETH = 12000; // number of teeth of a train above which all teeth are simplified
 const SEEN = 0.0005; // relative to the train's size: smaller deviations of a tooth's outline are not drawn
 const GLOSS = 0.75;
+const BROKEN_EDGE = 0.1; // chamfer of the outside of a ring, relative to its thickness
 
 export class WheelPart {
   /** index   index of the wheel in the scene; `hub`: radius of its arbor (mm); `size`: size of the train (mm) */
@@ -35,44 +36,46 @@ export class WheelPart {
     return [this.own, this.toothed, this.smooth];
   }
 
-  /** Adds the body and the plain rim. */
+  /** Radius at which the sectors with the teeth begin: inside of the rim, outside of a ring, or the edge of a disc with holes. */
+  get seat() {
+    const { wheel, root, hub, depth, wave } = this;
+    const radius = root * wheel.radius;
+    if (wheel.kind === "ring") return ringRim(wheel);
+    if (wave) return radius - wave.wall;
+    return wheel.holes.length ? (1 - Math.min(0.03, 0.1 * root)) * radius : webOf(radius, hub, depth).rim;
+  }
+
+  /** Adds the body within the teeth, and the plain rim. */
   castBody(add) {
-    const { wheel, root, hub, size } = this;
-    const { kind, radius, thickness, cone } = wheel;
-    if (kind === "worm") add(this.worm(), this.matrix, this.own);
-    else if (this.profile.hole) add(lanternShape(this.crest * 1.08 * radius, thickness, hub), this.matrix, this.own);
-    else if (kind === "ring") {
-      add(rimShape(root * radius, ringRim(wheel), thickness, size), this.matrix, this.own);
-      add(plainRimShape(radius, root * radius, 0.96 * thickness, size), this.matrix, this.smooth);
-    } else if (this.wave) {
-      const bore = root * radius - this.wave.wall;
-      add(rimShape(bore, root * radius, thickness, size), this.matrix, this.own);
-      add(plainRimShape(root * radius, radius, 0.96 * thickness, size), this.matrix, this.smooth);
-    } else if (cone) {
+    const { wheel, root, hub, size, depth, seat } = this;
+    const { kind, radius, thickness, cone, holes } = wheel;
+    if (kind === "worm") return add(this.worm(), this.matrix, this.own);
+    if (this.profile.hole) return add(lanternShape(this.crest * 1.08 * radius, thickness, hub), this.matrix, this.own);
+    if (cone) {
       add(coneShape(this.surface, root - 0.01, this.apex, thickness, hub), this.matrix, this.toothed);
-      add(coneShape(this.surface, 1, this.apex, thickness, hub), this.matrix, this.smooth);
-    } else {
-      add(wheel.holes.length ? this.holed() : discShape(root * radius, thickness, hub, this.depth, size), this.matrix, this.own);
-      add(plainRimShape(0.98 * root * radius, radius, 0.96 * thickness, size), this.matrix, this.smooth);
+      return add(coneShape(this.surface, 1, this.apex, thickness, hub), this.matrix, this.smooth);
     }
+    if (holes.length) add(flatShape({ outlines: [this.edge(), ...holes], height: thickness }, 1), this.matrix, this.own);
+    else if (kind !== "ring" && !this.wave) add(armsShape(root * radius, thickness, webOf(root * radius, hub, depth)), this.matrix, this.own);
+    add(plainRimShape(Math.min(seat, radius), Math.max(seat, radius), 0.96 * thickness, size), this.matrix, this.smooth);
   }
 
   /** Adds the teeth; `many` is the number of teeth of the train. */
   castTeeth(add, many) {
-    const { wheel, profile, surface, root } = this;
+    const { wheel, profile, surface, root, apex, seat } = this;
     if (wheel.kind === "worm") return;
-    const depth = this.wave ? this.wave.wall / (2 * wheel.radius) : Math.min(0.03, 0.1 * root);
-    const base = wheel.kind === "ring" ? root + 0.02 : root - depth;
     const fine = many > MANY_TEETH ? 0.3 : Math.min(0.3, Math.max(0.02, (SEEN * this.size) / this.depth));
-    const shape = profile.hole ? pinShape(profile.points, surface) : toothShape(profile.points, base, surface, fine, wheel.cone ? this.apex : 1);
+    const base = wheel.cone ? root - Math.min(0.03, 0.1 * root) : seat / wheel.radius;
+    const walled = wheel.cone || wheel.holes.length ? null : wheel.kind === "ring" ? BROKEN_EDGE : 0;
+    const shape = profile.hole ? pinShape(profile.points, surface) : toothShape(profile.points, base, surface, fine, { hand: wheel.cone ? apex : 1, walled });
     add(shape, this.matrix, profile.hole ? this.own : this.toothed, Math.min(wheel.teeth, MOST_TEETH));
   }
 
-  /** The disc with its holes. */
-  holed() {
-    const { root, wheel } = this;
-    const outlines = [circle(root * wheel.radius), ...wheel.holes];
-    return flatShape({ outlines, height: 0.97 * wheel.thickness }); // thinner than the teeth, because coplanar faces flicker
+  /** The edge of a disc below its teeth, which shares its vertices with them. */
+  edge() {
+    const half = Math.PI / this.wheel.teeth;
+    const angles = Array.from({ length: this.wheel.teeth }, (_, n) => arcOf((2 * n - 1) * half, (2 * n + 1) * half).slice(1)).flat();
+    return angles.flatMap((angle) => [this.seat * Math.cos(angle), this.seat * Math.sin(angle)]);
   }
 
   worm() {
@@ -91,9 +94,6 @@ export class WheelPart {
     this.palette.paint(this.smooth, { shown: shown && !toothed });
   }
 }
-
-/** Points of a circle as alternating x and y. */
-const circle = (radius) => Array.from({ length: 168 }, (_, n) => (Math.PI * n) / 84).flatMap((angle) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
 
 const mates = (scene, index) =>
   scene.pairs.filter(({ wheels }) => wheels.includes(index)).map(({ wheels: [one, other] }) => (one === index ? other : one));

@@ -8,7 +8,7 @@ import { holds, quarterOf } from "./cutaway.js";
 import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
 import { dialParts, orderOf, pointerParts, shownBy } from "./faces.js";
 import { Ground } from "./ground.js";
-import { couplingParts, crankOf, hangerParts } from "./joints.js";
+import { couplingParts, crankOf, hangerParts, machineOf, partsOfHanger } from "./joints.js";
 import { Looks } from "./looks.js";
 import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
@@ -19,12 +19,15 @@ import { along, isParallel, offAxis, onAxis, sharesAxis, vector } from "./space.
 import { Sparks } from "./sparks.js";
 import { WheelPart } from "./wheels.js";
 
+const REACH = 0.12; // length of a crank relative to the size of the train
+const LONGEST = 1.1; // maximum length of a pendulum as drawn, in the same way
+
 export class World {
   constructor(machine) {
     this.scene = machine.scene;
     const circles = circlesOf(this.scene);
     this.main = mainDirection(this.scene);
-    this.corners = cornersOf(this.scene, this.main);
+    this.corners = cornersOf([...this.scene.parts, ...this.scene.shapes], this.main);
     const corners = this.corners.map(({ point }) => point);
     this.ball = ballOf(this.scene, circles, corners);
     this.size = 2 * this.ball.radius;
@@ -45,7 +48,7 @@ export class World {
     this.looks.paint("plain");
     this.root.add(...this.cast(0), ...this.cast(2));
     this.machine = machine;
-    this.ground = new Ground(this.size);
+    this.ground = new Ground(this.size, this.scene.up);
     this.root.add(this.ground.mesh);
     if (machine.simulated) {
       this.sparks = new Sparks(machine.scene, this.poses, machine.run);
@@ -79,7 +82,12 @@ export class World {
       const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
       pointerParts(scene, index, orderOf(scene, index)).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
     });
-    scene.hangers.forEach((hanger, index) => hangerParts(hanger).forEach((part) => this.put({ ...part, body: this.poses.hanger(index) })));
+    scene.hangers.forEach((hanger, index) => {
+      const body = this.poses.hanger(index);
+      const parts = partsOfHanger(hanger, LONGEST * size);
+      hangerParts({ ...hanger, parts }).forEach((part) => this.put({ ...part, body }));
+      this.corners.push(...cornersOf(parts, this.main).map((corner) => ({ ...corner, body })));
+    });
     this.crank = this.buildCrank(reach);
     this.crank?.parts.forEach((part) => this.put(part));
   }
@@ -96,10 +104,16 @@ export class World {
     return new Bend(machine, wave, part, joined.map(({ slot, ends }) => ({ slot, bottom: ends[1] })));
   }
 
-  /** Adds the crank at the end of its arbor where it is less in the way of other parts; the arbor is lengthened past them. */
+  /** True if the train is driven by what is drawn elsewhere: a weight that hangs, or the ground. */
+  get isDriven() {
+    const { crank, drive, hangers, shapes } = this.scene;
+    return (drive === "weight" && hangers.some(({ kind }) => kind === "weight")) || shapes.some(({ kind, body }) => kind === "road" && body === crank);
+  }
+
+  /** Adds the crank, or the motor or spring, at the end of its arbor where it is less in the way of other parts; the arbor is lengthened past them. */
   buildCrank(reach) {
     const { scene, size } = this;
-    if (scene.crank === null || scene.bodies[scene.crank].parent === null) return null;
+    if (scene.crank === null || scene.bodies[scene.crank].parent === null || this.isDriven) return null;
     const body = scene.bodies[scene.crank];
     const coaxial = scene.bodies.map((_, at) => at).filter((at) => reach[at] && sharesAxis(scene, scene.crank, at, size));
     const ends = coaxial.flatMap((at) => reach[at].map((end) => along(body, onAxis(scene.bodies[at], end))));
@@ -113,13 +127,14 @@ export class World {
         ? vector(body.direction).dot(this.main) * scene.front
         : off(high) - off(low);
     // in front of a dial the crank would hide its scale
-    const read = new Set(scene.dials.filter(({ centre, normal }) => offAxis(body, centre) < 1e-6 * size && isParallel(body.direction, normal)).map(({ normal }) => Math.sign(vector(normal).dot(vector(body.direction)))));
+    const isBefore = ({ centre, normal, radius }) => isParallel(body.direction, normal) && offAxis(body, centre) < 1.08 * radius + REACH * size;
+    const read = new Set(scene.dials.filter(isBefore).map(({ normal }) => Math.sign(vector(normal).dot(vector(body.direction)))));
     const side = read.size === 1 ? -[...read][0] : outward < 0 ? -1 : 1;
     const last = side > 0 ? high : low;
     const end = last + side * 0.02 * size;
     const foot = own[side > 0 ? 1 : 0];
     const rod = rodsOf(scene, scene.crank).sort((one, other) => side * (other[0] - one[0]))[0];
-    const crank = crankOf(scene, scene.crank, end, side, 0.12 * size, size);
+    const crank = scene.drive === "motor" || scene.drive === "spring" ? machineOf(scene, scene.crank, end, side, size) : crankOf(scene, scene.crank, end, side, REACH * size, size);
     crank.at = onAxis(body, last); // in the exploded view, it moves with its support
     for (const part of crank.parts) part.at = crank.at;
     const bar = (from, to, at) => ({ body: scene.crank, colour: PARTS.arbor, ...barBetween(onAxis(body, from), onAxis(body, to), rod ? rod[2] : 0.009 * size), at });
@@ -192,7 +207,11 @@ export class World {
 
   /** Current position of a point of the crank (its foot or its knob). */
   ofCrank(point) {
-    const { body, at } = this.crank;
+    return this.placed(point, this.crank.body, this.crank.at);
+  }
+
+  /** Current position of a point of a body; in the exploded view, it is displaced like the part at `at`. */
+  placed(point, body, at = point) {
     return this.poses.apart(point, this.poses.lift(body, at)).applyMatrix4(this.nodes[body].matrixWorld);
   }
 

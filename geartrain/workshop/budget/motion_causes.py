@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorSamples
+from geartrain.dynamics.motion.error_composition import ErrorDifference
 from geartrain.dynamics.motion.extreme_search import count_extremes
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.dynamics.motion.superposition import Superposition
@@ -31,7 +31,6 @@ from geartrain.workshop.budget.pointer_budget import BudgetCause, CauseName, Dec
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
-    from geartrain.dynamics.motion.error_composition import ErrorComposition
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.judged_outputs import OutputResult
     from geartrain.numerics.arrays import Floats
@@ -45,25 +44,6 @@ _NEAR = 0.02  # maximum relative difference of a target from the period of the b
 
 
 # --------------------------------------------------------------------------------------------------- teeth and backlash
-
-
-@dataclass(frozen=True)
-class ErrorDifference:
-    """Difference of the output errors of two composed motions with the same outputs, at the same input positions."""
-
-    one: ErrorComposition
-    other: ErrorComposition
-
-    @property
-    def chunk(self) -> int:
-        """Maximum number of positions that are evaluated at once."""
-        return min(self.one.chunk, self.other.chunk)
-
-    def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
-        one, other = self.one.at(turns), self.other.at(turns)
-        both = one.reversing_drivers | other.reversing_drivers
-        return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
 
 
 class DeclaredPairs(NamedTuple):
@@ -92,13 +72,6 @@ class ToothMotion:
     reversing_drivers: tuple[str, ...]
 
 
-def without_teeth(motion: Motion) -> Motion:
-    """Return the motion of the same train with ideal teeth (constant ratio, no backlash) and the same pins."""
-    from geartrain.dynamics import Motion
-
-    return Motion(replace(motion._problem, meshes={}), motion.outputs)
-
-
 def find_tooth_motion(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> ToothMotion:
@@ -107,7 +80,8 @@ def find_tooth_motion(
     on_done   callback with the number of positions of each chunk that is done
     """
     # the difference of two motions at the same position: with and without teeth, then backwards and forwards
-    ripple = ErrorDifference(motion._forward, without_teeth(motion)._forward)
+    ideal = motion._with_ideal_teeth()._forward
+    ripple = ErrorDifference(motion._forward, ideal)
     lost = ErrorDifference(motion._backward, motion._forward)
     tallies = motion._statistics()
     maximum, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
@@ -123,7 +97,7 @@ def find_tooth_motion(
         squares += np.sum(backlash.error**2, axis=1)
         on_done(len(at))
     # samples miss the extremes, so each is refined
-    count_extremes([ripple.one, ripple.other], ripple, turns, tallies)
+    count_extremes([motion._forward, ideal], ripple, turns, tallies)
     names = list(motion.outputs)
     return ToothMotion(
         dict(zip(names, tallies, strict=True)),

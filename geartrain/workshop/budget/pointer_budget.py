@@ -239,6 +239,8 @@ class TrainBudget(Tabular, Pictured, Result):
     """Reason why `jams` is empty; "" if `jams` has entries."""
     reversing_drivers: tuple[str, ...] = ()
     """Pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal."""
+    shown: tuple[str, ...] = ()
+    """Names of the pointers in the plot: the requested outputs, or the outputs with a dial."""
 
     def _summary(self) -> str:
         totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)

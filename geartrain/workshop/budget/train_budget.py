@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.dynamics.motion.error_composition import ErrorDifference
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
 from geartrain.numerics.confidence_intervals import deviation_of, percentile_of
@@ -26,14 +27,12 @@ from geartrain.workshop.budget.crank_load import find_crank_load
 from geartrain.workshop.budget.motion_causes import (
     Body,
     DeclaredPairs,
-    ErrorDifference,
     TheoryError,
     find_bodies,
     find_tooth_motion,
     link_theory,
     theory_cause,
     tooth_causes,
-    without_teeth,
 )
 from geartrain.workshop.budget.pointer_budget import BudgetCause, Declared, PointerBudget, RatioDrift, TrainBudget
 from geartrain.workshop.cutting.declared_errors import read_error_overrides
@@ -138,7 +137,7 @@ def find_budget(
     Raises
     ------
     QuestionError
-        If the train does not move, or an output is not declared, or the train has no outputs.
+        If the train does not move, or an output is not declared or slides, or the train has no outputs.
     GearTrainError
         If cutting errors are requested and the train's teeth cannot be cut.
 
@@ -156,7 +155,8 @@ def find_budget(
     requested, means = requested or BudgetQuestion(), means or Execution()
     answer = train.solve(state)
     names = pointer_names(answer, requested)
-    motion = train.motion(state, names, requested.without)
+    motion = train.motion(state, names, requested.without)._turning(requested.outputs)
+    names = tuple(motion.outputs)
     theories = _theories(train, requested, answer, motion)
     on_stage()
     teeth = find_tooth_motion(motion, requested.turns, requested.samples)
@@ -197,6 +197,7 @@ def find_budget(
         jams,
         jams_note,
         teeth.reversing_drivers,
+        requested.outputs or train.declaration.dial_outputs(names),
     )
 
 
@@ -347,7 +348,7 @@ def find_cutting_trials(
     found = run_trials(plan, count, seed, means)
     if not found.complete:  # interrupted: a budget does not state that it uses only some of the trials
         raise KeyboardInterrupt
-    teeth = ErrorDifference(plan.composition, without_teeth(motion)._forward)
+    teeth = ErrorDifference(plan.composition, motion._with_ideal_teeth()._forward)
     parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
     return found, np.concatenate(parts, axis=1)
 

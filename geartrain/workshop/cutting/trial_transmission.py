@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.transmission import TransmissionFunction, behind
+from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutToothPairs, of_teeth
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair
 
@@ -111,8 +111,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
         pitch = self.pair.sizes.p1
-        u = np.empty_like(S)
-        behind(S, pitch, u, np.empty_like(S))
+        u: Floats = np.mod(S, pitch)
         # whole pitches and the rest, because k p - S would lose the digits of a long run
         n = np.rint((S - u) / pitch).astype(np.int64)
         lag, first = np.full(len(S), inf), n

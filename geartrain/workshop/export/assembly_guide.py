@@ -19,6 +19,7 @@ from geartrain.numerics.results import Shown
 from geartrain.scene.palette import THEMES, series_colour
 from geartrain.scene.parts.arbor_columns import SHAKE, AxisBearing, AxisColumn
 from geartrain.scene.parts.turned_parts import rod_name
+from geartrain.workshop.export.label_boxes import LabelBoxes
 from geartrain.workshop.export.parts_list import ListedPart, parts_list
 from geartrain.workshop.export.proof.mesh_proof import ALLOWED, MeshProof
 from geartrain.workshop.export.proof.train_proof import TrainProof
@@ -479,9 +480,11 @@ class AssemblyPictures:
             lines.append(
                 f'<rect x="{x0 + margin:.3f}" y="{y:.3f}" width="{x1 - x0:.3f}" height="{z1 - z0:.3f}" {style}/>'
             )
-        lines += self._names(step, letter, corner)
-        lines.append(f'<text x="{margin:.3f}" y="{margin + letter / 2:.3f}">Step {number}: from above</text>')
-        lines.append(f'<text x="{margin:.3f}" y="{corner[1] + deep + gap - letter:.3f}">and from the side</text>')
+        view = float(corner[1]) + deep + gap  # upper end of the view from the side
+        labels = LabelBoxes((0.0, margin + letter, width, view - 2 * letter), letter)
+        lines += self._names(step, labels, corner)
+        lines.append(_label(f"Step {number}: from above", margin, margin + letter / 2))
+        lines.append(_label("and from the side", margin, view - letter))
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
@@ -506,19 +509,21 @@ class AssemblyPictures:
             x = corner[0] - low[0] + np.array([x0, x1, x1, x0])
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
-    def _names(self, step: AssemblyStep, letter: float, corner: Floats) -> Iterator[str]:
-        """Yield the labels of at most `_MOST_NAMED` new parts at their centres, without overlap."""
+    def _names(self, step: AssemblyStep, labels: LabelBoxes, corner: Floats) -> Iterator[str]:
+        """Yield the labels of at most `_MOST_NAMED` new parts near their centres, with lines to distant centres."""
         low, high = self.extent
-        taken: set[tuple[int, int]] = set()
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():
             x, y, _ = self.boxes[name].mean(axis=0)
-            at = corner[0] + x - low[0], corner[1] + high[1] - y
-            # labels snap to a grid of lines; a label on an occupied place moves down
-            column, row = round(at[0] / letter / 4), round(at[1] / letter)
-            while (column, row) in taken:
-                row += 1
-            taken.add((column, row))
-            yield f'<text x="{at[0]:.3f}" y="{row * letter:.3f}" text-anchor="middle">{escape(name)}</text>'
+            x, y = float(corner[0] + x - low[0]), float(corner[1] + high[1] - y)
+            u, v = labels.place(name, x, y)
+            if np.hypot(u - x, v - y) > labels.size:
+                line = f"M {x:.3f} {y:.3f} L {u:.3f} {v:.3f}"
+                yield f'<path d="{line}" fill="none" stroke="{_PAPER.quiet}" stroke-width="{labels.size / 20:.3f}"/>'
+            yield _label(name, u, v, 'text-anchor="middle" dominant-baseline="central"')
+
+
+def _label(text: str, x: float, y: float, style: str = "") -> str:
+    return f'<text x="{x:.3f}" y="{y:.3f}" {style}>{escape(text)}</text>'
 
 
 def _closed(x: Floats, y: Floats) -> str:

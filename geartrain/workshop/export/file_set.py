@@ -17,6 +17,7 @@ from geartrain.numerics.results import Shown
 from geartrain.scene.solids.bearing_plates import FlatDrawing
 from geartrain.workshop.export.assembly_guide import readme, step_pictures
 from geartrain.workshop.export.cut_sheets import cut_sheets, wheel_drawing, wheel_sheets
+from geartrain.workshop.export.maker_sheet import maker_sheets
 from geartrain.workshop.export.parts_list import parts_list, to_csv
 from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prove_train
 from geartrain.workshop.export.proof.train_proof import are_installed
@@ -231,7 +232,7 @@ def export_files(
         why = "geartrain does not export files in this format"
         raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
-    files += [ExportFile(*each) for each in step_pictures(work)] if "svg" in kinds else []
+    files += [ExportFile(*each) for each in (*maker_sheets(work), *step_pictures(work))] if "svg" in kinds else []
     if "csv" in kinds:
         tables = to_tables(work).items()
         files += [ExportFile(f"tables/{name}.csv", f"table of {name}", text.encode) for name, text in tables]

@@ -75,7 +75,9 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
     """
     alike: dict[tuple[object, ...], ListedPart] = {}
     for part in work.parts:
-        row = ListedPart((part.name,), part.kind, _material(work, part), _size(part), 0.0, "; ".join(_fits(work, part)))
+        row = ListedPart(
+            (part.name,), part.kind, material_of(work, part), _size(part), 0.0, "; ".join(_fits(work, part))
+        )
         # volumes to two decimals separate shapes of equal size, but not mirrored shapes that differ due to rounding
         volume = _volume(part)
         key = (row.kind, row.size, row.fits, round(volume, 2))
@@ -86,7 +88,8 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
     return list(alike.values())
 
 
-def _material(work: SolidModel, part: SolidPart) -> str:
+def material_of(work: SolidModel, part: SolidPart) -> str:
+    """Return the name of the material of a part, as declared or by its kind and the manufacturing process."""
     declared = work.train.declaration
     wheel = _wheel(work, part)
     own = None if wheel is None else wheel.material or declared.material

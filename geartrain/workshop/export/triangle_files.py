@@ -336,7 +336,9 @@ class Keyframes:
         if count not in self._found:  # shared by all bodies with this number of key frames
             links = tuple(self.work.train.declaration.links)
             motion = self.work.sized.motion(self.work.scene.state, links)
-            self._found[count] = motion.at(float(self.turns) * np.arange(count + 1) / count).error
+            error = motion.at(float(self.turns) * np.arange(count + 1) / count).error
+            # travels of 1 mm are angles of 2 pi here
+            self._found[count] = error * [[2 * pi if body.travels else 1.0] for body in bodies]
         return self._found[count]
 
 

@@ -23,7 +23,7 @@ from geartrain.numerics.confidence_intervals import (
     percentiles_of,
 )
 from geartrain.numerics.quantity import Figure
-from geartrain.numerics.results import Result, Shown
+from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
 from geartrain.report.document import Document, Section, Table
 from geartrain.teeth.contact_coefficients import CoulombFriction
@@ -32,7 +32,6 @@ from geartrain.workshop.monte_carlo.trial_block import BLOCK, FRICTION, RandomSt
 from geartrain.workshop.monte_carlo.trial_run import check_trials
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.coupling import Coupling
     from geartrain.train import GearPair, Train
@@ -64,59 +63,49 @@ class FrictionSpread(NamedTuple):
 
 
 @dataclass(frozen=True)
-class FrictionPlan(Shown):
+class FrictionPlan:
     """Plan of trials with random friction coefficients: the train, and the input positions of each trial.
+
+    Raises `QuestionError` if no friction coefficient of the train has a standard deviation.
 
     See Also
     --------
-    find_friction_plan : Make a plan from a train.
+    try_frictions : Run the trials.
+
+    Examples
+    --------
+    >>> from geartrain import load
+    >>> plan = FrictionPlan(load('''
+    ... extends: moon-triangular
+    ... loads: {moon: -1 N mm}
+    ... friction: {sliding: 0.2, deviation: 0.05}
+    ... ''').declaration, turns=1)
+    >>> plan.spreads
+    {'train': FrictionSpread(sliding=0.2, deviation=0.05)}
     """
 
     declared: Train
     """Train as declared, without random changes."""
-    state: str | None
-    """Name of the state; None for a train without states."""
     turns: float
-    """Number of turns of the input in a run."""
-    samples: int
-    """Number of positions of the input in a run."""
+    """Number of turns of the input in a run, above 0."""
+    samples: int = 20_000
+    """Number of positions of the input in a run, 2 or more."""
+    state: str | None = None
+    """Name of the state; None for a train without states."""
     of: str | None = None
     """Name of the link whose torque is computed; None for the crank."""
 
-    def _summary(self) -> str:
-        return f"{self.declared.name}: {self.turns:g} turns, {self.samples} positions"
+    def __post_init__(self) -> None:
+        if not self.spreads:
+            why = "each trial draws friction coefficients from distributions with declared standard deviations"
+            fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
+            what = f"'{self.declared.name}' declares no random friction coefficient"
+            raise QuestionError(Problem(what, why, fix))
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
         """Distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
-
-    def follow(self, drawn: Train) -> tuple[float | None, ...]:
-        """Return the torques and the efficiency of the run with the friction coefficients of one trial.
-
-        Parameters
-        ----------
-        drawn : Train
-            Train with the coefficients of the trial.
-
-        Returns
-        -------
-        tuple of float or None
-            Mean, maximum and starting torque, and efficiency; None if not defined, as for a train that locks.
-
-        Raises
-        ------
-        QuestionError
-            If the torque cannot be determined.
-        """
-        from geartrain.analysis.gear_train import GearTrain
-
-        found = GearTrain(drawn).torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
-        if found.turns is None:
-            what = "the torque cannot be determined"
-            fix = "declare `loads: {LINK: -1 N m}`, or the `bearing` friction of a link"
-            raise QuestionError(Problem(what, found.verdict.text, fix))
-        return found.mean, found.maximum_torque, found.starting_torque, found.efficiency
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
         """Return all data on which the results depend. A journal identifies the run by these data.
@@ -130,53 +119,6 @@ class FrictionPlan(Shown):
         requested = {"state": self.state, "turns": self.turns, "samples": self.samples, "of": self.of}
         train = self.declared.model_dump(mode="json", exclude_defaults=True)
         return {**made, "train": train, **requested, "trials": trials, "seed": seed}
-
-
-def find_friction_plan(
-    train: GearTrain, turns: float, samples: int = 20_000, state: str | None = None, of: str | None = None
-) -> FrictionPlan:
-    """Prepare a Monte Carlo analysis of a train whose friction coefficients have declared standard deviations.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train with declared coefficients of friction.
-    turns : float
-        Number of turns of the input, above 0.
-    samples : int
-        Number of positions in a run, 2 or more.
-    state : str, optional
-        Name of a declared state. Required if the train declares states.
-    of : str, optional
-        Link whose torque is computed, by default the crank.
-
-    Returns
-    -------
-    FrictionPlan
-        Input of `try_frictions`.
-
-    Raises
-    ------
-    QuestionError
-        If no friction coefficient has a standard deviation.
-
-    Examples
-    --------
-    >>> from geartrain import load
-    >>> plan = find_friction_plan(load('''
-    ... extends: moon-triangular
-    ... loads: {moon: -1 N mm}
-    ... friction: {sliding: 0.2, deviation: 0.05}
-    ... '''), turns=1)
-    >>> plan.spreads
-    {'train': FrictionSpread(sliding=0.2, deviation=0.05)}
-    """
-    plan = FrictionPlan(train.declaration, state, turns, samples, of)
-    if not plan.spreads:
-        why = "each trial draws friction coefficients from distributions with declared standard deviations"
-        fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
-        raise QuestionError(Problem(f"'{train.name}' declares no random friction coefficient", why, fix))
-    return plan
 
 
 def draw_friction(declared: Train, seed: int, trial: int) -> Train:
@@ -342,8 +284,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     equation 18), so it varies by 7 times the spread of f.
 
     >>> from geartrain import load
-    >>> from geartrain.workshop.monte_carlo.friction_trials import find_friction_plan
-    >>> plan = find_friction_plan(load('''
+    >>> plan = FrictionPlan(load('''
     ... links: {frame: {}, a: {}, b: {}}
     ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
     ... couplings:
@@ -351,7 +292,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     ...      friction: {sliding: 0.3, deviation: 0.05}}
     ... inputs: {a: 1}
     ... loads: {b: -10 N m}
-    ... '''), turns=1, samples=100)
+    ... ''').declaration, turns=1, samples=100)
     >>> found = try_frictions(plan, trials=20)
     >>> 11.7 < found.mean.mean.value < 12.5 and found.locks.count == 0
     True
@@ -376,10 +317,21 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Return the results of some trials as plain data: four values for each trial, None for trials in which the train
-    locks.
+    """Return the results of some trials as plain data: mean, maximum and starting torque, and efficiency of each trial;
+    None if not defined, as for a train that locks.
     """
-    return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
+    from geartrain.analysis.gear_train import GearTrain
+
+    rows = []
+    for trial in range(*task):
+        drawn = GearTrain(draw_friction(plan.declared, seed, trial))
+        found = drawn.torques(plan.state, turns=plan.turns, samples=plan.samples, of=plan.of)
+        if found.turns is None:
+            what = "the torque cannot be determined"
+            fix = "declare `loads: {LINK: -1 N m}`, or the `bearing` friction of a link"
+            raise QuestionError(Problem(what, found.verdict.text, fix))
+        rows.append([found.mean, found.maximum_torque, found.starting_torque, found.efficiency])
+    return rows
 
 
 def _link(plan: FrictionPlan) -> str:

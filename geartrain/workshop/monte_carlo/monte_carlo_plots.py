@@ -1,37 +1,36 @@
 """Plots of Monte Carlo trials: pointer errors, probabilities of jams, and sensitivities.
 
-`monte_carlo_figure` draws one picture of a result: bands and histograms of errors, a map of probabilities over two
-quantities, a tornado chart of variance shares, or the convergence of an estimate.
+`monte_carlo_figure` draws one picture of a result: a chart of the errors of pointers, bands of their errors over a
+turn, a map of probabilities over two quantities, a chart of variance shares, or the convergence of an estimate.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from textwrap import shorten
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
+    DOT,
     GREY,
+    MOST_ROWS,
     RED,
     SCALE,
-    SKY,
     SMALL,
     WIDTH,
     Axes,
     Figure,
     Line2D,
-    MaxNLocator,
     Patch,
-    bar_panel,
+    Row,
     colour_bar,
     curve_panels,
-    draw_interval,
+    figures,
     headed,
-    legend_above,
+    interval_chart,
     legend_below,
     name_axes,
     series_look,
@@ -47,21 +46,21 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse
+    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, PointerErrorStatistics, TrialResults
 
 
 PICTURES = ("errors", "course", "convergence", "sobol", "pairs", "map")
 PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)  # percentiles at the edges of bands
-MOST = 20  # maximum number of bars of a tornado chart
 LEVELS = (0.01, 0.1, 0.5)  # probabilities of the contour lines of a map
-_Given = TypeVar("_Given")
 _ROW = 2.3  # height of a panel [inch]
-_POINTERS = 12  # maximum number of pointers drawn: those with the largest spread
+_COURSES = 4  # maximum number of pointers with bands on one page: those with the largest spread
+_SHARE_LOOKS: dict[str, Mapping[str, Any]] = {
+    "first order": DOT,
+    "total, with interactions": {"marker": "o", "markersize": 10, "color": BLUE, "markerfacecolor": "none"},
+}
 _SHARES = ("every trial", "95 % of the trials", "50 %")  # of the trials in a band
 _SHADES = (0.12, 0.22, 0.26)  # opacities of the bands, which are drawn over each other
 _DASHES: Any = (0, (4, 1.2))
-_STILL = 90  # maximum characters for the names of pointers without error
-_BINS = (12, 60)  # minimum and maximum number of bins of a histogram
 _LEVEL_DASHES: tuple[Any, ...] = ((0, (1.2, 1.2)), (0, (5, 2)), "solid")
 _JAM_TICKS = (0.0, 0.1, 0.5, 1.0)
 _TICKS = 8  # approximate number of tick labels: more would overlap
@@ -75,8 +74,9 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     findings : MonteCarloResult
         Trials, with the study that the figure shows.
     picture : {"errors", "course", "convergence", "sobol", "pairs", "map"}
-        "errors": histogram of each pointer's error at random positions of the input. "course": bands of the pointer
-        errors along one revolution, for each output that was computed. "convergence": probability of a jam against the
+        "errors": median and central ranges of each pointer's error at random positions of the input; by default only
+        of outputs with a dial. "course": bands of the pointer errors along one revolution, for each output that was
+        computed. "convergence": probability of a jam against the
         number of trials. "sobol": Sobol indices of the first output by wheel, or by kind of error if only these were
         computed. "pairs": variance shares by pair, from superposition. "map": probability of a jam against clearance
         and scale of the errors.
@@ -111,10 +111,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
 def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     trials = findings.trials
     if picture == "errors":
-        jammed = any(len(each.errors) <= 1 for each in trials.pointers)
-        note = ", given by the pushing flanks of a train that jams" if jammed else ""
-        errors = {each.name: np.degrees(each.kept) for each in trials.pointers}
-        return histogram_figure(errors, f"at random positions{note}")
+        return error_figure(trials)
     if picture == "course":
         why = "no pointer errors along a turn were computed"
         _require(findings.courses, why, "name the outputs to follow: --of NAME")
@@ -125,13 +122,13 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
         _require(findings.indices, "Sobol indices were not computed", "give --sobol")
         found = findings.indices[0]
         indices = {each.name: (each.first, each.total) for each in found.indices}
-        return tornado_figure(indices, f"error of '{found.output}' by {found.by}: {found.trials:,} base samples")
+        return share_figure(indices, f"error of '{found.output}' by {found.by}: {found.trials:,} base samples")
     if picture == "pairs":
         first = trials.pointers[0]
         why = f"variance shares need two trials that turn, and errors of '{first.name}' that differ"
         _require(first.shares, why, "give more --trials, smaller errors (--cutting), or another output (--of)")
         shares = {name: (IntervalEstimate(value, value, value),) for name, value in first.shares.items()}
-        return tornado_figure(shares, f"error of '{first.name}' by pair")
+        return share_figure(shares, f"error of '{first.name}' by pair")
     return _jam_map(findings.cleared)
 
 
@@ -163,9 +160,13 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
     given = {each.name: each for each in courses}
     errors = {name: np.degrees(each.errors[np.isfinite(each.errors).all(axis=1)]) for name, each in given.items()}
     bands = {name: _bands(each) for name, each in errors.items()}
-    shown, left = _largest_spreads(bands, lambda levels: float(np.ptp(levels[1:-1])))
+    if not bands:
+        raise _no_errors("no pointer is given")
+    shown, left = _largest_spreads(bands)
     spans = {float(np.ptp(given[name].turns)) for name in shown}
-    figure, panels = _panels(shown, share=len(spans) <= 1)  # each over a turn of its own pointer
+    figure, panels = curve_panels(
+        [_ROW] * len(shown), 1.3, share=len(spans) <= 1
+    )  # each over a turn of its own pointer
     for axes, (name, levels) in zip(panels, shown.items(), strict=True):
         turns = given[name].turns
         for at, (alpha, share) in enumerate(zip(_SHADES, _SHARES, strict=True)):
@@ -188,73 +189,43 @@ def _bands(errors: Floats) -> Floats:
     return found
 
 
-def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
-    """Draw histograms of each pointer's error [deg], with lines at the percentiles 2.5, 25, 50, 75 and 97.5.
+def error_figure(trials: TrialResults) -> Figure:
+    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error, the widest range at the top.
 
-    errors   error in every trial, by pointer; NaN values, from trials that jam, are excluded
-    note     text under the last panel, such as the range of positions
-    Raises `QuestionError` if there is nothing to draw.
+    Raises `QuestionError` if a pointer has no errors.
     """
-    shown, left = _largest_spreads(errors, _spread)
-    figure, panels = _panels(shown)
-    for axes, (name, given) in zip(panels, shown.items(), strict=True):
-        values = np.asarray(given, dtype=float).ravel()
-        values = values[np.isfinite(values)]
-        if not values.size:
-            raise _no_errors(f"'{name}' cannot turn in any trial")
-        axes.hist(values, bins=_edges(values).tolist(), color=BLUE, alpha=0.45, edgecolor="white", linewidth=0.4)
-        axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=(1, 2, 5, 10), integer=True))
-        _percentiles(axes, values)
-        name_axes(axes, y=f"{name}\ntrials of {values.size:,}", parse_math=False)
-    name_axes(panels[-1], f"error (deg){'; ' if note else ''}{note}{left}", parse_math=False)
-    return figure
+    shown = [each for each in trials.pointers if each.name in trials.plan.shown]
+    values = {each.name: np.degrees(_known(each)) for each in shown}
+    ranges = {name: np.percentile(own, PERCENTS) for name, own in values.items()}
+    ranked = sorted(ranges, key=lambda name: ranges[name][0] - ranges[name][-1])
+    days = any(trials.plan.shown.values())
+    rows = []
+    for name in ranked[:MOST_ROWS]:
+        low, lower, middle, upper, high = map(float, ranges[name])
+        per_day = trials.plan.shown[name]
+        time = [figures((high - low) / per_day) if per_day else "-"] * days
+        cells = (f"{figures(middle)}°", f"{figures(high - low)}°", *time)
+        rows.append(Row(name, {"median": middle}, ((low, high), (lower, upper)), cells))
+    note = ", given by the pushing flanks of a train that jams" if any(len(each.errors) <= 1 for each in shown) else ""
+    left = f"\n{len(ranked) - MOST_ROWS} pointers with smaller errors are not drawn: name them with --of"
+    label = f"error (deg) at random positions{note}\ndot median, thick 50 %, thin 95 % of the trials"
+    label += left if len(ranked) > MOST_ROWS else ""
+    return interval_chart({label: rows}, {"median": DOT}, ("median", "95 %", *["days"] * days))
 
 
-def _largest_spreads(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
-    """Return the pointers with the largest spread, in the given order, and a note on the omitted pointers."""
-    straying = [name for name in what if spread(what[name]) > 0] or list(what)
-    names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
-    left, still = len(straying) - len(names), [name for name in what if name not in straying]
+def _known(pointer: PointerErrorStatistics) -> Floats:
+    if not pointer.kept.size:
+        raise _no_errors(f"'{pointer.name}' cannot turn in any trial")
+    return pointer.kept
+
+
+def _largest_spreads(bands: Mapping[str, Floats]) -> tuple[dict[str, Floats], str]:
+    """Return the bands of the pointers with the largest spread, in the given order, and a note on the others."""
+    spread = {name: float(np.ptp(levels[1:-1])) for name, levels in bands.items()}
+    names = sorted(bands, key=lambda name: -spread[name])[:_COURSES]
+    left = len(bands) - len(names)
     words = f"\n{left} pointers with smaller errors are not drawn: name them with --of" if left else ""
-    if still:
-        words += f"\nno error: {shorten(', '.join(still), _STILL, placeholder=' ...')}"
-    return {name: each for name, each in what.items() if name in names}, words
-
-
-def _spread(given: ArrayLike) -> float:
-    """Return the range (maximum minus minimum) of the finite values; 0 without values."""
-    values = np.asarray(given, dtype=float)
-    values = values[np.isfinite(values)]
-    return float(np.ptp(values)) if values.size else 0.0
-
-
-def _percentiles(axes: Axes, values: Floats) -> None:
-    low, lower, middle, upper, high = np.percentile(values, PERCENTS)
-    axes.axvline(middle, color=BLACK, linewidth=1.8, label=f"median {middle:.3g}", gid="median")
-    for ends, style, share in (((lower, upper), (0, (6, 2)), 50), ((low, high), (0, (2, 1.5)), 95)):
-        words = f"{share} %: {ends[0]:.3g} to {ends[1]:.3g}"
-        for at, end in enumerate(ends):
-            axes.axvline(end, color=RED, linewidth=1.5, linestyle=style, label=None if at else words, gid=f"{share} %")
-    legend_above(axes, 3)
-
-
-def _edges(values: Floats) -> Floats:
-    """Return bin edges by the Freedman-Diaconis rule (width 2 IQR / n^(1/3)), with a limited number of bins."""
-    low, high = float(values.min()), float(values.max())
-    if high - low <= 1e-12 * max(abs(low), abs(high)):  # bins narrower than rounding errors would be meaningless
-        half = max(abs(low), 1e-9) * 0.1
-        return np.linspace(low - half, high + half, _BINS[0] + 1)
-    middle = float(np.subtract(*np.percentile(values, (75, 25))))
-    width = 2 * middle / values.size ** (1 / 3)
-    # the interquartile range is 0 if at least half of the values are equal
-    bins = _BINS[1] if width <= 0 else int(np.clip((high - low) / width, *_BINS))
-    return np.linspace(low, high, bins + 1)
-
-
-def _panels(what: Mapping[str, Any], share: bool = False) -> tuple[Figure, list[Axes]]:
-    if not what:
-        raise _no_errors("no pointer is given")
-    return curve_panels([_ROW] * len(what), 1.3, share)
+    return {name: levels for name, levels in bands.items() if name in names}, words
 
 
 def _bands_key() -> list[Patch]:
@@ -321,40 +292,35 @@ def _check(x: Floats, y: Floats, table: Floats) -> None:
         )
 
 
-# -------------------------------------------------------------------------------------------------------- tornado chart
+# ---------------------------------------------------------------------------------------------------- variance shares
 
 
-def tornado_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
-    """Draw a tornado chart: for each cause a bar of its first-order and total share, with intervals as whiskers.
+def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
+    """Draw a chart with the first-order and the total share of each cause, with their intervals as lines.
 
-    Only the `MOST` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
+    Only the `MOST_ROWS` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
     `QuestionError` without a cause.
 
     shares   first-order share of the variance by cause, and the total share with all interactions if it is known
     """
     if not shares:
-        what, why = "the list of causes is empty", "a tornado chart needs at least one cause"
+        what, why = "the list of causes is empty", "a chart of shares needs at least one cause"
         raise QuestionError(Problem(what, why, "give the share of at least one cause"))
     ranked = sorted(shares.items(), key=lambda each: -each[1][-1].value)
-    shown, rest = ranked[:MOST], ranked[MOST:]
-    figure, axes = bar_panel([name for name, _ in shown], 1.6 + 0.34 * len(shown))
-    for at, (_, (own, *whole)) in enumerate(shown):
-        for total in whole:
-            axes.barh(at, total.value, color=SKY, height=0.72, gid="whole")
-            _whisker(axes, at + 0.18, total)
-        axes.barh(at, own.value, color=BLUE, height=0.36, gid="own")
-        _whisker(axes, at - 0.08, own)
-    axes.axvline(0.0, color=GREY, linewidth=0.8)
+    shown, rest = ranked[:MOST_ROWS], ranked[MOST_ROWS:]
+    rows = [
+        Row(
+            name,
+            dict(zip(_SHARE_LOOKS, (each.value for each in known), strict=False)),
+            [(each.low, each.high) for each in reversed(known)],
+            [f"{100 * each.value:.3g} %" for each in known],
+        )
+        for name, known in shown
+    ]
     more = f"; {len(rest)} more causes of at most {rest[0][1][-1].value:.2g} are not drawn" if rest else ""
-    name_axes(axes, f"share of the variance{more}", title=title, parse_math=False)
-    if any(len(share) > 1 for _, share in shown):
-        handles = [Patch(color=BLUE, label="first order"), Patch(color=SKY, label="total, with interactions")]
-        axes.legend(handles=handles, loc="lower right", fontsize=SMALL, frameon=False)
-    return figure
-
-
-def _whisker(axes: Axes, at: float, share: IntervalEstimate) -> None:
-    draw_interval(axes, at, (share.low, share.high) if share.low < share.high else None)
+    looks = dict(list(_SHARE_LOOKS.items())[: max(len(known) for _, known in shown)])
+    label = f"share of the variance{more}" + ("\nlines: 95 % intervals, thick: first order" if len(looks) > 1 else "")
+    return interval_chart({label: rows}, looks, ("first", "total")[: len(looks)], title)
 
 
 # ---------------------------------------------------------------------------------------------------------- convergence

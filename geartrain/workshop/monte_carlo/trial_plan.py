@@ -301,6 +301,10 @@ class TrialPlan(Shown):
     """Range of the random positions of the input [turn]."""
     driving_link: str
     """Name of the driving link."""
+    shown: Mapping[str, float | None] = field(default_factory=dict)
+    """Mean speed of each output that a plot shows [deg/d], None if it is unknown: the requested outputs, or the outputs
+    with a dial.
+    """
 
     def _summary(self) -> str:
         return f"{self.name}: {len(self.wheels)} wheels, {len(self.pairs)} pairs, outputs {', '.join(self.outputs[:6])}"
@@ -415,7 +419,7 @@ def find_trial_plan(
     Raises
     ------
     QuestionError
-        If the train has no such pair, or if no errors are given.
+        If the train has no such pair, if no errors are given, or if an output slides.
     RangeError
         If errors are larger than a tooth.
     GearTrainError
@@ -429,7 +433,7 @@ def find_trial_plan(
     >>> [pair.name for pair in plan.pairs], plan.wheels[0].errors["pitch_deviation"].size
     (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
-    motion = train.motion(state, outputs, without)
+    motion = train.motion(state, outputs, without)._turning(outputs)
     meshes = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not meshes:
         what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
@@ -464,6 +468,7 @@ def find_trial_plan(
         reach,
         _span(composition, pairs),
         motion._problem.driving_link,
+        {name: motion._degrees_per_day(name) for name in motion._shown},
     )
 
 

@@ -16,13 +16,13 @@ from geartrain.drawing.style import (
     WIDTH,
     Axes,
     Figure,
-    bar_panel,
+    Row,
     curve_panels,
     headed,
+    interval_chart,
     legend_below,
     name_axes,
     plain,
-    short,
 )
 
 if TYPE_CHECKING:
@@ -116,18 +116,18 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     """
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
-    labels = [short(f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}", 30) for pair in pairs]
-    figure, axes = bar_panel(labels, 1.6 + 0.32 * len(pairs))
-    for at, pair in enumerate(pairs):
-        ends = [_shown(each, found.aim) for each in (pair.declared, pair.together) if each is not None]
-        axes.plot(ends, [at] * len(ends), color=GREY, linewidth=1.6, zorder=1)
-    for name, which, look in _PAIR_MARKS:
-        places = [(each, at) for at, pair in enumerate(pairs) if (each := getattr(pair, which)) is not None]
-        x, y = [_shown(each, found.aim) for each, _ in places], [at for _, at in places]
-        axes.plot(x, y, linewidth=0, label=name, gid=which, zorder=3, clip_on=False, **look)
+    rows = []
+    for pair in pairs:
+        marks = {
+            name: _shown(each, found.aim) for name, of, _ in _PAIR_MARKS if (each := getattr(pair, of)) is not None
+        }
+        ends = marks.get("as declared", marks["best for the train"]), marks["best for the train"]
+        rows.append(Row(f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}", marks, (ends,)))
+    figure = interval_chart(
+        {_LABELS[found.aim]: rows}, {name: look for name, _, look in _PAIR_MARKS}, title=_gain(found)
+    )
+    axes = figure.axes[0]
     axes.set_xlim(left=min(0.0, axes.get_xlim()[0]))
-    name_axes(axes, _LABELS[found.aim], title=_gain(found))
-    legend_below(figure, 3)
     return figure
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from math import inf
 from typing import Any, ClassVar
 
@@ -20,7 +21,7 @@ from scipy.optimize import minimize_scalar
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
-from geartrain.numerics.graphs import DisjointSets
+from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.triangular.triangular_form import Triangular
@@ -192,8 +193,9 @@ class TrainSizeSearch:
         """
         if "half_angle" not in self.free:
             return ()
-        wheels = {mesh.name: tuple(mesh.gear.pair) for mesh in self._all_meshes}
-        return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
+        pairs = {mesh.name: mesh.gear.pair for mesh in self._all_meshes}
+        of_wheels = [[name for name, pair in pairs.items() if wheel in pair] for wheel in chain(*pairs.values())]
+        return tuple(tuple(each) for each in joined_groups(pairs, of_wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
         """Return the bounds of a pair's free parameters; the half angle is not free if another pair shares a wheel."""
@@ -485,24 +487,6 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
 
 
 # --------------------------------------------------------------------------------------------- pairs with common wheels
-
-
-def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
-    """Group the pairs of a train that are connected by common wheels.
-
-    wheels   names of the wheels of each pair, by the name of the pair
-
-    >>> pairs_by_shared_wheels({"ab": ("a", "b"), "cd": ("c", "d"), "bd": ("b", "e")})
-    (('ab', 'bd'), ('cd',))
-    """
-    joined: DisjointSets[str] = DisjointSets()
-    for first, second in wheels.values():
-        joined.join(first, second)
-    # both wheels of a pair are in one set, so its first wheel identifies the group
-    groups: dict[str, list[str]] = {}
-    for name, (first, _) in wheels.items():
-        groups.setdefault(joined.find(first), []).append(name)
-    return tuple(tuple(each) for each in groups.values())
 
 
 def best_shared_angle(

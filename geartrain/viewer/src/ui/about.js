@@ -42,7 +42,8 @@ export function about(side, many) {
   return el(
     "article",
     {},
-    el("h3", {}, many ? side.label : "This train"),
+    el("h3", {}, many ? side.label : scene.name),
+    el("p", {}, `${scene.verdict.kind}: ${scene.verdict.text}`),
     scene.note && el("p", {}, scene.note),
     el(
       "p",

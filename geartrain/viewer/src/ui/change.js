@@ -4,7 +4,7 @@ import { MEAN, countOf } from "../formulas.js";
 import { copy } from "./copying.js";
 import { el } from "./element.js";
 import { shown } from "./number.js";
-import { difference, relative } from "./outputs.js";
+import { difference, relative } from "./readings.js";
 
 const PLAIN_NAME = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 const WORDS = new Set(["null", "true", "false", "yes", "no", "on", "off", "y", "n"]);

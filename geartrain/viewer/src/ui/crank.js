@@ -144,6 +144,7 @@ export class Crank {
     event.preventDefault();
     const wanted = typed(this.place.value);
     this.#tell(this.place, wanted, "This is not a number of turns; write 12, 2.5, 235/19 or 1e6.");
+    if (wanted) this.drive.play(false);
     if (wanted) this.drive.goTo(wanted);
   }
 

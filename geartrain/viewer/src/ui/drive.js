@@ -121,6 +121,7 @@ export class Drive {
 
   #heard(turns) {
     if (this.setting) return;
+    this.play(false);
     this.at = Fraction.parse(turns) ?? this.at;
     this.#tell(true);
   }

@@ -50,6 +50,11 @@ export function field(label, control, attributes = {}) {
   return el("label", { class: "field", ...attributes }, el("span", {}, label), control);
 }
 
+/** A part that is folded until it is opened. */
+export function more(summary, part, onOpen) {
+  return el("details", { class: "more", ontoggle: onOpen }, el("summary", {}, summary), part);
+}
+
 let count = 0;
 
 /** An id of its own for labels. */

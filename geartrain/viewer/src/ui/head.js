@@ -1,4 +1,5 @@
-// The head of the page: which train, its verdict, its states, theme and keys.
+// The head of the page: which train, its purpose, a verdict other than determined, its states, theme and keys.
+import { purposeOf } from "../opening.js";
 import { misfit } from "./change.js";
 import { el, field } from "./element.js";
 import { loopParts, verdict } from "./verdict.js";
@@ -71,8 +72,8 @@ export class Head {
     const many = sides.length > 1;
     const titles = [...new Set(sides.map(({ scene }) => scene.title || scene.name))];
     this.title.textContent = titles.join(" and ");
-    const names = [...new Set(sides.map(({ scene }) => scene.name))].join(", ");
-    this.names.replaceChildren(names, ...sides.filter(({ steps }) => steps.length).slice(0, 1).map((side) => this.#told(side)));
+    const names = [...new Set(sides.map(({ scene }) => scene.name))];
+    this.names.replaceChildren(names.length > 1 ? names.join(", ") : purposeOf(sides[0].scene), ...sides.filter(({ steps }) => steps.length).slice(0, 1).map((side) => this.#told(side)));
     this.verdicts.replaceChildren(
       ...sides.map((side) =>
         verdict(side, many, (of, loop) => this.onLoop(of, loopParts(of.scene, loop)), this.onElement),

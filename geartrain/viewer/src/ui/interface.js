@@ -10,6 +10,7 @@
 //   app.turns         turns that were last set
 import { BROKEN } from "../colours.js";
 import { Fraction } from "../fraction.js";
+import { momentOf, pace } from "../opening.js";
 import { Crank } from "./crank.js";
 import { Drive } from "./drive.js";
 import { el } from "./element.js";
@@ -21,6 +22,7 @@ import { Playhead } from "./playhead.js";
 import { Side } from "./side.js";
 import { Theme } from "./theme.js";
 import { Tools } from "./tools.js";
+import { Tour } from "./tour.js";
 
 const WORDS = 100; // ms between two texts of a moving number
 
@@ -31,6 +33,7 @@ class Interface {
     const first = this.all[0].scene;
     this.drive = new Drive(app, Fraction.of(first.step));
     this.drive.rate = pace(first);
+    if (app.machines[0].moves) this.drive.at = momentOf(first);
     this.live = new Live();
     this.tools = new Tools(app.options);
     this.theme = new Theme((background) => this.all.forEach(({ stage }) => stage?.theme({ background })));
@@ -56,6 +59,7 @@ class Interface {
     });
     this.tools.lodge(this.head.choices, this.head.rest);
     this.panel = new Panel(this);
+    this.tour = new Tour([], () => {});
     this.#lay();
     this.drive.listen((drive, settled) => this.#moved(drive, settled));
     this.show(this.head.sides);
@@ -73,7 +77,7 @@ class Interface {
         "div",
         { class: "house" },
         this.head.node,
-        el("main", { class: "hall" }, this.tools.node, views, this.crank.node),
+        el("main", { class: "hall" }, this.tools.node, views, this.tour.node, this.crank.node),
         this.panel.node,
       ),
       this.live.node,
@@ -101,6 +105,7 @@ class Interface {
     this.panel.use(sides);
     this.live.use(sides);
     this.#gear(sides);
+    this.#guide(sides[0]);
     if (this.lit) this.openStages();
     this.letGo();
     this.drive.goTo(this.drive.at);
@@ -121,6 +126,24 @@ class Interface {
     this.tools.use(this.sides);
     for (const { stage } of this.sides) stage?.resize();
     this.lit = true;
+  }
+
+  /** Creates the tour of a side. */
+  #guide(side) {
+    const tour = new Tour(side.scene.tour, (step) => this.#visit(side, step));
+    this.tour.node.replaceWith(tour.node);
+    this.tour = tour;
+  }
+
+  #visit({ stage }, step) {
+    this.tools.assemble();
+    if (stage?.visit) stage.visit(step, this.#accent, this.drive.calm.matches);
+    if (!step) this.tools.look("free");
+  }
+
+  /** Starts the motion, unless the user prefers reduced motion. */
+  begin() {
+    if (!this.drive.calm.matches) this.drive.play(true);
   }
 
   /** Creates the crank for the displayed sides, because states may have different inputs. */
@@ -200,8 +223,12 @@ class Interface {
   }
 
   /** parts: highlighted parts by side */
-  #highlight(parts, colour = getComputedStyle(document.documentElement).getPropertyValue("--way").trim()) {
+  #highlight(parts, colour = this.#accent) {
     for (const each of this.sides) each.stage?.highlight(parts.get(each) ?? null, colour);
+  }
+
+  get #accent() {
+    return getComputedStyle(document.documentElement).getPropertyValue("--way").trim();
   }
 
   letGo() {
@@ -209,12 +236,6 @@ class Interface {
     this.select(this.sides[0], null);
     this.panel.letGo();
   }
-}
-
-/** Turns of the driving link per second at which the eye can follow the fastest pointer. */
-export function pace(scene) {
-  const speeds = scene.pointers.map((pointer) => Math.abs(Number(Fraction.parse(pointer.speed) ?? 0)));
-  return Math.min(0.25, Math.max(0.001, 0.5 / Math.max(1, ...speeds)));
 }
 
 export function buildInterface(app) {

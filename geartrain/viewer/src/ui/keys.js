@@ -16,6 +16,7 @@ const REST = [
   ["C", "next colours"],
   ["E", "take apart, put together"],
   ["H", "hide or show the front"],
+  ["N", "names of the parts on or off"],
   ["T", "teeth on or off"],
   ["?", "this list"],
   ["Escape", "close, or clear the selection"],
@@ -94,6 +95,7 @@ export class Keys {
       c: () => tools.next(),
       e: () => tools.takeApart(),
       h: () => tools.toggle(tools.front),
+      n: () => tools.toggle(tools.names),
       t: () => tools.toggle(tools.teeth),
       "?": () => this.open(),
     }[key.toLowerCase()];

@@ -2,21 +2,18 @@
 import { about } from "./about.js";
 import { Change } from "./change.js";
 import { Contacts } from "./contacts.js";
-import { Dials } from "./dials.js";
 import { el } from "./element.js";
 import { BY_HAND } from "./keys.js";
-import { Outputs } from "./outputs.js";
 import { Path } from "./path.js";
-import { Sky, hasTargets } from "./sky.js";
+import { Readings } from "./readings.js";
 import { Tabs } from "./tabs.js";
 import { Wheels } from "./wheels.js";
 
 export class Panel {
   constructor(owner) {
     this.owner = owner;
-    const aims = owner.all.some(({ scene }) => hasTargets(scene));
     const changes = owner.all.some(({ formulas }) => formulas);
-    const names = ["Dials", "Outputs", aims && "Sky", "Wheels", changes && "Change", "About"].filter(Boolean);
+    const names = ["Readings", "Wheels", changes && "Change", "About"].filter(Boolean);
     if (owner.all.some(({ machine }) => machine.run)) names.unshift("Contacts");
     this.places = Object.fromEntries(names.map((name) => [name, el("div", {})]));
     this.way = new Path({ onPair: (side, wheel) => owner.select(side, wheel), onClose: () => owner.letGo() });
@@ -25,7 +22,8 @@ export class Panel {
       "panels",
     );
     this.tabs.onShow = () => this.open(true);
-    matchMedia("print").addEventListener("change", ({ matches }) => matches && this.set(true)); // print hidden panels too
+    addEventListener("beforeprint", () => this.#print(true)); // before the pages are counted
+    matchMedia("print").addEventListener("change", ({ matches }) => this.#print(matches));
     this.grip = el(
       "button",
       {
@@ -53,24 +51,20 @@ export class Panel {
     if (opened) document.querySelector(".views")?.scrollIntoView();
     this.grip.setAttribute("aria-expanded", String(on));
     this.grip.textContent = on ? "Close panels" : "Open panels";
-    if (on && this.outputs) this.set(true);
+    if (on && this.readings) this.set(true);
   }
 
   use(sides) {
     const say = (text) => this.owner.live.say(text);
     const onChoose = (output) => this.owner.choose(output);
-    this.dials = new Dials(sides, onChoose);
-    this.outputs = new Outputs(sides, { onChoose, say });
+    this.readings = new Readings(sides, { onChoose, say });
     const onCounts = (side, counts) => this.owner.count(side, counts);
     this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), onCounts, say });
     this.change = new Change(sides, { onCounts, say });
     this.chosen = null;
-    this.sky = new Sky(sides, say);
     this.contacts = new Contacts(sides, (side, contact) => this.owner.contact(side, contact));
     this.places.Contacts?.replaceChildren(this.contacts.node);
-    this.places.Dials.replaceChildren(this.dials.node);
-    this.places.Outputs.replaceChildren(this.outputs.node);
-    this.places.Sky?.replaceChildren(this.sky.node);
+    this.places.Readings.replaceChildren(this.readings.node);
     this.places.Wheels.replaceChildren(this.wheels.node);
     this.places.Change?.replaceChildren(this.change.node);
     const byHand = el("p", { class: "quiet for-fingers" }, BY_HAND); // the list of keys is hidden without a keyboard
@@ -78,10 +72,16 @@ export class Panel {
   }
 
   set(words) {
-    this.dials.set(words);
-    this.outputs.set(words);
-    this.sky.set(words);
+    this.readings.set(words);
     this.contacts.set(words);
+  }
+
+  /** Prepares the pictures and hidden panels for printing. */
+  #print(printing) {
+    for (const side of this.owner.sides) side.print(printing);
+    if (!printing) return;
+    for (const each of this.node.querySelectorAll(".more")) each.open = true;
+    this.set(true);
   }
 
   /** Shows the changes. */
@@ -100,7 +100,7 @@ export class Panel {
 
   path(output, found) {
     this.way.show(output, found);
-    this.outputs.mark(output);
+    this.readings.mark(output);
     this.open(true);
   }
 
@@ -113,7 +113,7 @@ export class Panel {
   letGo() {
     const inside = this.way.node.contains(document.activeElement);
     this.way.hide();
-    const pick = this.outputs.mark(null);
+    const pick = this.readings.mark(null);
     if (inside) pick?.focus();
   }
 }

@@ -1,17 +1,23 @@
-// The picture with three buttons: for a frame in another page, and for a screen in a museum.
+// The picture with a few buttons: for a frame in another page, and for a screen in a museum.
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
+import { NEEDLES } from "../colours.js";
+import { momentOf, pace, purposeOf } from "../opening.js";
+import { Callouts } from "./callouts.js";
 import { PAUSE, PLAY } from "./crank.js";
+import { legend } from "./colours.js";
 import { Drive } from "./drive.js";
 import { el, icon } from "./element.js";
-import { pace } from "./interface.js";
 import { decimal } from "./number.js";
 import { paceOf } from "./playhead.js";
 import { Reading, told } from "./reading.js";
 import { Theme } from "./theme.js";
+import { Tour } from "./tour.js";
 
 const LOOKS = ["free", "front", "side", "back"];
 const EYE = "M2 12c3-5 6.5-7 10-7s7 2 10 7c-3 5-6.5 7-10 7s-7-2-10-7zM12 9.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5z";
+const LABEL = "M3 5h9l8 7-8 7H3zM8 12h.01";
+const PAINT = "M12 3a9 9 0 1 0 0 18c2 0 2-3 0-4s0-3 3-3h4c1-6-3-11-7-11zM8 9h.01M14 7h.01";
 const LAYERS = "M12 3l9 4.5-9 4.5-9-4.5zM3 12l9 4.5 9-4.5M3 16.5l9 4.5 9-4.5";
 const IDLE = 45; // seconds without input after which a kiosk continues by itself
 const MOST = 6; // maximum number of outputs that a kiosk lists
@@ -34,6 +40,7 @@ export class Showcase {
     this.drive.run = run ?? null;
     this.drive.rate = run ? paceOf(run) / run.period : pace(this.scene);
     this.drive.movable = app.machines[this.index].moves;
+    if (this.drive.movable) this.drive.at = momentOf(this.scene);
     this.look = 0;
     this.theme = new Theme((background) => this.stage?.theme({ background }));
     this.theme.apply();
@@ -52,8 +59,14 @@ export class Showcase {
     this.apart = button(() => this.#pull(), "Take apart", LAYERS);
     this.turns = el("output", { class: "quiet" });
     this.place = el("div", { class: "place" });
-    const { title, name, state, verdict } = this.scene;
+    const { title, name, state, verdict, wheels } = this.scene;
     const said = this.drive.movable ? [this.turns, this.kiosk && this.#outputs()] : el("p", { class: "bad" }, verdict.text);
+    const more = this.kiosk && [
+      button(() => this.callouts?.show(!this.callouts.shown), "Names", LABEL),
+      wheels.some(({ status }) => status) && button(() => this.#paint(this.mode === "status" ? "plain" : "status"), "Status", PAINT),
+    ];
+    this.tour = new Tour(this.kiosk ? this.scene.tour : [], (step) => this.#visit(step));
+    this.legend = el("div", {});
     document.body.classList.add("showcase");
     document.body.classList.toggle("kiosk", this.kiosk);
     document.body.prepend(
@@ -61,8 +74,9 @@ export class Showcase {
         "main",
         {},
         this.place,
-        el("header", {}, el("h1", {}, title || name, state && ` (${state})`), said),
-        el("div", { class: "buttons", role: "group", "aria-label": "the train" }, this.playing, look, this.apart),
+        el("header", {}, el("h1", {}, title || name, state && ` (${state})`), this.kiosk && el("p", {}, purposeOf(this.scene)), said, this.legend),
+        this.tour.node,
+        el("div", { class: "buttons", role: "group", "aria-label": "the train" }, this.playing, look, this.apart, more),
       ),
     );
   }
@@ -75,7 +89,8 @@ export class Showcase {
     const asked = scene.asks ? scene.pointers.map((_, at) => at) : [];
     const order = asked.sort((one, other) => (scene.pointers[one].dial === null) - (scene.pointers[other].dial === null));
     this.read = order.slice(0, MOST).map((at) => ({ hand: new Reading(scene, app.machines[index], at), value: el("dd") }));
-    return [this.date, el("dl", { class: "read" }, this.read.map(({ hand, value }) => el("div", {}, el("dt", {}, hand.pointer.output), value)))];
+    const rows = this.read.map(({ hand, value }) => el("div", { class: hand.dial && `hand-${hand.order % NEEDLES.length}` }, el("dt", {}, hand.pointer.output), value));
+    return [this.date, el("dl", { class: "read" }, rows)];
   }
 
   /** Opens the picture; called after the text is visible. */
@@ -85,6 +100,7 @@ export class Showcase {
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${this.scene.title || this.scene.name}, turning`);
     this.place.append(canvas);
+    if (this.kiosk && this.stage.renderer) this.place.append((this.callouts = new Callouts(this.stage)).node);
     this.stage.theme({ background: this.theme.background });
     this.stage.onCrank = (made) => this.drive.advance(made, true);
     this.stage.resize();
@@ -110,6 +126,18 @@ export class Showcase {
   #nextLook() {
     this.look = (this.look + 1) % LOOKS.length;
     this.stage?.look(LOOKS[this.look]);
+  }
+
+  #paint(mode) {
+    this.mode = mode;
+    this.stage?.paint(mode);
+    this.legend.replaceChildren(legend(this.scene, mode));
+  }
+
+  #visit(step) {
+    this.#pull(false);
+    const colour = getComputedStyle(document.documentElement).getPropertyValue("--way").trim();
+    this.stage?.visit?.(step, colour, this.drive.calm.matches);
   }
 
   #pull(apart = !this.pulled) {
@@ -158,6 +186,9 @@ export class Showcase {
   #leave() {
     this.alone = true;
     this.look = 0;
+    this.tour.go(-1);
+    this.#paint("plain");
+    this.callouts?.show(true);
     this.#pull(false);
     this.drive.play(true);
     if (!this.drive.calm.matches) this.#goRound(performance.now());

@@ -2,6 +2,8 @@
 import { CountFormulas } from "../formulas.js";
 import { Fraction } from "../fraction.js";
 import { Machine } from "../motion.js";
+import { copyOf } from "../still.js";
+import { Callouts } from "./callouts.js";
 import { el } from "./element.js";
 import { decimal } from "./number.js";
 
@@ -33,7 +35,8 @@ export class Side {
     this.stage = this.app.open(this.index);
     const { canvas } = this.stage;
     this.nothing.hidden = canvas instanceof HTMLCanvasElement;
-    this.place.replaceChildren(canvas);
+    this.callouts = this.stage.renderer ? new Callouts(this.stage) : null;
+    this.place.replaceChildren(...[canvas, this.callouts?.node].filter(Boolean));
     this.#name(canvas);
     return true;
   }
@@ -42,6 +45,14 @@ export class Side {
     canvas.setAttribute("tabindex", "0");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${this.label}, animated picture; the wheels are listed under Wheels`);
+  }
+
+  /** Copies the picture while the page is printed, because browsers do not print drawing contexts. */
+  print(printing) {
+    this.copy?.remove();
+    this.copy = printing && this.stage?.renderer ? copyOf([this.stage]) : null;
+    this.copy?.classList.add("copy");
+    if (this.copy) this.place.append(this.copy);
   }
 
   close() {

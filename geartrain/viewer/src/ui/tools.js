@@ -21,7 +21,7 @@ export class Tools {
     );
     this.colour = el(
       "select",
-      { onchange: () => this.paint(this.colour.value) },
+      { "aria-label": "Colours", onchange: () => this.paint(this.colour.value) },
       Object.entries(MODES).map(([mode, name]) => el("option", { value: mode }, name)),
     );
     this.apart = el("input", { type: "range", min: 0, max: 1, step: 0.01, value: 0, oninput: () => this.#explode() });
@@ -37,6 +37,8 @@ export class Tools {
       type: "checkbox",
       onchange: () => this.#cut((this.wanted = this.open.checked)),
     });
+    this.names = el("input", { type: "checkbox", onchange: () => this.#name() });
+    this.status = el("button", { type: "button", "aria-pressed": "false", onclick: () => this.paint(this.mode === "status" ? "plain" : "status") }, "Status");
     this.opening = field("Cut open", this.open, { class: "field tick" });
     this.recording = new Recording();
     this.teeth.checked = options?.teeth !== false;
@@ -44,20 +46,23 @@ export class Tools {
       "div",
       { class: "tools", role: "group", "aria-label": "picture" },
       el("div", { class: "group", role: "group", "aria-label": "view from" }, this.looks),
-      field("Colours", this.colour),
+      this.colour,
+      this.status,
       field("Apart", this.apart),
       field("Hide front", this.front, { class: "field tick" }),
+      field("Names", this.names, { class: "field tick" }),
       field("Teeth", this.teeth, { class: "field tick" }),
       this.opening,
-      el(
-        "div",
-        { class: "group", role: "group", "aria-label": "files" },
-        el("button", { type: "button", class: "save", "aria-label": "Save picture", onclick: () => savePicture(this.sides) }, "Save"),
-        this.recording.node,
-      ),
+    );
+    this.files = el(
+      "div",
+      { class: "group", role: "group", "aria-label": "files" },
+      el("button", { type: "button", class: "save", "aria-label": "Save picture", onclick: () => savePicture(this.sides) }, "Save"),
+      this.recording.node,
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), this.row);
     this.small = matchMedia(SMALL);
+    this.names.checked = !this.small.matches;
     this.#asRoomIs(() => (this.node.open = !this.small.matches)); // on wide pages the tools are always open
   }
 
@@ -68,7 +73,7 @@ export class Tools {
 
   /** Places rarely used controls in the head on wide pages, else among the tools. */
   lodge(place, seldom) {
-    this.#asRoomIs(() => (this.small.matches ? this.row : place).append(...seldom));
+    this.#asRoomIs(() => (this.small.matches ? this.row : place).append(this.files, ...seldom));
   }
 
   /** Sets the displayed sides, and applies the controls to their pictures. */
@@ -83,6 +88,8 @@ export class Tools {
       stage.hideFront(this.front.checked);
       stage.showTeeth(this.teeth.checked);
     });
+    this.status.hidden = !sides.some(({ scene }) => scene.wheels.some(({ status }) => status));
+    this.#name();
     if (this.wanted !== undefined) this.#cut(this.wanted);
     this.#explode();
     this.look(this.looking);
@@ -109,6 +116,10 @@ export class Tools {
     }
   }
 
+  #name() {
+    for (const { callouts } of this.sides) callouts?.show(this.names.checked);
+  }
+
   #cut(opened) {
     this.#each((stage) => stage.cutOpen?.(opened));
   }
@@ -127,6 +138,7 @@ export class Tools {
   paint(mode) {
     this.mode = mode;
     this.colour.value = mode;
+    this.status.setAttribute("aria-pressed", String(mode === "status"));
     for (const side of this.sides) side.legend.replaceChildren(legend(side.scene, mode));
     this.#each((stage) => stage.paint(mode));
   }
@@ -140,6 +152,12 @@ export class Tools {
   toggle(control) {
     control.checked = !control.checked;
     control.dispatchEvent(new Event("change"));
+  }
+
+  /** Puts all parts together. */
+  assemble() {
+    this.apart.value = 0;
+    this.#explode();
   }
 
   takeApart() {

@@ -32,7 +32,7 @@ function elements({ scene }, onElement) {
             "aria-label": `${each.text}, ${each.closed ? "closed" : "open"}`,
             onclick: () => onElement(each),
           },
-          each.id,
+          each.one_way ? `${each.id} \u21bb` : each.id, // which way it holds is in its title
         ),
       ),
     ),
@@ -45,7 +45,7 @@ export function verdict(side, many, onLoop, onElement) {
   return el(
     "div",
     { class: bad ? "verdict bad" : "verdict", "data-verdict": kind },
-    el("p", {}, many && el("span", {}, `${side.label}: `), el("strong", {}, kind), text && text !== kind && ` ${text}`),
+    bad && el("p", {}, many && el("span", {}, `${side.label}: `), el("strong", {}, kind), text && text !== kind && ` ${text}`),
     loops.length
       ? el(
           "ul",

@@ -121,7 +121,7 @@ class SceneBody(Shown):
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
-    """Declared starting angle of the link [rad]."""
+    """Starting angle of the link [rad]: as declared, or from the epoch."""
     role: str
     """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False

@@ -33,8 +33,9 @@ class ScenePart(Shown):
     name: str
     """Name of the part in the list of parts."""
     kind: str
-    """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate. A
-    plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials is `dial`.
+    """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, drum, foot, cock, pin,
+    plate. A plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials
+    is `dial`.
     """
     place: Vector
     """Position of the origin of the part in the zero pose [mm]."""

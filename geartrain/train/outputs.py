@@ -525,6 +525,16 @@ class Published(Declared):
         return self
 
 
+def _check_at_epoch(raw: object) -> str:
+    from geartrain.train.sky import read_sky_angle
+
+    try:
+        read_sky_angle(str(raw))
+    except ValueError as error:
+        raise bad("at_epoch", *error.args) from None
+    return str(raw)
+
+
 class Output(Declared):
     """Output of the train: the speed of a link, or of one link relative to another.
 
@@ -550,6 +560,14 @@ class Output(Declared):
         description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), a thin hand with a "
         "counterpoise (seconds), a sphere on an arm, a bead on a ring of its own (bead), or the eccentric ring of an "
         "astrolabe (ecliptic); without a dial, a pointing figure on the link, or a road wheel (wheel)",
+    )
+    at_epoch: Annotated[str, BeforeValidator(_check_at_epoch)] | None = Field(
+        None,
+        description="Angle at the `epoch` of the train, without the anomalies of its pins: a sum of mean angles of the "
+        "sky and constants, such as `sun`, `moon - sun`, `mars_anomaly + 180 deg` or `33.1 deg`; read along the scale "
+        "of the dial, without one in the sense of the output. Names: `sun`, `moon`, `moon_node`, `moon_perigee`, "
+        "`mercury` to `saturn`, and `moon_anomaly`, `mercury_anomaly` to `saturn_anomaly`. The page draws the train "
+        "in these positions; an output of a zodiac without them is not set to the sky",
     )
     note: str | None = Field(None, description="Remark for readers")
 

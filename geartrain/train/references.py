@@ -151,6 +151,19 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
         )
 
 
+def set_outputs(train: Train) -> Iterator[Problem]:
+    """Yield problems of links that outputs set twice at the epoch, or after an output that is relative to them."""
+    used: dict[str, str] = {}  # links that are set or referred to, with the output
+    for name, output in train.outputs.items():
+        of, base = output.links(name, train.frame)
+        if output.at_epoch is not None and of in used:
+            why = "a link has one angle at the epoch, before outputs that are relative to it"
+            fix = f"remove one `at_epoch`, or move '{name}' above '{used[of]}'"
+            yield Problem(f"'{used[of]}' and '{name}' both need '{of}'", why, fix, train.place("outputs", name))
+        if output.at_epoch is not None:
+            used = {base: name} | used | {of: name}
+
+
 def _suggested_unit(train: Train, per: str) -> str:
     """Return a correction of a unit that cannot be read."""
     number, name = re.fullmatch(r"([\d./ ]*)(.*)", per.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
@@ -230,6 +243,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _one_way(train)
     yield from _reconstruction(train)
     yield from declared_units(train)
+    yield from set_outputs(train)
 
 
 _HOMES = {

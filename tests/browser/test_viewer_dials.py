@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import hypot
+from math import hypot, pi
 
 import pytest
 import shipped
@@ -60,7 +60,8 @@ def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> No
         lead = scene.bodies[scene.driving_link or 0].id
         speed = Fraction(solved[pointer.output]) / Fraction(solved.speeds[lead])
         assert of != base
-        words = scale.reading_text(pointer.sense * scale.way * speed * at)
+        start = Fraction((scene.bodies[pointer.body].start - scene.bodies[pointer.base].start) / (2 * pi))
+        words = scale.reading_text(pointer.sense * scale.way * (speed * at + start))
         assert told[pointer.output].partition(", ")[2] == words, pointer.output
         checked += 1
     assert checked >= 3

@@ -36,13 +36,13 @@ def doubtful() -> ReconstructionProblem:
 def test_an_absurd_number_of_added_wheels_is_refused_before_the_search(
     idlers: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """1000 wheels of 36 counts: 36^1000 = 10^1556 choices; 10^40 are those of 25 wheels."""
+    """1000 wheels of 36 counts: 36^1000 = 10^1556 choices; 10^24 are those of 15 wheels."""
     monkeypatch.setattr(search_tasks, "_counted", lambda *_: pytest.fail("searched"))
     with pytest.raises(GearTrainError) as caught:
         find_reconstructions(replace(TOY, additions=Additions(1000, 10, 45), idlers=idlers))
     (problem,) = caught.value.problems
     assert "up to 1000 added wheels of 10 to 45 teeth have 1e1556 combinations" in problem.what
-    assert "at most 25 wheels: `-k 25`" in problem.fix
+    assert "at most 15 wheels: `-k 15`" in problem.fix
 
 
 def test_more_added_wheels_than_a_search_stores_are_refused() -> None:

@@ -357,14 +357,9 @@ def test_a_target_beyond_float64_is_refused_in_words() -> None:
         run({**CHAIN, "outputs": outputs})
 
 
-def test_sampled_shares_come_near_the_exact_ones(monkeypatch: pytest.MonkeyPatch) -> None:
-    exact = run(PLANETARY).shares["carrier"]
+def test_an_output_of_too_many_combinations_has_no_shares(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("geartrain.search.posterior.posterior_summary._LISTED", 1)
-    about = run(PLANETARY).shares["carrier"]
-    assert not about.exact
-    for wheel, share in exact.whole.items():
-        assert float(about.whole[wheel]) == pytest.approx(float(share), abs=0.05)
-        assert float(about.own[wheel]) == pytest.approx(float(exact.own[wheel]), abs=0.05)
+    assert not run(PLANETARY).shares
 
 
 def test_an_output_that_is_free_for_some_counts_has_no_shares_and_does_not_fit_there() -> None:

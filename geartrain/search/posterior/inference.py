@@ -111,7 +111,7 @@ def infer_counts(
     samples : int
         Number of combinations in a sample, at least 1.
     seed : int
-        Random seed of the sample, and of estimated Sobol indices; at least 0.
+        Random seed of the sample, at least 0.
     executor : Executor, optional
         Executor of the tasks, by default this process; see `geartrain.numerics.work.open_executor`. It does not change
         the result.
@@ -169,8 +169,7 @@ def infer_counts(
     found = _summarise(question, method, most, limit, samples, seed, means)
     sampled = found.effective < inf
     shares = {
-        name: find_variance_shares(name, formula, question.uncertainties, seed)
-        for name, formula in question.outputs.items()
+        name: find_variance_shares(name, formula, question.uncertainties) for name, formula in question.outputs.items()
     }
     return ToothCountPosterior(
         question.name,

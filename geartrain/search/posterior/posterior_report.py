@@ -159,7 +159,6 @@ def _deciding(shares: Sequence[VarianceShares]) -> Section:
     for one in shares:
         strongest = sorted(one.whole, key=lambda wheel: -float(one.whole[wheel]))[:_DECIDING]
         listed = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
-        listed = listed if one.exact else f"about {listed}"
         rows.append((one.output, figure(one.mean), figure(one.spread, 4), listed))
     line = "Shares of the prior variance of each speed that remain if all other counts are known (total Sobol indices)."
     return Section("Sensitivity of outputs to tooth counts", [line], [Table(_DECIDED, cut(rows))])

@@ -160,10 +160,7 @@ class VarianceShares(Result):
     Sobol, I. M. 2001. Global sensitivity indices for nonlinear mathematical models. Math. Comput. Simul. 55.
     """
 
-    KEYS = (
-        *("output", Key("mean", to=as_float), "spread", Key("own", to=float), Key("whole", to=float)),
-        *("exact", "samples"),
-    )
+    KEYS = ("output", Key("mean", to=as_float), "spread", Key("own", to=float), Key("whole", to=float))
 
     output: str
     """Name of the output."""
@@ -175,10 +172,6 @@ class VarianceShares(Result):
     """First-order Sobol index of each wheel, 0 to 1: fraction of the variance that vanishes if its count is known."""
     whole: Mapping[str, Fraction | float]
     """Total Sobol index of each wheel: fraction of the variance that remains if all other counts are known."""
-    exact: bool
-    """False if the indices are estimated from `samples` combinations."""
-    samples: int = 0
-    """Number of combinations in the estimate; 0 if the indices are exact."""
 
 
 class KnownOutput(TypedDict):

@@ -30,9 +30,8 @@ from geartrain.search.posterior.posterior_result import (
 )
 from geartrain.search.posterior.sampled_posterior import KEPT, TIE, PosteriorTally, origin_of, plain_number
 
-_LISTED = 200_000  # maximum number of combinations that are enumerated for a variance
+_LISTED = 2_000_000  # maximum number of combinations that are enumerated for a variance
 _ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
-_DRAWN = 1 << 14  # size of each of two samples, for more combinations
 _CERTAIN = 1e-4
 """Ratio of standard deviation to range below which a count is treated as certain and has no correlations.
 
@@ -273,8 +272,7 @@ def _correlated(
 # For independent x = (x_1 ... x_n) and f with mean m and variance V, S_i = Var(E[f | x_i]) / V is the share of variance
 # that vanishes if x_i is known, and T_i = 1 - Var(E[f | all but x_i]) / V the share that remains if all others are
 # known (Sobol 1993, 2001). A speed that is a sum of monomials needs only the means of powers of each count, and its
-# indices are exact. Other speeds are evaluated over all combinations, or over a sample with the estimators of Saltelli
-# et al. (2010), table 2.
+# indices are exact. Other speeds are evaluated over all combinations.
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
@@ -282,17 +280,19 @@ Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
 
 
 def find_variance_shares(
-    name: str, formula: Formula, uncertainties: Mapping[str, ToothCountPrior], seed: int = 0
+    name: str, formula: Formula, uncertainties: Mapping[str, ToothCountPrior]
 ) -> VarianceShares | None:
-    """Return the Sobol indices of an output; None if its speed is constant, or undefined for some counts."""
+    """Return the Sobol indices of an output; None if its speed is constant, or undefined for some counts, or if it is
+    not a sum of monomials and has more than two million combinations.
+    """
     own = [uncertainties[wheel] for wheel in formula.wheels]
     if not any(len(uncertainty.counts) > 1 for uncertainty in own):
         return None
     if len(formula.denominator) == 1:
         return _exact_indices(name, formula.wheels, _monomials(formula), own)
-    if prod(len(uncertainty.counts) for uncertainty in own) <= _LISTED:
-        return _listed_indices(name, formula, own)
-    return _sampled_indices(name, formula, own, seed)
+    if prod(len(uncertainty.counts) for uncertainty in own) > _LISTED:
+        return None
+    return _listed_indices(name, formula, own)
 
 
 def _monomials(formula: Formula) -> Monomials:
@@ -327,7 +327,7 @@ def _exact_indices(
             others += c * each[at] * prod(both[:at]) * prod(both[at + 1 :])
         own[wheel] = (alone - mean**2) / variance
         whole[wheel] = 1 - (others - mean**2) / variance
-    return VarianceShares(name, mean, _root(variance), own, whole, True)
+    return VarianceShares(name, mean, _root(variance), own, whole)
 
 
 def _root(value: Fraction) -> float | None:
@@ -364,7 +364,7 @@ def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCo
         own[uncertainty.wheel] = float((priors[axis] * alone**2).sum()) / variance
         rest = _averaged(values, priors, [axis])
         whole[uncertainty.wheel] = 1 - float(_averaged(rest**2, priors, others).ravel()[0]) / variance
-    return VarianceShares(name, mean, sqrt(variance), own, whole, True)
+    return VarianceShares(name, mean, sqrt(variance), own, whole)
 
 
 def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
@@ -388,32 +388,3 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]
         found = (found * priors[axis].reshape(shape)).sum(axis=axis, keepdims=True)
     return found
-
-
-def _sampled_indices(
-    name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior], seed: int
-) -> VarianceShares | None:
-    """Estimate the Sobol indices from two independent samples A and B, and from copies of A in which the column of one
-    wheel is from B.
-    """
-    draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(uncertainties)])))
-    first, second = (
-        {
-            uncertainty.wheel: draw.choice(uncertainty.counts, _DRAWN, p=[float(prior) for prior in uncertainty.priors])
-            for uncertainty in uncertainties
-        }
-        for _ in range(2)
-    )
-    a, b = formula.values(first), formula.values(second)
-    both = np.concatenate([a, b])
-    mean, variance = float(both.mean()), float(both.var())
-    # an infinite speed is a pole; a tiny variance is the rounding error of a constant speed
-    if not np.isfinite(both).all() or variance <= (1e-13 * mean) ** 2:
-        return None
-    own, whole = {}, {}
-    for uncertainty in uncertainties:
-        mixed = formula.values(first | {uncertainty.wheel: second[uncertainty.wheel]})
-        # estimators (b) and (f) of the table, relative to the mean, which would only add noise
-        own[uncertainty.wheel] = float(((b - mean) * (mixed - a)).mean()) / variance
-        whole[uncertainty.wheel] = float(((a - mixed) ** 2).mean()) / 2 / variance
-    return VarianceShares(name, mean, sqrt(variance), own, whole, False, _DRAWN)

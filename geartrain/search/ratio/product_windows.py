@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import comb
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Places = NDArray[np.int64]
-    Ints = NDArray[Any]  # int64, or Python integers where those would overflow
+    Ints = NDArray[np.int64]
 
 
 # Index ranges of products within windows of ratios, and relative errors of ratios.
@@ -29,7 +29,7 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
     """Return for each factor f the half-open index range of `products` with low f <= product <= high f, exactly.
 
     products   ascending, at least one
-    factors    positive, in the same dtype: int64 below 2^52, or Python integers
+    factors    positive, below 2^52
     low, high  0 <= low <= high
     """
     # no ratio of these products has a denominator larger than the largest factor
@@ -46,14 +46,10 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
 def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.bool_]]:
     """Return floor(factor x edge), at most `cap`, and whether the product factor x edge is an integer.
 
-    For int64 the remainder factor n - floor d, with edge = n/d, is computed modulo 2^64. With d below 2^52, and a
+    The remainder factor n - floor d, with edge = n/d, is computed modulo 2^64. With d below 2^52, and a
     float64 estimate of the floor that is within 3 of it, the remainder is less than 2^63 and therefore exact.
     """
     n, d = edge.numerator, edge.denominator
-    if factors.dtype == object:
-        exact = factors * n
-        found = np.minimum(exact // d, cap)
-        return found, np.asarray(exact % d == 0, dtype=bool)
     near = factors * float(edge)
     found = np.minimum(near, cap).astype(np.int64)
     rest = factors * _wrapped(n) - found * d
@@ -96,9 +92,8 @@ def rounded_up(bound: float | Fraction) -> Fraction:
 
 
 MOST_STAGES = 5
-PLAIN = 1 << 52
-"""Limit of products as int64, which float64 represents exactly; larger products are Python integers (dtype object)."""
-_MOST_OBJECTS = 2 * 10**6  # maximum number of products as Python integers in memory
+_LARGEST = 1 << 52
+"""Limit of products, which float64 represents exactly."""
 _MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 
 
@@ -178,16 +173,13 @@ def multisets(number: int, size: int) -> int:
 
 
 @lru_cache(maxsize=4)
-def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -> ProductWindows:
+def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
     """Build the products of all multisets of `size` (1 to 5) of the counts, which must be ascending.
 
-    plain   True for int64, False for Python integers, None to decide by the largest product
-
-    Raise `RangeError` if the tables would not fit in memory.
+    Raise `RangeError` if the products are too large, or the tables would not fit in memory.
     """
-    plain = counts[-1] ** size < PLAIN if plain is None else plain
-    check_memory(counts, size, plain)
-    numbers = np.array(counts, dtype=np.int64 if plain else object)
+    check_products(counts, size)
+    numbers = np.array(counts, dtype=np.int64)
     # low and high parts of about equal size minimise the memory
     below = (size - 1) // 2
     rows, lows, table = _rows(numbers, below)
@@ -203,7 +195,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
     sizes = np.array([len(part) for part in tables], dtype=np.int64)
     uppers = np.concatenate(tables)
     step = counts[-1] ** 2 + 1
-    offsets = np.arange(len(counts)).astype(numbers.dtype) * step
+    offsets = np.arange(len(counts)) * step
     highs = row_products(uppers)
     keys = highs + np.repeat(offsets, sizes)
     starts = (np.cumsum(sizes) - sizes)[table]
@@ -243,18 +235,15 @@ def row_products(chosen: Ints) -> Ints:
     return found
 
 
-def check_memory(counts: tuple[int, ...], size: int, plain: bool) -> None:
-    """Raise `RangeError` if the tables of `products_of` would not fit in memory."""
+def check_products(counts: tuple[int, ...], size: int) -> None:
+    """Raise `RangeError` if the products of `products_of` are too large, or its tables would not fit in memory."""
     number, half = len(counts), (size + 1) // 2
     # length of the longest table; from four stages on it contains triples of counts
     rows = multisets(number, half) if size < 4 else multisets(number, 3)
-    if rows > _MOST_ROWS or not (plain or multisets(number, size) <= _MOST_OBJECTS):
-        why = (
-            "the tables would not fit in memory"
-            if plain
-            else "products above 2^52 are stored as objects, which need more memory"
-        )
-        what = (
-            f"{number} counts" + ("" if plain else f" of up to {counts[-1]} teeth") + f" are too many for {size} stages"
-        )
-        raise RangeError(Problem(what, why, "use a shorter range of counts, or fewer stages"))
+    fix = "use a shorter range of counts, or fewer stages"
+    if counts[-1] ** size >= _LARGEST:
+        what = f"counts of up to {counts[-1]} teeth are too large for {size} stages"
+        raise RangeError(Problem(what, "the products of the counts must be below 2^52", fix))
+    if rows > _MOST_ROWS:
+        what = f"{number} counts are too many for {size} stages"
+        raise RangeError(Problem(what, "the tables would not fit in memory", fix))

@@ -119,7 +119,7 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
             once = lower[i, -1] <= upper[j, 0] if size > 1 else np.full(len(i), True)
             chosen = stages[np.concatenate([lower[i[once]], upper[j[once]]], axis=1)]
             tops, beneaths = np.sort(chosen[:, :, 0], axis=1), np.sort(chosen[:, :, 1], axis=1)
-            p, q = (row_products(each.astype(question.over.rows.dtype)) for each in (tops, beneaths))
+            p, q = (row_products(each) for each in (tops, beneaths))
             inside = _are_within(p, q, question)
             judge.see(tops[inside], beneaths[inside], p[inside], q[inside])
     return judge.outcome()

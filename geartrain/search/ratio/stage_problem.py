@@ -18,7 +18,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Result
-from geartrain.search.ratio.product_windows import PLAIN, ProductWindows, error_places, multisets, products_of
+from geartrain.search.ratio.product_windows import ProductWindows, error_places, multisets, products_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -118,20 +118,15 @@ class StageProblem:
     tolerance: Fraction
     """Maximum absolute relative error of the ratio."""
 
-    @property
-    def plain_integers(self) -> bool:
-        """True if int64 and float64 represent all products exactly."""
-        return bool(max(self.top[-1:] + self.beneath[-1:], default=1) ** self.stages < PLAIN)
-
     @cached_property
     def over(self) -> ProductWindows:
         """Products of all multisets of numerator counts."""
-        return products_of(self.top, self.stages, self.plain_integers)
+        return products_of(self.top, self.stages)
 
     @cached_property
     def under(self) -> ProductWindows:
         """Products of all multisets of denominator counts."""
-        return products_of(self.beneath, self.stages, self.plain_integers)
+        return products_of(self.beneath, self.stages)
 
     @property
     def reach(self) -> tuple[Fraction, Fraction]:

@@ -21,7 +21,7 @@ from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
 from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.numerics.work import Execution, Journal
-from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets, rounded_up
+from geartrain.search.ratio.product_windows import MOST_STAGES, check_products, multisets, rounded_up
 from geartrain.search.ratio.search_segments import SweepOutcome, solve
 from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem, StageRank, best_pairing, check_order
 from geartrain.search.search_outcome import GearStages, Shortfall
@@ -328,11 +328,11 @@ def _wrong_sense(question: StageProblem) -> Shortfall:
 
 
 def _check_reach(question: StageProblem) -> None:
-    """Raise `RangeError` if the tables of products would not fit in memory, or if the ratio is far from all ratios that
-    the counts can give.
+    """Raise `RangeError` if products are too large, if their tables would not fit in memory, or if the ratio is far
+    from all ratios that the counts can give.
     """
     for counts in (question.top, question.beneath):
-        check_memory(counts, question.stages, question.plain_integers)
+        check_products(counts, question.stages)
     low, high = question.reach
     if not low / _FAR < question.value < high * _FAR:
         made = f"ratios of {question.stages} stages with these counts are from {decimal(low, 3)} to {decimal(high, 3)}"

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
-from math import comb
+from math import comb, prod
 from random import Random
 from typing import NamedTuple
 
@@ -86,6 +86,22 @@ def list_choices(
     for common in range(1, last + 1):
         if above := factorings(num * common, drivers, counts):
             yield from product(above, factorings(den * common, driven, counts))
+
+
+@lru_cache(maxsize=1 << 16)
+def quotients_of_parts(
+    quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
+) -> tuple[tuple[Fraction, int], ...]:
+    """Return the quotients of the first of two groups whose total quotient is given, each with its number of
+    choices for both groups.
+
+    A group is given by its numbers of driving and of driven wheels.
+    """
+    found: dict[Fraction, int] = {}
+    for drivers, driven in list_choices(quotient, one[0] + other[0], one[1] + other[1], counts):
+        part = Fraction(prod(drivers[: one[0]]), prod(driven[: one[1]]))
+        found[part] = found.get(part, 0) + 1
+    return tuple(found.items())
 
 
 @lru_cache(maxsize=1 << 16)
@@ -189,32 +205,64 @@ Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 """Tooth counts of the driving and of the driven wheels of each group of dials."""
 
 
+class OpenCounts(NamedTuple):
+    """Added wheels without tooth counts, with the required quotients of these counts and the limits set by rings,
+    sorted.
+    """
+
+    added: AddedWheels
+    wanted: Wanted
+    limits: tuple[AddedKind, ...] = ()
+
+    def kinds(self) -> Iterator[tuple[AddedKind, int]]:
+        """Yield each kind of added wheels with its number of wheels."""
+        limited = {kind: self.limits.count(kind) for kind in self.limits}
+        for kind, number in limited.items():
+            yield kind, number
+        groups = [(dials, True, drivers) for dials, drivers, _ in self.added.groups]
+        groups += [(dials, False, driven) for dials, _, driven in self.added.groups]
+        for dials, drives, number in [*groups, ((), False, self.added.idle)]:
+            left = number - sum(n for kind, n in limited.items() if (kind.dials, kind.drives) == (dials, drives))
+            if left:
+                yield AddedKind(dials, drives), left
+
+    def with_one(self, kind: AddedKind, count: int) -> OpenCounts:
+        """Return the remaining problem if one wheel of a kind has a given tooth count, which must be within the limit
+        of the kind.
+        """
+        limits = list(self.limits)
+        if kind.most is not None:
+            limits.remove(kind)
+        added = self.added.without(kind)
+        if not kind.dials:
+            return OpenCounts(added, self.wanted, tuple(limits))
+        quotient = Fraction(count) if kind.drives else Fraction(1, count)
+        return OpenCounts(added, divided(self.wanted, kind.dials, quotient), tuple(limits))
+
+
 class AddedCounts:
-    """Counter of the assignments of tooth counts, within given limits, to added wheels."""
+    """Counter of the assignments of tooth counts, within given limits, to added wheels.
+
+    Exchanging two different counts gives another assignment. Wheels of one kind are interchangeable, so each of them
+    has a given count equally often.
+    """
 
     def __init__(self, minimum: int, maximum: int) -> None:
         self.range = minimum, maximum
         self._count = lru_cache(maxsize=1 << 18)(self._count_groups)
+        self.of_kind = lru_cache(maxsize=1 << 16)(self._of_kind)
+        self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
-    def count(self, added: AddedWheels, wanted: Wanted) -> int:
-        """Count the assignments that give all dials their speeds. Exchanging two different counts gives another
-        assignment.
-        """
-        alike = _merged_dials(added.groups, wanted)
+    def total(self, requested: OpenCounts) -> int:
+        """Return the number of assignments that give all dials their speeds."""
         minimum, maximum = self.range
-        return int(self._count(added.groups, alike) * (maximum - minimum + 1) ** added.idle) if alike is not None else 0
-
-    def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[AddedKind, ...]) -> int:
-        """Count the assignments if some wheels have a smaller maximum count because they mesh with a ring."""
-        if not limits:
-            return self.count(added, wanted)
-        limit, others = limits[0], limits[1:]
-        assert limit.most is not None
-        allowed, left = range(self.range[0], limit.most + 1), added.without(limit)
-        if not limit.dials:
-            return len(allowed) * self.count_limited(left, wanted, others)
-        tried = (Fraction(count) if limit.drives else Fraction(1, count) for count in allowed)
-        return sum(self.count_limited(left, divided(wanted, limit.dials, each), others) for each in tried)
+        if requested.limits:
+            kind = requested.limits[0]
+            assert kind.most is not None
+            return sum(self.total(requested.with_one(kind, count)) for count in range(minimum, kind.most + 1))
+        groups, idle = requested.added.groups, requested.added.idle
+        alike = _merged_dials(groups, requested.wanted)
+        return int(self._count(groups, alike) * (maximum - minimum + 1) ** idle) if alike is not None else 0
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
         """Yield the assignments, each as counts of the groups and counts of wheels that change no speed."""
@@ -222,6 +270,47 @@ class AddedCounts:
         for counts in self._listed(added.groups, alike) if alike is not None else ():
             for idle in product(range(self.range[0], self.range[1] + 1), repeat=added.idle):
                 yield counts, idle
+
+    def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
+        """Return, for each tooth count, the number of choices in which a given wheel of a kind has this count; zeros
+        are omitted.
+        """
+        minimum, maximum = self.range
+        most = maximum if kind.most is None else min(kind.most, maximum)
+        found = ((count, self.total(requested.with_one(kind, count))) for count in range(minimum, most + 1))
+        return {count: number for count, number in found if number}
+
+    def _with_any(self, requested: OpenCounts) -> dict[int, int]:
+        """Return, for each tooth count, the number of choices in which some wheel has it, by inclusion-exclusion."""
+        kinds = tuple(requested.kinds())
+        counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
+        whole = self.total(requested)
+        return {count: whole - self._without_count(requested, kinds, count, whole) for count in sorted(counts)}
+
+    def _without_count(
+        self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
+    ) -> int:
+        """Return how many of `number` choices give no wheel of some kinds a given tooth count."""
+        if not kinds or not number:
+            return number
+        (kind, wheels), others = kinds[0], kinds[1:]
+        found, left, total = 0, requested, number
+        for chosen in range(wheels + 1):
+            # inclusion-exclusion over the wheels that have the count
+            found += (-1) ** chosen * comb(wheels, chosen) * self._without_count(left, others, count, total)
+            if chosen == wheels or (kind.most is not None and count > kind.most):
+                break
+            left = left.with_one(kind, count)
+            total = self.total(left)
+            if not total:
+                break
+        return found
+
+    def draw(self, requested: OpenCounts, kind: AddedKind, probability: Random) -> tuple[int, OpenCounts]:
+        """Draw the tooth count of one wheel of a kind, and return it with the remaining problem."""
+        by_count = self.of_kind(requested, kind)
+        count = [*by_count][draw_index([*by_count.values()], probability)]
+        return count, requested.with_one(kind, count)
 
     def _count_groups(self, groups: tuple[Group, ...], wanted: Wanted) -> int:
         if not _may_satisfy(groups, wanted):
@@ -237,9 +326,21 @@ class AddedCounts:
         if bounds[0] == bounds[1]:
             own = count_choices(bounds[0], drivers, driven, self.range)
             return own and own * self._count(rest, divided(wanted, dials, bounds[0]))
+        pair = _pair(groups, wanted)
+        if pair is not None:
+            return self._count_pair(groups, wanted, *pair)
         return sum(
             own * self._count(rest, divided(wanted, dials, quotient))
             for quotient, own in quotients(*bounds, drivers, driven, self.range)
+        )
+
+    def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
+        """Count the assignments by enumeration of the counts of two groups whose total quotient is known."""
+        rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
+        kinds = groups[one][1:], groups[other][1:]
+        return sum(
+            own * self._count(rest, divided(divided(wanted, groups[one][0], part), groups[other][0], both / part))
+            for part, own in quotients_of_parts(both, *kinds, self.range)
         )
 
     def _listed(self, groups: tuple[Group, ...], wanted: Wanted) -> Iterator[Counts]:
@@ -288,6 +389,23 @@ class AddedCounts:
 _BOUNDLESS = Fraction(10**40)  # beyond every quotient of added counts
 
 
+_LISTED_TOGETHER = 3
+"""Maximum number of wheels in two groups whose choices with a given total quotient are enumerated."""
+
+
+def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
+    """Return two small groups that determine the speed of a dial of exact speed by themselves, with their total
+    quotient.
+    """
+    best, fewest = None, _LISTED_TOGETHER + 1
+    for dial, (low, high) in wanted:
+        own = [at for at, group in enumerate(groups) if dial in group[0]]
+        wheels = sum(groups[at][1] + groups[at][2] for at in own)
+        if len(own) == 2 and low == high and wheels < fewest:
+            best, fewest = (own[0], own[1], low), wheels
+    return best
+
+
 def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
     """Return whether all dials that depend on no remaining group have their required speeds."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
@@ -317,96 +435,3 @@ def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
     )
-
-
-# Number of choices in which a wheel has a given tooth count, and uniform random choices. Wheels of one kind are
-# interchangeable, so each of them has a given count equally often.
-
-
-class OpenCounts(NamedTuple):
-    """Added wheels without tooth counts, with the required quotients of these counts and the limits set by rings,
-    sorted.
-    """
-
-    added: AddedWheels
-    wanted: Wanted
-    limits: tuple[AddedKind, ...] = ()
-
-    def kinds(self) -> Iterator[tuple[AddedKind, int]]:
-        """Yield each kind of added wheels with its number of wheels."""
-        limited = {kind: self.limits.count(kind) for kind in self.limits}
-        for kind, number in limited.items():
-            yield kind, number
-        groups = [(dials, True, drivers) for dials, drivers, _ in self.added.groups]
-        groups += [(dials, False, driven) for dials, _, driven in self.added.groups]
-        for dials, drives, number in [*groups, ((), False, self.added.idle)]:
-            left = number - sum(n for kind, n in limited.items() if (kind.dials, kind.drives) == (dials, drives))
-            if left:
-                yield AddedKind(dials, drives), left
-
-    def with_one(self, kind: AddedKind, count: int) -> OpenCounts:
-        """Return the remaining problem if one wheel of a kind has a given tooth count, which must be within the limit
-        of the kind.
-        """
-        limits = list(self.limits)
-        if kind.most is not None:
-            limits.remove(kind)
-        added = self.added.without(kind)
-        if not kind.dials:
-            return OpenCounts(added, self.wanted, tuple(limits))
-        quotient = Fraction(count) if kind.drives else Fraction(1, count)
-        return OpenCounts(added, divided(self.wanted, kind.dials, quotient), tuple(limits))
-
-
-class AddedCountSums:
-    """Sums over all choices of tooth counts of added wheels, cached."""
-
-    def __init__(self, counts: AddedCounts) -> None:
-        self._counts = counts
-        self.of_kind = lru_cache(maxsize=1 << 16)(self._of_kind)
-        self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
-
-    def total(self, requested: OpenCounts) -> int:
-        """Return the total number of choices of tooth counts."""
-        return self._counts.count_limited(requested.added, requested.wanted, requested.limits)
-
-    def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
-        """Return, for each tooth count, the number of choices in which a given wheel of a kind has this count; zeros
-        are omitted.
-        """
-        minimum, maximum = self._counts.range
-        most = maximum if kind.most is None else min(kind.most, maximum)
-        found = ((count, self.total(requested.with_one(kind, count))) for count in range(minimum, most + 1))
-        return {count: number for count, number in found if number}
-
-    def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return, for each tooth count, the number of choices in which some wheel has it, by inclusion-exclusion."""
-        kinds = tuple(requested.kinds())
-        counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
-        whole = self.total(requested)
-        return {count: whole - self._without_count(requested, kinds, count, whole) for count in sorted(counts)}
-
-    def _without_count(
-        self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
-    ) -> int:
-        """Return how many of `number` choices give no wheel of some kinds a given tooth count."""
-        if not kinds or not number:
-            return number
-        (kind, wheels), others = kinds[0], kinds[1:]
-        found, left, total = 0, requested, number
-        for chosen in range(wheels + 1):
-            # inclusion-exclusion over the wheels that have the count
-            found += (-1) ** chosen * comb(wheels, chosen) * self._without_count(left, others, count, total)
-            if chosen == wheels or (kind.most is not None and count > kind.most):
-                break
-            left = left.with_one(kind, count)
-            total = self.total(left)
-            if not total:
-                break
-        return found
-
-    def draw(self, requested: OpenCounts, kind: AddedKind, probability: Random) -> tuple[int, OpenCounts]:
-        """Draw the tooth count of one wheel of a kind, and return it with the remaining problem."""
-        by_count = self.of_kind(requested, kind)
-        count = [*by_count][draw_index([*by_count.values()], probability)]
-        return count, requested.with_one(kind, count)

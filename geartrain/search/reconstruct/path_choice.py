@@ -20,7 +20,7 @@ from geartrain.numerics.arrays import Bools
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
-from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
+from geartrain.search.reconstruct.train_topology import ArborPass
 
 # Columns of a path list that are compared with a path to another dial, as arrays for speed.
 
@@ -33,7 +33,6 @@ class PathColumns:
     codes          code of the pass, 0 if the path avoids the arbor, shape (arbors, rows)
     driven         identifying number of the driven wheel and its count, 0 if absent, shape (arbors, rows)
     driver         identifying number of the driving wheel, 0 if absent, shape (arbors, rows)
-    passes_added   True if the path has an added idler
     used           bit mask of the used surviving arbors, then wheels, for each row
     """
 
@@ -46,7 +45,6 @@ class PathColumns:
         self.driven = np.zeros(self.codes.shape, dtype=np.int16)
         self.driver = np.zeros(self.codes.shape, dtype=np.int16)
         self.used = paths.arbors.copy()
-        self.passes_added = paths.idlers > 0
         for at, passes in enumerate(paths.passes):
             taken = self.codes[at]
             # the numbers of driven wheels are the same in the lists of all dials
@@ -56,7 +54,6 @@ class PathColumns:
             self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
             wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
             self.used |= np.array(wheels, dtype=np.int64)[taken]
-            self.passes_added |= np.array([False, *(each.idler and each.driven == ADDED for each in passes)])[taken]
 
     def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
         """Return whether each path can be in one tree with a path to another dial.
@@ -115,7 +112,6 @@ class PathChoice:
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], tables: QuotientTables) -> None:
         self.problem, self.lists, self.tables = problem, lists, tables
-        self._idlers = int(problem.idlers)
         self._must = all_to_use(problem)
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
@@ -182,9 +178,7 @@ class PathChoice:
         (low, high), (minimum, maximum) = first.bounds, second.bounds
         with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
             fewest = self.tables.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
+        if self.problem.idlers:  # the count of an added idler at which paths separate affects only one of them
+            return np.maximum(fewest.astype(np.int64) - 1, 0)
         # shared wheels are on both paths, so the distance has the parity of the sum
-        far = fewest + (first.wheels[row] + second.wheels[rows] - fewest) % 2
-        if self._idlers:  # the count of an added idler at which paths separate affects only one of them
-            passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
-            far = np.where(passed, np.maximum(fewest - 1, 0), far)
-        return np.asarray(far, dtype=np.int64)
+        return np.asarray(fewest + (first.wheels[row] + second.wheels[rows] - fewest) % 2, dtype=np.int64)

@@ -13,7 +13,6 @@ from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.candidate_rules import check_same, find_known_train
 from geartrain.search.reconstruct.dropped_facts import (
     ChangedCount,
-    ChangedQuestion,
     changed_counts,
     explain_missing,
     without_each_fact,
@@ -101,22 +100,13 @@ class ReconstructionRun:
         """Return a context manager that provides the executor of the search."""
         return nullcontext(Execution())
 
-    def assume(
-        self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
-    ) -> AbstractContextManager[Execution]:
-        """Return a context manager that provides the executor for the counts of changed problems.
-
-        If the manager suppresses an interruption, the results in `counted` are kept.
-        """
-        return nullcontext(Execution())
-
     def searched(self, complete: bool) -> None:
-        """Receive the notification that all searches have ended, and whether they are complete."""
+        """Receive the notification that the search has ended, and whether it is complete."""
 
     def part(self, what: str) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor for another part of the work.
 
-        If the manager suppresses an interruption, the part is omitted from the answer.
+        If the manager suppresses an interruption, the rest of the part is omitted from the answer.
         """
         return nullcontext(Execution())
 
@@ -256,8 +246,8 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     )
     with run.search(problem) as execution:
         found = find_reconstructions(problem, execution, listing, request.prior_of)
-    dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
+    dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     listed = () if request.counts_only else found.candidates[: request.best]
     drawn = draw_candidates(found, problem, request.sample, request.seed) if request.sample else ()
     return ReconstructionAnswer(
@@ -296,10 +286,9 @@ def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> 
 
 def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tuple[ChangedCount, ...]:
     """Return the counts without each hard constraint; after an interruption, only the counts that are complete."""
-    changed = without_each_fact(problem)
     counted: list[ChangedCount] = []
-    with run.assume(problem, changed, counted) as execution:
-        for each in changed_counts(changed, execution):
+    with run.part("assumptions") as execution:
+        for each in changed_counts(without_each_fact(problem), execution):
             counted.append(each)
     return tuple(counted)
 

@@ -5,7 +5,7 @@ Further sections describe known trains, common facts, facts to look for, and the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple
 
 from geartrain.numerics.exact import fraction_text, plural
@@ -41,20 +41,13 @@ _REQUESTED: dict[FactKind, str] = {
     "count": "the count of {}",
     "added": "the count of {}, which is added",
 }
-_AGREED: dict[FactKind, Callable[[FactMarginal], str]] = {
-    "mesh": lambda fact: fact.subject,
-    "driver": lambda fact: f"{fact.answers[0].answer} drives {fact.subject}",
-    "pointer": lambda fact: f"the pointer of {fact.subject} is on {fact.answers[0].answer}",
-    "count": lambda fact: f"{fact.subject} has {fact.answers[0].answer} teeth",
-    "added": lambda fact: f"{fact.subject} is added with {fact.answers[0].answer} teeth",
-    "used": lambda fact: f"{fact.subject} is not used",
-}
-_FACTS = {
-    "pair": "{} mesh",
+_FACTS: dict[FactKind, str] = {
+    "pair": "{0} mesh",
     "driver": "{1} drives {0}",
-    "pointer": "the pointer of {} is on {}",
-    "count": "{} has {}",
-    "added": "{} has {}",
+    "pointer": "the pointer of {0} is on {1}",
+    "count": "{0} has {1} teeth",
+    "added": "{0} is added with {1} teeth",
+    "used": "{0} is not used",
 }
 _USE = {
     "wheels": "every surviving wheel meshes",
@@ -241,19 +234,11 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
 def _telling(train: str, facts: Sequence[TellingFact], trains: int) -> Section:
     """Return the section on the facts that distinguish a train."""
     line = "Facts that are true of this train but not of all, with the number of trains that each would leave."
-    return Section(f"Facts that distinguish {train}", [line], [Table(("fact", f"left of {trains}"), _fact_rows(facts))])
-
-
-def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
-    """Return table rows in which facts are grouped by the number of trains for which they are true."""
-    rows: dict[int, list[str]] = {}
+    said: dict[int, list[str]] = {}
     for fact in facts:
-        rows.setdefault(fact.solutions, []).append(_fact_text(fact))
-    return [("; ".join(said), str(left)) for left, said in rows.items()]
-
-
-def _fact_text(fact: TellingFact) -> str:
-    return _FACTS[fact.kind].format(fact.subject, fact.answer)
+        said.setdefault(fact.solutions, []).append(_FACTS[fact.kind].format(fact.subject, fact.answer))
+    rows = [("; ".join(some), str(left)) for left, some in said.items()]
+    return Section(f"Facts that distinguish {train}", [line], [Table(("fact", f"left of {trains}"), rows)])
 
 
 def _row(one: KnownRank) -> tuple[str, ...]:
@@ -305,7 +290,11 @@ def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
         yield f"Meshes: {', '.join(meshes)}."
     needed = [fact.subject for fact in sure if fact.kind == "needed"]
     yield from (f"All trains add a wheel of {count}." for count in needed)
-    others = [_AGREED[fact.kind](fact) for fact in sure if fact.kind not in ("mesh", "needed", "driver")]
+    others = [
+        _FACTS[fact.kind].format(fact.subject, fact.answers[0].answer)
+        for fact in sure
+        if fact.kind not in ("mesh", "needed", "driver")
+    ]
     if others:
         yield f"{'Further facts' if meshes or needed else 'Facts'}: {'; '.join(others)}."
 

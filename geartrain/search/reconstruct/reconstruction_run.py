@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +16,6 @@ from geartrain.search.reconstruct.reconstruction_problem import RequestedQuestio
 from geartrain.search.reconstruct.search_tasks import count_choices
 
 if TYPE_CHECKING:
-    from geartrain.search.reconstruct.dropped_facts import ChangedCount, ChangedQuestion
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
     from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 
@@ -32,7 +31,6 @@ class CommandRun(ReconstructionRun):
     def __init__(self, folder: Path | None, options: RunOptions) -> None:
         self._folder, self._options = folder, options
         self._journal: Journal | None = None
-        self._is_needed_to_resume = False
 
     def begin(self, problem: ReconstructionProblem) -> None:
         """Print the size of the problem."""
@@ -42,45 +40,27 @@ class CommandRun(ReconstructionRun):
 
     @contextmanager
     def search(self, problem: ReconstructionProblem) -> Iterator[Execution]:
-        """Yield an executor whose journal is kept until all searches are complete."""
+        """Yield an executor with a journal, which `searched` closes."""
         # tasks do not depend on the listing or on the unit of the prior
         requested = {"question": question_digest(problem)}
         with long_run("reconstruct", requested, self._folder, self._options) as given:
             self._journal = given.journal
             yield given
 
-    @contextmanager
-    def assume(
-        self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
-    ) -> Iterator[Execution]:
-        """Yield an executor for the counts of changed problems. An interruption keeps the finished counts and the
-        journal.
-        """
-        requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
-        with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
-            try:
-                yield given
-            except KeyboardInterrupt:
-                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} evaluated; the others are omitted")
-            cut = len(counted) < len(changed)
-            self._is_needed_to_resume = cut and given.journal is not None and bool(len(given.journal))
-            close_journal(given.journal, cut)
-
     def searched(self, complete: bool) -> None:
-        """Close the journal of the search, unless interrupted counts of changed problems still need it."""
-        if not self._is_needed_to_resume:
-            close_journal(self._journal, not complete)
+        """Remove the journal of a complete search, or report how to resume it."""
+        close_journal(self._journal, not complete)
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """Yield an executor with a progress bar for another part of the work. An interruption omits the part from the
+        """Yield an executor with a progress bar for another part of the work. An interruption omits its rest from the
         answer.
         """
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
                 yield Execution(executor, tell=bar.reach)
         except KeyboardInterrupt:
-            tell(f"interrupted: {what} omitted")
+            tell(f"interrupted: the rest of the {what} is omitted")
 
 
 def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.work import Execution
-from geartrain.search.reconstruct.added_counts import AddedCounts, AddedCountSums, OpenCounts
+from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts
 from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, arranged
 from geartrain.search.reconstruct.path_choice import PathChoice
 from geartrain.search.reconstruct.path_lists import PathList
@@ -29,7 +29,7 @@ from geartrain.search.weighted_alternatives import draw_index
 _QUICK = 2
 """Maximum number of added wheels for which a search is not divided into parts."""
 _PARTS = 24  # divides evenly over 2, 3, 4, 6, 8 and 12 processes
-_MOST_CHOICES = 40
+_MOST_CHOICES = 24
 """Maximum decimal logarithm of the number of choices of added tooth counts; searches of hours have about 20."""
 _MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
 
@@ -59,7 +59,7 @@ class TopologyTrains:
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         limits = problem.additions
-        self.counts = AddedCountSums(AddedCounts(limits.minimum, limits.maximum))
+        self.counts = AddedCounts(limits.minimum, limits.maximum)
         self._facts, self._maximum = MeshFacts.of(problem), limits.maximum
 
     def count(self, topology: Topology) -> int:

@@ -41,7 +41,8 @@ def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byte
     """Yield path, title and function that returns the content of each sheet and of its tables as CSV."""
     plates = [] if work.frame is None else [plate for plate in work.frame.plates() if plate.holes]
     for name, plate in zip(file_names(plate.name for plate in plates), plates, strict=True):
-        yield f"drawings/{name}.svg", f"{plate.name} with its holes", partial(_content, plate_sheet, work, plate)
+        title = f"{plate.name}: holes from a datum, to read"
+        yield f"drawings/{name}.svg", title, partial(_content, plate_sheet, work, plate)
     if plates:
         yield "drawings/holes.csv", "coordinates and diameters of holes", partial(_content, _holes_csv, plates)
     if work.blanks.wheels:

@@ -80,7 +80,7 @@ def trains() -> None:
 
 
 def results() -> None:
-    """Charts of results: errors of pointers cut by hand, best sizes of teeth, torque over a turn, motion of a pointer."""
+    """Charts of results: errors of hand-cut pointers, best sizes of teeth, torque over a turn, motion of a pointer."""
     moon, set_ = geartrain.load("moon-triangular"), geartrain.load("planetary-24-18-60-triangular")
     plan = find_trial_plan(moon, read_error_overrides(["pitch_deviation=1 %"]))
     for name, figure in (

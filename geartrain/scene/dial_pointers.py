@@ -17,26 +17,28 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from math import inf, pi, sqrt
+from math import hypot, inf, pi, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.judged_outputs import SpeedValue, goal_of
 from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import fraction_text, read_fraction
-from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
+from geartrain.numerics.quantity import millimetres
+from geartrain.numerics.vectors import Vector, beside, cross, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
-from geartrain.scene.layout import WheelPlace
+from geartrain.scene.dial_scale import DialScale, engrave, scale_of
+from geartrain.scene.layout import AxisPlace, WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke, hand_with_ball
 from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch, SceneSetting
-from geartrain.train.outputs import looks_away
+from geartrain.train.outputs import RING, looks_away
 from geartrain.train.sky import angle_at, mean_elements, read_sky_angle
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.willis_system import WillisSystem
     from geartrain.train import Output
+    from geartrain.train.outputs import Dial
 
 
 # ---------------------------------------------------------------------------------------------------- output dependence
@@ -148,6 +150,7 @@ _SPHERE, _INWARDS = (0.78, 0.05), 0.12  # reach of a sphere and its radius over 
 _RINGS, _BEAD = (0.12, 0.7), 0.035  # radii of the rings of beads, and maximum radius of a bead, in the same way
 _LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes divided by the radius of the dial
 _PARTS = 4000  # integer units of an engraving in a radius
+_SAME = 1e-6  # mm
 _MINIMUM = 0.3  # minimum width of a side for the size of its dials, divided by the train's width
 _GAP = 0.04  # gap between wheels and dials, and between dials, divided by the train's width
 
@@ -171,6 +174,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
+            placed=_is_placed(dial, stage.layout.axes.get(key[2]), cross(zero, normal), zero),
             # an upper bound, which `_fitted` reduces
             radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
@@ -179,7 +183,18 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             engraving=_engraving(scale) if dial.look == "scale" else (),
         )
     scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
+    for key, face in scales.items():
+        if (given := declared.dials[key[0]].diameter) is not None:
+            scales[key] = replace(face, radius=float(millimetres(given)) / 2)
     return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
+
+
+def _is_placed(dial: Dial, axis: AxisPlace | None, right: Vector, up: Vector) -> bool:
+    """Return True if the axis of a dial's pointers is at the declared centre of the dial."""
+    if dial.centre is None or axis is None:
+        return False
+    x, y = (float(millimetres(each)) for each in dial.centre)
+    return hypot(dot(axis.point, right) - x, dot(axis.point, up) - y) < _SAME
 
 
 @lru_cache(maxsize=64)

@@ -71,6 +71,8 @@ class DialFace(Shown):
     """Note on the dial, as declared."""
     plate: float = 0.0
     """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if the scene has no such disc."""
+    placed: bool = False
+    """True if the centre of the dial is declared and its pointers turn about it, False if the position is computed."""
     seated: bool = False
     """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""

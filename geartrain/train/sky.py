@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from importlib import resources
@@ -18,7 +18,7 @@ from types import MappingProxyType
 
 from geartrain.errors import suggest
 
-Polynomial = tuple[float, ...]
+Polynomial = Sequence[float]
 """Coefficients of a polynomial, in ascending order of powers."""
 
 _J2000 = 2451545

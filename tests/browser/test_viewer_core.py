@@ -109,7 +109,8 @@ def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
 
 def test_a_dial_about_two_axes_has_a_face_for_each(show: Opening) -> None:
     """They are distinguished by their outputs; the single hand of each has the first colour."""
-    shown = show("price-1974")
+    unplaced = "outputs: {lunar year: {dial: lower}}\ndials: {lower: {centre: null, diameter: null}}\n"
+    shown = show(f"name: two-faces\nextends: price-1974\n{unplaced}")
     faces = shown.run("[...document.querySelectorAll('.card')].map((each) => each.querySelector('strong').textContent)")
     assert faces == ["zodiac", "lower (synodic month)", "lower (lunar year)", "upper"]
     hands = shown.run(

@@ -106,3 +106,9 @@ def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show: Opening) -> N
     )
     assert classes["sun in zodiac"] == classes["sun"] != classes["zodiac"]
     assert classes["sidereal month"] == classes["moon"] not in (classes["sun"], classes["zodiac"])
+
+
+def test_dials_without_a_declared_place_say_that_their_layout_is_computed(show: Opening) -> None:
+    cards = "[...document.querySelectorAll('.card')].map((each) => /layout computed/.test(each.textContent))"
+    assert not any(show(ANTIKYTHERA).run(cards))
+    assert show("longcase-clock").run(cards) == [True] * 3

@@ -120,7 +120,7 @@ export class Readings {
         "figcaption",
         {},
         el("strong", {}, dial.title),
-        [label, scale, dial.look === "scale" && dial.placed === false && "layout computed", dial.note].filter(Boolean).map((text) => el("span", { class: "quiet said" }, text)),
+        [label, scale, dial.look === "scale" && !dial.placed && "layout computed", dial.note].filter(Boolean).map((text) => el("span", { class: "quiet said" }, text)),
       ),
     );
   }

@@ -1,5 +1,5 @@
 """Draw the pictures of docs/images: a worm that turns, a report as a terminal shows it, triangular teeth in contact,
-their law, pointers in motion, power that circulates, gears on a sphere, tooth shapes side by side."""
+their law, pointers in motion, power that circulates, gears on a sphere, tooth shapes side by side, results."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import sys
 from fractions import Fraction
 from math import radians
 from pathlib import Path
+from shutil import copyfile
+from tempfile import TemporaryDirectory
 
 from stills import can_draw, gif, stills
 
@@ -19,11 +21,21 @@ from geartrain.drawing import (
     render,
     sphere_figure,
     teeth_figure,
+    torque_cycle_figure,
     triangular_figure,
 )
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.scene import build_scene
 from geartrain.spherical import GearSphere, from_polyhedron
+from geartrain.workshop import (
+    MonteCarloResult,
+    find_train_sizes,
+    find_trial_plan,
+    monte_carlo_figure,
+    read_error_overrides,
+    run_trials,
+    train_sizes_figure,
+)
 
 IMAGES = Path(__file__).resolve().parents[1] / "images"
 
@@ -36,8 +48,9 @@ def main() -> None:
     pointers()
     power()
     sphere()
-    shapes()
+    commands()
     trains()
+    results()
 
 
 def turning() -> None:
@@ -61,9 +74,23 @@ def trains() -> None:
         figure = picture(geartrain.load(name), kind, turns=Fraction(31, 7))  # type: ignore[arg-type]
         (IMAGES / f"draw-{kind}.svg").write_bytes(render(figure, ".svg"))
         print(f"wrote docs/images/draw-{kind}.svg")
-    figure = picture(geartrain.load("cycloidal-reducer"), "plan")
-    (IMAGES / "reducer.svg").write_bytes(render(figure, ".svg"))
-    print("wrote docs/images/reducer.svg")
+    for stem, name in (("reducer", "cycloidal-reducer"), ("belt", "serpentine-belt"), ("geneva", "film-projector")):
+        (IMAGES / f"{stem}.svg").write_bytes(render(picture(geartrain.load(name), "plan"), ".svg"))
+        print(f"wrote docs/images/{stem}.svg")
+
+
+def results() -> None:
+    """Charts of results: errors of hand-cut pointers, best sizes of teeth, torque over a turn, motion of a pointer."""
+    moon, set_ = geartrain.load("moon-triangular"), geartrain.load("planetary-24-18-60-triangular")
+    plan = find_trial_plan(moon, read_error_overrides(["pitch_deviation=1 %"]))
+    for name, figure in (
+        ("trials", monte_carlo_figure(MonteCarloResult(run_trials(plan, 1000)))),
+        ("sizes", train_sizes_figure(find_train_sizes(moon, "moon", "error", {"window": (0.3, 0.7)}))),
+        ("torque", torque_cycle_figure(set_.torques(turns=0.25, samples=500), f"{set_.name}: torque over 1/4 turn")),
+        ("moon", moon.motion().plot("moon", turns=0.5)),
+    ):
+        (IMAGES / f"{name}.svg").write_bytes(render(figure, ".svg"))
+        print(f"wrote docs/images/{name}.svg")
 
 
 def teeth() -> None:
@@ -95,10 +122,18 @@ def power() -> None:
     print("wrote docs/images/power.svg")
 
 
-def shapes() -> None:
-    """Tooth forms of one pair side by side, as the command draws them."""
-    command = [sys.executable, "-m", "geartrain", "mesh", "24", "36", "--compare", "--force"]
-    subprocess.run([*command, "--plot", str(IMAGES / "shapes.svg")], check=True, stdout=subprocess.DEVNULL)
+def commands() -> None:
+    """Tooth forms of one pair side by side, a motion in time and a step of assembly, as the commands draw them."""
+    command = [sys.executable, "-m", "geartrain"]
+    for name, words in (
+        ("shapes", "mesh 24 36 --compare"),
+        ("run", "dynamics moon-triangular-inertia --rate 1 --turns 0.02"),
+    ):
+        plot = ["--force", "--plot", str(IMAGES / f"{name}.svg")]
+        subprocess.run([*command, *words.split(), *plot], check=True, stdout=subprocess.DEVNULL)
+    with TemporaryDirectory() as folder:
+        subprocess.run([*command, "export", "longcase-clock", "--to", f"{folder}/clock"], check=True)
+        copyfile(f"{folder}/clock/assembly/07.svg", IMAGES / "assembly.svg")
 
 
 def sphere() -> None:

@@ -44,7 +44,8 @@ def report(
 ) -> None:
     """Report on trains as text (80 columns in a pipe), or as .md, .html or .json, depending on the suffix of -o.
 
-    An .html page also contains pictures of the plan and the dials if the extra 'plot' is installed.
+    An .html page opens with the verdict, the outputs and the plan, and folds details, which are printed only if they
+    are open. Pictures of the plan and the dials need the extra 'plot'.
 
     Example: `geartrain report freeth-2021 -o page.html`.
     """

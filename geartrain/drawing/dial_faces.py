@@ -213,12 +213,8 @@ def _draw_moon(axes: Axes, reading: PointerReading, centre: tuple[float, float])
 
 def _usual_sense(pointers: Sequence[Pointer]) -> str:
     """Return the sense in which most of the hands turn as read; empty if none turns."""
-    senses = Counter(_sense(pointer) for pointer in pointers if pointer.speed)
+    senses = Counter(pointer.text.removesuffix(" as read") for pointer in pointers if pointer.speed)
     return senses.most_common(1)[0][0] if senses else ""
-
-
-def _sense(pointer: Pointer) -> str:
-    return pointer.text.removesuffix(" as read")
 
 
 def _draw_key(
@@ -304,5 +300,5 @@ def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, 
         text += f", {50 * (1 - cos(2 * pi * float(reading.at))):.0f} % lit"
     elif face.name and (shown := scale.reading_text(reading.at * scale.way)):  # a plain face has ticks but no cells
         text += f", {shown}"
-    way = _sense(pointer)
+    way = pointer.text.removesuffix(" as read")
     return f"{pointer.output}: {text}{f', {way}' if way and (way != usual or not pointer.speed) else ''}"

@@ -138,7 +138,7 @@ def _error_row(motion: Motion, tally: RunningStatistics, days: bool) -> Row:
 
 
 def _kind(motion: Motion) -> str:
-    return "transmission error" if motion._problem.rippling else motion._problem.deviation
+    return "anomaly" if motion._problem.couplings and not motion._problem.rippling else "transmission error"
 
 
 def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> Figure:

@@ -417,7 +417,6 @@ def _draw_arbors(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 _FACE = (_DARK + _LIGHT) / 2  # colour of a bar
-_SLANTS = (-1, 0, 1)  # lines that show the hand of a helix on a bar, as in ISO 2203
 
 
 class SideScale:
@@ -468,7 +467,7 @@ def _draw_slants(
     rise = -float(np.tan(wheel.helix)) * (ends[1] - ends[0])
     middle, half = height
     rise = min(max(rise, -half), half)  # the thread of a worm rises by more than the bar
-    for at in _SLANTS:
+    for at in (-1, 0, 1):  # three lines, as in ISO 2203
         start = middle + at * half / 3 - rise / 2
         axes.plot(ends, [start, start + rise], color=color, linewidth=0.5, zorder=3.5, gid=f"helix {wheel.id}")
 

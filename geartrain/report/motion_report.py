@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import degrees
@@ -327,7 +327,7 @@ def motion_document(found: Motion | MotionRun) -> Document | None:
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
     """Yield sections on the outputs, on the pairs that cause their deviations, and on the requested further results."""
-    yield Section("Outputs", tuple(_remarks(run)), tuple(_outputs(run.statistics, run.motion._problem.deviation)))
+    yield Section("Outputs", tuple(_remarks(run)), _outputs(run.statistics, run.motion._problem.deviation))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
         yield from _steps(run.motion)
@@ -360,7 +360,7 @@ def moving_sections(
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
         rippling = [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
-        yield Section(head, (text, *holds, *_remarks(run)), tuple(_outputs(rippling, run.motion._problem.deviation)))
+        yield Section(head, (text, *holds, *_remarks(run)), _outputs(rippling, run.motion._problem.deviation))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
@@ -377,23 +377,29 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
     return f"These pairs keep their ratio at every instant and contribute no transmission error: {words}."
 
 
-def _outputs(tallies: list[RunningStatistics], deviation: str) -> Iterator[Table]:
-    """Yield a table of outputs that turn, and one of links that slide, if there are any."""
-    for slides, own in _by_unit(tallies):
-        rows = []
-        for tally in own:
-            # a mean speed of 0 cannot be the divisor
-            speeds = _speeds(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
-            rows.append((tally.name, figure(tally.ratio, 9), *_amounts(slides, tally.peak_to_peak, tally.rms), speeds))
-        mean = "mean travel (mm per turn)" if slides else "mean speed"
-        yield Table(("output", mean, *_deviation_heads(deviation, slides), "speed / mean speed"), rows)
+def _outputs(tallies: Sequence[RunningStatistics], deviation: str) -> tuple[Table, ...]:
+    def row(tally: RunningStatistics) -> tuple[str, ...]:
+        # a mean speed of 0 cannot be the divisor
+        speeds = _speeds(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
+        return tally.name, figure(tally.ratio, 9), *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds
+
+    def head(unit: str) -> tuple[str, ...]:
+        mean = "mean travel (mm per turn)" if unit == "mm" else "mean speed"
+        return ("output", mean, *_deviation_heads(deviation, unit), "speed / mean speed")
+
+    return _by_unit(tallies, head, lambda tally: [row(tally)])
 
 
-def _by_unit(tallies: Sequence[RunningStatistics]) -> Iterator[tuple[bool, list[RunningStatistics]]]:
-    """Yield the outputs that turn with False, and those that slide with True; nothing for an empty group."""
-    for slides in (False, True):
-        if own := [tally for tally in tallies if tally.slides == slides]:
-            yield slides, own
+def _by_unit(
+    tallies: Sequence[RunningStatistics],
+    head: Callable[[str], tuple[str, ...]],
+    rows: Callable[[RunningStatistics], Sequence[tuple[str, ...]]],
+) -> tuple[Table, ...]:
+    """Return a table of the outputs that turn, with angles in deg, and one of the links that slide, in mm."""
+    groups = {unit: [tally for tally in tallies if _unit(tally.slides) == unit] for unit in ("deg", "mm")}
+    return tuple(
+        Table(head(unit), [row for tally in own for row in rows(tally)]) for unit, own in groups.items() if own
+    )
 
 
 def _speeds(low: float, high: float) -> str:
@@ -405,8 +411,8 @@ def _unit(slides: bool) -> str:
     return "mm" if slides else "deg"
 
 
-def _deviation_heads(deviation: str, slides: bool) -> tuple[str, str]:
-    return f"{deviation} p-p ({_unit(slides)})", f"{deviation} rms ({_unit(slides)})"
+def _deviation_heads(deviation: str, unit: str) -> tuple[str, str]:
+    return f"{deviation} p-p ({unit})", f"{deviation} rms ({unit})"
 
 
 def _remarks(run: MotionRun) -> Iterator[str]:
@@ -488,44 +494,44 @@ def _steps(motion: Motion) -> Iterator[Section]:
 
 
 def _random_phases(run: MotionRun) -> Section:
-    tables = []
-    for slides, own in _by_unit(run.statistics):
-        rows = []
-        for tally in own:
-            sets = [tallies[run.statistics.index(tally)] for tallies in run.phase_statistics]
-            ranges = _phase_range(sets) or ()
-            errors = ("..".join(f"{tally.degrees_or_mm * end:.5g}" for end in ends) for ends in ranges)
-            lows, highs = zip(*(each.speeds for each in sets), strict=True)
-            rows.append((tally.name, *errors, _speeds(min(lows), max(highs))))
-        heads = _deviation_heads(run.motion._problem.deviation, slides)
-        tables.append(Table(("output", *heads, "speed / mean speed"), rows))
+    def row(tally: RunningStatistics) -> tuple[str, ...]:
+        sets = [tallies[run.statistics.index(tally)] for tallies in run.phase_statistics]
+        errors = ("..".join(f"{tally.degrees_or_mm * end:.5g}" for end in ends) for ends in _phase_range(sets) or ())
+        lows, highs = zip(*(each.speeds for each in sets), strict=True)
+        return tally.name, *errors, _speeds(min(lows), max(highs))
+
+    deviation = run.motion._problem.deviation
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
-    return Section("Random phases", (text,), tuple(tables))
+    tables = _by_unit(
+        run.statistics,
+        lambda unit: ("output", *_deviation_heads(deviation, unit), "speed / mean speed"),
+        lambda tally: [row(tally)],
+    )
+    return Section("Random phases", (text,), tables)
 
 
 def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
-    tables = []
-    for slides, own in _by_unit([each.true for each in found.values()]):
-        rows = []
-        for true in own:
-            each = found[true.name]
-            rows += [
-                (true.name, "composed", *_amounts(slides, true.peak_to_peak, true.rms), "0", "0"),
-                ("", "bound by the sum", *_amounts(slides, each.bound), "-", "-", "-"),
-                ("", "independent phases", "-", *_amounts(slides, each.independent), "-", "-"),
-            ]
-            for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
-                mine, off = superposed.own, superposed.off
-                amounts = mine.peak_to_peak, mine.rms, superposed.maximum, off.rms
-                rows.append(("", how, *_amounts(slides, *amounts)))
-        differences = (f"maximum difference ({_unit(slides)})", f"rms difference ({_unit(slides)})")
-        heads = (f"{deviation} p-p ({_unit(slides)})", f"rms ({_unit(slides)})", *differences)
-        tables.append(Table(("output", "method", *heads), rows))
+    def rows(true: RunningStatistics) -> list[tuple[str, ...]]:
+        each, slides = found[true.name], true.slides
+        lines: list[tuple[str, ...]] = [
+            (true.name, "composed", *_amounts(slides, true.peak_to_peak, true.rms), "0", "0"),
+            ("", "bound by the sum", *_amounts(slides, each.bound), "-", "-", "-"),
+            ("", "independent phases", "-", *_amounts(slides, each.independent), "-", "-"),
+        ]
+        for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
+            own, off = superposed.own, superposed.off
+            lines.append(("", how, *_amounts(slides, own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
+        return lines
+
+    def head(unit: str) -> tuple[str, ...]:
+        differences = (f"maximum difference ({unit})", f"rms difference ({unit})")
+        return ("output", "method", f"{deviation} p-p ({unit})", f"rms ({unit})", *differences)
+
     text = (
         "Approximations compared with the composed motion, all at the sampled positions only. Differences are "
         "pointwise, after subtraction of each mean."
     )
-    return Section("Estimates", (text,), tuple(tables))
+    return Section("Estimates", (text,), _by_unit([each.true for each in found.values()], head, rows))
 
 
 def _amounts(slides: bool, *values: float) -> tuple[str, ...]:

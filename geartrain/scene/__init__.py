@@ -67,6 +67,7 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import PointerTarget as PointerTarget
     from geartrain.scene.train_scene import Scene as Scene
     from geartrain.scene.train_scene import SceneEpoch as SceneEpoch
+    from geartrain.scene.train_scene import SceneSetting as SceneSetting
     from geartrain.scene.train_scene import TourStop as TourStop
 
 __all__ = [
@@ -93,6 +94,7 @@ __all__ = [
     "ScenePair",
     "ScenePart",
     "SceneRun",
+    "SceneSetting",
     "SceneWave",
     "SceneWheel",
     "SolidModel",
@@ -117,7 +119,9 @@ _PLACES = {
     "ManufacturingSizes": "solids.manufacturing_sizes",
     "SolidModel": "solids.solid_assembly",
     "SolidPart": "solids.solid_part",
-    **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch", "TourStop"), "train_scene"),
+    **dict.fromkeys(
+        ("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch", "SceneSetting", "TourStop"), "train_scene"
+    ),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,7 +30,14 @@ from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, 
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.coupling_shapes import find_shapes
-from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
+from geartrain.scene.dial_pointers import (
+    angles_at_start,
+    find_dials,
+    find_epoch,
+    find_pointers,
+    with_balls,
+    with_titles,
+)
 from geartrain.scene.displays import drive_kind, find_displays, fusee_radii, upwards
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
@@ -393,13 +401,18 @@ def make_scene(
     state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
+    dials = find_dials(stage)
+    pointers = find_pointers(stage, dials)
+    faces = tuple(dials.values())
+    # a simulated run has its own starting angles
+    epoch = find_epoch(stage, pointers, faces) if run is None else None
+    if epoch is not None:
+        stage = replace(stage, set_angles=angles_at_start(stage, epoch, pointers, faces))
     moved = find_movement(stage)
     teeth, undrawn = find_profiles(stage)
     turns, out_of_phase = phase_wheels(stage, moved)
     wheels, profiles = find_wheels(stage, teeth, turns)
-    dials = find_dials(stage)
     notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
-    pointers = find_pointers(stage, dials)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
     shapes, rods = find_shapes(stage)
     pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
@@ -426,7 +439,7 @@ def make_scene(
         couplings=couplings,
         shapes=(*shapes, *find_displays(stage)),
         hangers=rods,
-        dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
+        dials=with_titles(with_balls(faces, pointers), pointers),
         pointers=pointers,
         movement=moved.movement,
         sources=_sources(train),
@@ -434,7 +447,7 @@ def make_scene(
         back=moved.back,
         unit_days=exact(declared.unit_days),
         elements=find_elements(stage, state),
-        epoch=find_epoch(stage),
+        epoch=epoch,
         tour=tuple(TourStop(declared.tour_parts[step.look_at], step.look_at, step.text) for step in declared.tour),
         formulas=find_count_formulas(folded, state, bodies, wheels, pointers) if formulas and run is None else None,
         asks=bool(stage.case.outputs),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import islice
@@ -34,6 +34,8 @@ class SceneContext:
     train: GearTrain
     answer: Answer
     layout: Layout
+    set_angles: Mapping[str, float] = field(default_factory=dict)
+    """Angles of links at 0 turns that follow from the epoch [rad]; they replace the declared starting angles."""
 
     @cached_property
     def case(self) -> StateCase:
@@ -105,9 +107,9 @@ class SceneContext:
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Return the declared starting angle of a link [rad], 0 by default."""
+        """Return the starting angle of a link [rad]: from the epoch or as declared, 0 by default."""
         angle = self.train.declaration.links[link].angle
-        return 0.0 if angle is None else angle.si
+        return self.set_angles.get(link, 0.0 if angle is None else angle.si)
 
     def along(self, axis: str | None) -> Vector:
         """Return the declared unit direction of an axis; z if the axis is not in the layout."""

@@ -13,29 +13,32 @@ The module also gives dates of the driving link's turns, and the mean motions th
 from __future__ import annotations
 
 from collections import Counter, deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from math import inf, sqrt
+from math import hypot, inf, pi, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.judged_outputs import SpeedValue, goal_of
 from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
-from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
+from geartrain.numerics.exact import fraction_text, read_fraction
+from geartrain.numerics.quantity import millimetres
+from geartrain.numerics.vectors import Vector, beside, cross, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
-from geartrain.scene.layout import WheelPlace
+from geartrain.scene.dial_scale import DialScale, engrave, scale_of
+from geartrain.scene.layout import AxisPlace, WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke, hand_with_ball
-from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch
-from geartrain.train.outputs import looks_away
+from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch, SceneSetting
+from geartrain.train.outputs import RING, looks_away
+from geartrain.train.sky import angle_at, mean_elements, read_sky_angle
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.willis_system import WillisSystem
     from geartrain.train import Output
+    from geartrain.train.outputs import Dial
 
 
 # ---------------------------------------------------------------------------------------------------- output dependence
@@ -147,6 +150,7 @@ _SPHERE, _INWARDS = (0.78, 0.05), 0.12  # reach of a sphere and its radius over 
 _RINGS, _BEAD = (0.12, 0.7), 0.035  # radii of the rings of beads, and maximum radius of a bead, in the same way
 _LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes divided by the radius of the dial
 _PARTS = 4000  # integer units of an engraving in a radius
+_SAME = 1e-6  # mm
 _MINIMUM = 0.3  # minimum width of a side for the size of its dials, divided by the train's width
 _GAP = 0.04  # gap between wheels and dials, and between dials, divided by the train's width
 
@@ -170,6 +174,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
+            placed=_is_placed(dial, stage.layout.axes.get(key[2]), cross(zero, normal), zero),
             # an upper bound, which `_fitted` reduces
             radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
@@ -178,7 +183,18 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             engraving=_engraving(scale) if dial.look == "scale" else (),
         )
     scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
+    for key, face in scales.items():
+        if (given := declared.dials[key[0]].diameter) is not None:
+            scales[key] = replace(face, radius=float(millimetres(given)) / 2)
     return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
+
+
+def _is_placed(dial: Dial, axis: AxisPlace | None, right: Vector, up: Vector) -> bool:
+    """Return True if the axis of a dial's pointers is at the declared centre of the dial."""
+    if dial.centre is None or axis is None:
+        return False
+    x, y = (float(millimetres(each)) for each in dial.centre)
+    return hypot(dot(axis.point, right) - x, dot(axis.point, up) - y) < _SAME
 
 
 @lru_cache(maxsize=64)
@@ -405,12 +421,16 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 # ---- the sky: dates of turns of the driving link, and mean motions that pointers should show
 
 
-def find_epoch(stage: SceneContext) -> SceneEpoch | None:
-    """Return the declared date in turns of the driving link; None without a date, a time unit or a driven link."""
+def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> SceneEpoch | None:
+    """Return the declared date in turns of the driving link, with the angles of the pointers at that date; None without
+    a date, a time unit or a driven link.
+    """
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
     if epoch is None or unit is None or stage.driving_link is None:
         return None
+    settings = tuple(_settings(stage, pointers, dials))
+    dialled = [(each.output, dials[each.dial].scale.names) for each in pointers if each.dial is not None]
     return SceneEpoch(
         julian_day=fraction_text(epoch.julian_day),
         turns=fraction_text(epoch.turns.value),
@@ -418,7 +438,47 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
         calendar=epoch.calendar,
         source=epoch.source or "",
         note=epoch.note or "",
+        settings=settings,
+        unset=tuple(
+            output
+            for output, names in dialled
+            if names[:1] and names[0][0] == "Aries" and not stage.outputs[output].at_epoch
+        ),
+        elements=mean_elements() if settings else {},
     )
+
+
+def _settings(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> Iterator[SceneSetting]:
+    for at, pointer in enumerate(pointers):
+        text = stage.outputs[pointer.output].at_epoch
+        if text is None or pointer.speed is None:
+            continue
+        (angle, body), dial = read_sky_angle(text), None if pointer.dial is None else dials[pointer.dial]
+        sense = 1 if dial is None or dial.look == "ball" else pointer.sense * dial.scale.way
+        yield SceneSetting(at, sense, angle, body)
+
+
+def angles_at_start(
+    stage: SceneContext, epoch: SceneEpoch, pointers: Sequence[Pointer], dials: Sequence[DialFace]
+) -> dict[str, float]:
+    """Return the angles of links at 0 turns [rad] at which pointers have their angles at the epoch."""
+    links, found = tuple(stage.body), dict[str, float]()
+    for setting in epoch.settings:
+        pointer = pointers[setting.pointer]
+        of, base = links[pointer.body], links[pointer.base]
+        angle = angle_at(setting.angle, float(Fraction(epoch.julian_day)))
+        turned = read_fraction(pointer.speed or "0") * Fraction(epoch.turns)
+        own = (setting.sense * angle - float(turned)) % (1 if pointer.dial is None else dials[pointer.dial].scale.turns)
+        found[of] = 2 * pi * own + stage.sense(of) * stage.sense(base) * found.get(base, stage.start(base))
+    return found | dict(_slots_at_pins(stage, found))
+
+
+def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator[tuple[str, float]]:
+    """Yield the angle at 0 turns [rad] of each slot that has no own angle although its pin has one."""
+    for coupling in stage.train.declaration.pin_couplings:
+        pin, slot = coupling.pin, coupling.slot
+        if coupling.kind == "pin_and_slot" and pin in angles and slot not in angles:
+            yield slot, stage.sense(slot) * stage.sense(pin) * (angles[pin] - stage.start(pin)) + stage.start(slot)
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:

@@ -10,20 +10,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from math import cos, floor, pi, sin
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.scene.stroke_letters import Stroke, curved_text, text_length
+from geartrain.train.outputs import INNER, RING
 
 if TYPE_CHECKING:
     from geartrain.train.outputs import Dial, Graduation
 
 Point = tuple[float, float]
-
-INNER = 0.55
-"""Radius of the inner end of a spiral divided by the radius of its outer end."""
-RING = 0.17
-"""Width of a scale around another scale, relative to the radius of the dial."""
 
 _CELL = "cell"
 _NUMERALS, _HOURS = 12, 24  # maximum count of numerals: default, declared
@@ -93,6 +90,10 @@ class DialScale:
     """Second scale, which surrounds this scale; None if there is none."""
     radial: bool = False
     """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
+    cells: tuple[str, ...] = ()
+    """Name of every division; empty if divisions have no own names."""
+    inscriptions: tuple[tuple[str, str], ...] = ()
+    """Names that are engraved as another text, each with this text."""
     counted: int = 0
     """Number of divisions after which declared numerals restart; 0 if no numerals are declared and cells are counted
     from 1.
@@ -134,7 +135,9 @@ class DialScale:
             parts.append(f"turn {read.turn}")
         if read.name:
             parts.append(read.name)
-        if read.name and len(self.names) < self.divisions:
+        if self.cells:
+            parts.append(self.cells[read.cell - 1])
+        elif read.name and len(self.names) < self.divisions:
             parts.append(f"{self.cell} {read.within}")
         elif not read.name and self.divisions > 1:
             parts.append(f"{self.cell} {self.number(read.cell)}")
@@ -165,6 +168,8 @@ def _scale(
         tuple(sorted(graduation.glyphs.items())),
         around,
         graduation.numerals is not None and graduation.numerals.style == "roman",
+        graduation.cells,
+        tuple(graduation.inscriptions.items()),
         0 if graduation.numerals is None else graduation.numerals.to or graduation.divisions,
     )
 
@@ -202,6 +207,7 @@ _SHORT, _LONG = 0.032, 0.05  # lengths of borders, and of those at numerals
 _TALL, _MINIMUM = 0.068, 0.03  # normal and minimum height of letters
 _BAND = 0.1  # from a rim to the middle of the text along it
 _FULL = 0.86  # maximum length of a name divided by that of its divisions
+_LEADING = 1.35  # distance of lines of text divided by the height of letters
 _APART = 0.5  # gap between numerals divided by their height
 
 Kind = Literal["rim", "fine", "bold", "letters"]
@@ -279,7 +285,7 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
     none.
     """
     radius = scale.outer - _BAND
-    named = [part for part in scale.names if part[0]]
+    named = [(_engraved(scale, name), first, span) for name, first, span in scale.names if name]
     # fewer names leave more space for each
     for every in range(1, 7):
         # a name may extend over its omitted neighbours; 0.9 leaves a gap to the next name
@@ -325,12 +331,14 @@ def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
-    """Yield glyphs in their cells, in a common size that fits in all cells."""
-    if not scale.glyphs:
-        return
-    height = min(_TALL, *(_fitting(text, radius, scale.turn_of(1)) for _, text in scale.glyphs))
-    at = ((text, scale.turn_of(Fraction(2 * cell - 1, 2))) for cell, text in scale.glyphs)
-    yield _letters((each for text, turn in at for each in _written(scale, text, radius, turn, height)), height)
+    """Yield glyphs, or names, in their cells, in a common size that fits in all cells; names that would be too small
+    are omitted.
+    """
+    texts = scale.glyphs or tuple((cell, _engraved(scale, name)) for cell, name in enumerate(scale.cells, 1))
+    height = min([_TALL, *(_fitting(text, radius, scale.turn_of(1)) for _, text in texts)])
+    at = ((text, scale.turn_of(Fraction(2 * cell - 1, 2))) for cell, text in texts)
+    if scale.glyphs or height >= _MINIMUM:
+        yield _letters((each for text, turn in at for each in _written(scale, text, radius, turn, height)), height)
 
 
 # ---------------------------------------------------------------------------------------------------------- spiral
@@ -348,15 +356,57 @@ def _spiral(scale: DialScale) -> Iterator[Engraving]:
     yield _lines("rim", [_line(scale, 0, scale.turns), _line(scale, 0, 1, pitch)])
     yield _lines("fine", [each for cell, each in borders.items() if cell not in starts])
     yield _lines("bold", [each for cell, each in borders.items() if cell in starts])
+    if scale.cells:
+        yield from _cell_names(scale, pitch)
+        return
     written = dict(scale.glyphs)
     for coil in range(scale.turns):
         cell = -(-coil * scale.divisions // scale.turns) + 1
         written.setdefault(cell, str(cell))
     cells = [(text, Fraction(2 * cell - 1, 2), Fraction(1), 0.0) for cell, text in sorted(written.items())]
-    names = [(name, first + span / 2, span, 0.25 * pitch) for name, first, span in scale.names if name]
+    names = [
+        (_engraved(scale, name), first + span / 2, span, 0.25 * pitch) for name, first, span in scale.names if name
+    ]
     for text, middle, span, readable in (*cells, *names):
         turn = scale.turn_of(middle)
         radius = scale.radius(float(turn)) - pitch / 2
         height = min(0.5 * pitch, _TALL, _fitting(text, radius, scale.turn_of(span)))
         if height >= readable:
             yield _letters(_written(scale, text, radius, turn, height), height)
+
+
+def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
+    """Yield the name of every cell of a spiral on up to three lines, below the name of the group that it begins."""
+    starts = {first: name for name, first, _ in scale.names}
+    glyphs = dict(scale.glyphs)
+    for cell, name in enumerate(scale.cells):
+        turn = scale.turn_of(Fraction(2 * cell + 1, 2))
+        middle = scale.radius(float(turn)) - pitch / 2
+        above = [text for text in (_engraved(scale, starts.get(Fraction(cell), "")), glyphs.get(cell + 1)) if text]
+        ways = [[*above, *_split(_engraved(scale, name), rows)] for rows in (1, 2, 3)]
+        heights = [_stacked(scale, lines, middle, pitch) for lines in ways]
+        height = max(heights)
+        lines = ways[heights.index(height)]
+        # the first line is the outermost where letters are upright, else the innermost
+        if cos(2 * pi * float(scale.way * turn)) < -0.01:
+            lines = lines[::-1]
+        for row, text in enumerate(lines):
+            radius = middle + ((len(lines) - 1) / 2 - row) * _LEADING * height
+            yield _letters(_written(scale, text, radius, turn, height), height)
+
+
+def _engraved(scale: DialScale, name: str) -> str:
+    """Return the text that is engraved for a name."""
+    return dict(scale.inscriptions).get(name, name)
+
+
+def _split(text: str, rows: int) -> list[str]:
+    """Return a word in a number of parts of nearly equal numbers of letters."""
+    ends = [round(row * len(text) / rows) for row in range(rows + 1)]
+    return [text[first:last] for first, last in pairwise(ends) if last > first]
+
+
+def _stacked(scale: DialScale, lines: Sequence[str], radius: float, pitch: float) -> float:
+    """Return the maximum height of letters of lines in one cell of a spiral, relative to the radius of the dial."""
+    deep = _FULL * pitch / (1 + _LEADING * (len(lines) - 1))
+    return min(_TALL, deep, *(_fitting(text, radius - pitch / 2, scale.turn_of(1)) for text in lines))

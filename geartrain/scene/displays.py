@@ -104,7 +104,7 @@ def _road_wheel(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart
     lines = [_flat(circle(radius)), *(_flat(_window(radius, number)) for number in range(_SPOKES))]
     yield _part(stage, link, f"{name} road", at, out, outlines=lines, height=_TYRE * radius)
     hub = 0.9 * _HUB * radius
-    yield _part(stage, link, f"{name} hub", at, out, bands=[(-1.1 * _TYRE * radius, 1.1 * _TYRE * radius, hub, 0.0)])
+    yield _part(stage, link, f"{name} nave", at, out, bands=[(-1.1 * _TYRE * radius, 1.1 * _TYRE * radius, hub, 0.0)])
     start = mine / len(own) if own else 0.0
     yield _part(stage, link, f"{name} shaft", point, out, bands=[(abs(start), away, 0.3 * hub, 0.0)])
 

@@ -33,8 +33,9 @@ class ScenePart(Shown):
     name: str
     """Name of the part in the list of parts."""
     kind: str
-    """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate. A
-    plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials is `dial`.
+    """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, drum, foot, cock, pin,
+    plate. A plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials
+    is `dial`.
     """
     place: Vector
     """Position of the origin of the part in the zero pose [mm]."""
@@ -120,7 +121,7 @@ class SceneBody(Shown):
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
-    """Declared starting angle of the link [rad]."""
+    """Starting angle of the link [rad]: as declared, or from the epoch."""
     role: str
     """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False

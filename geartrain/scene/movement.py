@@ -269,7 +269,7 @@ def find_movement(stage: SceneContext) -> MovementStart:
         return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _starting_angles(stage))
     try:
         motion = stage.train.motion(stage.answer.state, tuple(stage.train.declaration.links))
-        return _followed(stage, motion)
+        return _followed(stage, motion._with_angles(stage.set_angles) if stage.set_angles else motion)
     except GearTrainError as error:
         return _mean_movement(stage, error.problems)
 

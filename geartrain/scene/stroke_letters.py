@@ -110,6 +110,7 @@ _GREEK = {
     "Σ": "6808340060",
     "Φ": "3038 ~22042646644222",
     "Ψ": "3038 ~080523436568",
+    "Ϛ": "~664828060322424120",
     "Ω": "0020 ~2003062848666340 4060",
 }
 _FIGURES = {
@@ -137,6 +138,7 @@ _SIGNS = {
 _SAME = dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ABEZHIKMNOPTYX", strict=True))
 _LETTERS = _LATIN | _GREEK | _FIGURES | _SIGNS
 _UNKNOWN = "0008585000"
+_SMALL, _SIMPLE = 0.025, 6  # relative height of letters whose strokes of over six points are drawn with half of them
 
 
 @cache
@@ -197,6 +199,8 @@ def curved_text(text: str, height: float, radius: float, angle: float, inwards: 
             continue
         out, right = (sin(turned), cos(turned)), (cos(turned), -sin(turned))
         for stroke in letter_strokes(letter)[0]:
+            if height < _SMALL and len(stroke) > _SIMPLE:
+                stroke = (*stroke[:-1:2], stroke[-1])
             yield tuple(
                 ((radius + v) * out[0] + u * right[0], (radius + v) * out[1] + u * right[1])
                 for u, v in ((way * (x * height - wide / 2), way * (y - 0.5) * height) for x, y in stroke)

@@ -13,7 +13,7 @@ the line through `point` along `direction`, after the parent has moved that line
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
 from geartrain.numerics.results import Shown, plain
@@ -71,6 +71,8 @@ class DialFace(Shown):
     """Note on the dial, as declared."""
     plate: float = 0.0
     """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if the scene has no such disc."""
+    placed: bool = False
+    """True if the centre of the dial is declared and its pointers turn about it, False if the position is computed."""
     seated: bool = False
     """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""
@@ -100,6 +102,25 @@ class PointerTarget(Shown):
 
 
 @dataclass(frozen=True, slots=True)
+class SceneSetting(Shown):
+    """Angle to which a pointer is set at a date, as a polynomial of the time.
+
+    See Also
+    --------
+    make_scene : returns it in `SceneEpoch.settings`.
+    """
+
+    pointer: int
+    """Index of the pointer."""
+    sense: int
+    """1 if the angle is counted in the sense of the output, -1 if it is counted against it."""
+    angle: Sequence[float]
+    """Coefficients of the angle [deg], in ascending powers of Julian centuries of Terrestrial Time since J2000.0."""
+    body: str
+    """Body of the sky whose longitude the pointer shows, such as sun or moon_node; empty for other angles."""
+
+
+@dataclass(frozen=True, slots=True)
 class SceneEpoch(Shown):
     """Date that corresponds to a number of turns of the driving link, and the duration of one turn.
 
@@ -120,6 +141,14 @@ class SceneEpoch(Shown):
     """Source of the date, as declared."""
     note: str
     """Note on the date, as declared."""
+    settings: Sequence[SceneSetting] = ()
+    """Pointers that are set at that date; a pointer is after the pointer that sets its base."""
+    unset: Sequence[str] = ()
+    """Outputs on a zodiac that are not set."""
+    elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
+    """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body ->
+    longitude, perihelion (of the Moon perigee and node) [deg], eccentricity, distance [au]; empty without settings.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,7 +287,8 @@ class Scene(Shown):
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link."""
+    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link, and for a run.
+    """
     tour: Sequence[TourStop] = ()
     """Tour of the train, as declared."""
     formulas: SceneFormulas | None = None

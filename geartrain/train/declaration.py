@@ -60,7 +60,7 @@ from geartrain.train.mechanism import (
     Thickness,
     Wheel,
 )
-from geartrain.train.outputs import Dial, Output, SpeedUnit, TourStep, View
+from geartrain.train.outputs import Dial, FacePlate, Output, SpeedUnit, TourStep, View
 from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date
 from geartrain.train.reconstruction import Reconstruction
 from geartrain.train.states import Clutch, Drive, Erratum, Escapement, Remove, State, StateCase
@@ -267,6 +267,9 @@ class Train(Declared):
     view: View = Field(View(), description="Side from which the train is viewed, and positive sense of rotation")
     dials: ByName[Annotated[Dial, Nothing]] = Field(
         {}, validate_default=True, description="Dials with their scales, by name"
+    )
+    dial_plate: FacePlate | None = Field(
+        None, description="Size of the rectangular plates of the dials; default as small as the dials permit"
     )
     epoch: DeclaredEpoch | None = Field(
         None, description="Date at which the positions of all pointers are known; needs a `unit` of time"

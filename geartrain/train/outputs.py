@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from math import atan2, pi
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
@@ -15,7 +16,18 @@ from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.exact import nearest_float
 from geartrain.numerics.plain_values import Boolean, whole_number
-from geartrain.numerics.quantity import Amount, Figure, RelativeError, Span, above_zero, bad, checked, scale
+from geartrain.numerics.quantity import (
+    Amount,
+    Figure,
+    MeasuredLength,
+    RelativeError,
+    Span,
+    above_zero,
+    bad,
+    checked,
+    millimetres,
+    scale,
+)
 from geartrain.train.fields import AlsoShort, Declared, Id, exactly_one, short_for
 
 # ------------------------------------------------------------------------------------------------------ printed periods
@@ -195,6 +207,13 @@ class Graduation(Declared):
     glyphs: Annotated[dict[Whole, str], AfterValidator(FrozenDict)] = Field(
         {}, validate_default=True, description="Engraved texts of single divisions, by their number from 1"
     )
+    cell_names: tuple[str, ...] = Field((), description="Names of single divisions, which repeat, such as months")
+    doubled: tuple[Whole, ...] = Field(
+        (), description="Numbers of divisions that have the same cell name as the division before, as leap months"
+    )
+    inscriptions: Annotated[dict[str, str], AfterValidator(FrozenDict)] = Field(
+        {}, validate_default=True, description="Engraved texts of names, such as Greek ones; default the name itself"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -245,7 +264,7 @@ class Graduation(Declared):
                     "fix": "make the spans add up to `divisions`, or omit `divisions`",
                 },
             )
-        for cell in self.glyphs:
+        for cell in (*self.glyphs, *self.doubled):
             if cell > self.divisions:
                 context = {
                     "cell": cell,
@@ -253,7 +272,21 @@ class Graduation(Declared):
                     "fix": f"give a number from 1 to {self.divisions}",
                 }
                 raise PydanticCustomError("dial", "cell {cell} is beyond the {divisions} divisions", context)
+        known = {*self.cell_names, *(each.name for each in self.names)}
+        for name in self.inscriptions:
+            if name not in known:
+                near = suggest(name, sorted(known), otherwise="write one of the names of the dial")
+                raise PydanticCustomError("dial", "the dial has no name '{name}'", {"name": name, "fix": near})
         return self
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """Name of every division, from the repeated `cell_names`; empty without them."""
+        found, count = list[str](), len(self.cell_names)
+        for cell in range(1, self.divisions + 1 if count else 1):
+            before = sum(each <= cell for each in self.doubled)
+            found.append(self.cell_names[(cell - 1 - before) % count])
+        return tuple(found)
 
     @property
     def parts(self) -> tuple[tuple[str, Fraction, Fraction], ...]:
@@ -285,6 +318,34 @@ class DialRing(Graduation):
     """
 
 
+INNER = 0.55
+"""Radius of the inner end of a spiral divided by the radius of its outer end."""
+RING = 0.17
+"""Width of a scale around another scale, relative to the radius of the dial."""
+DEPTH = 0.26
+"""Depth of the engraving of a circle, relative to the radius of the dial."""
+
+Place = tuple[MeasuredLength, MeasuredLength]
+"""Point of a face as seen by its reader: to the right and upwards from the origin of the axis positions."""
+
+
+class FacePlate(Declared):
+    """Rectangular plates on which the dials of the front and of the back are engraved.
+
+    See Also
+    --------
+    Train : its field `dial_plate`
+    """
+
+    width: Annotated[MeasuredLength, above_zero("give a width such as 180 mm")] = Field(description="Width")
+    height: Annotated[MeasuredLength, above_zero("give a height such as 330 mm")] = Field(description="Height")
+    centre: Place | None = Field(
+        None, description="Centre as seen by the reader, to the right and upwards from the origin; default the origin"
+    )
+    source: Id | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers, such as which sizes are assumed")
+
+
 class Dial(Graduation):
     """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative.
 
@@ -300,7 +361,16 @@ class Dial(Graduation):
 
     SHORT: ClassVar = {"type": "null"}
 
-    face: str | None = Field(None, description="Side from which the dial is read, front or back")
+    face: Literal["front", "back"] | None = Field(None, description="Side from which the dial is read, front or back")
+    centre: Place | None = Field(
+        None,
+        description="Centre as seen by the reader, to the right and upwards from the origin of the axis positions; it "
+        "determines the axis of the pointers; default computed",
+    )
+    diameter: Annotated[MeasuredLength, above_zero("give a diameter such as 150 mm")] | None = Field(
+        None, description="Diameter of the whole engraving; default computed"
+    )
+    source: Id | None = Field(None, description="Key of the source of `centre` and `diameter` in `sources`")
     turns: Whole = Field(1, description="Number of turns of a spiral scale")
     counted: Literal["clockwise", "counter-clockwise"] = Field(
         "clockwise", description="Sense in which the divisions are counted, as seen by the reader"
@@ -311,6 +381,38 @@ class Dial(Graduation):
         description="Appearance: a scale with a pointer, or a half-black ball that shows the Moon's phase",
     )
     note: str | None = Field(None, description="Remark for readers")
+
+    @property
+    def circle(self) -> tuple[float, float, float] | None:
+        """Centre (right, up) and radius [mm] on its face; None if one of them is not declared."""
+        if self.centre is None or self.diameter is None:
+            return None
+        x, y = (float(millimetres(each)) for each in self.centre)
+        return x, y, float(millimetres(self.diameter)) / 2
+
+    @property
+    def clear(self) -> float:
+        """Radius of the disc inside its engraving, divided by the radius of the dial."""
+        outer = 1.0 if self.around is None else 1.0 - RING
+        if self.turns > 1:
+            return outer * (INNER - (1 - INNER) / self.turns)
+        return outer - DEPTH
+
+    def reach(self, right: float, up: float) -> float:
+        """Return the extent of its engraving in a direction, divided by the radius of the dial, which a spiral reaches
+        only at its outer end.
+
+        Parameters
+        ----------
+        right : float
+            Component of the direction to the right of the reader; its length is arbitrary.
+        up : float
+            Component of the direction upwards.
+        """
+        if self.turns == 1 or self.around is not None:
+            return 1.0
+        turn = atan2(right if self.counted == "clockwise" else -right, up) / (2 * pi) % 1
+        return 1 - (1 - INNER) / self.turns * (1 - turn if turn else 0)
 
 
 _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face the front
@@ -525,6 +627,16 @@ class Published(Declared):
         return self
 
 
+def _check_at_epoch(raw: object) -> str:
+    from geartrain.train.sky import read_sky_angle
+
+    try:
+        read_sky_angle(str(raw))
+    except ValueError as error:
+        raise bad("at_epoch", *error.args) from None
+    return str(raw)
+
+
 class Output(Declared):
     """Output of the train: the speed of a link, or of one link relative to another.
 
@@ -550,6 +662,14 @@ class Output(Declared):
         description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), a thin hand with a "
         "counterpoise (seconds), a sphere on an arm, a bead on a ring of its own (bead), or the eccentric ring of an "
         "astrolabe (ecliptic); without a dial, a pointing figure on the link, or a road wheel (wheel)",
+    )
+    at_epoch: Annotated[str, BeforeValidator(_check_at_epoch)] | None = Field(
+        None,
+        description="Angle at the `epoch` of the train, without the anomalies of its pins: a sum of mean angles of the "
+        "sky and constants, such as `sun`, `moon - sun`, `mars_anomaly + 180 deg` or `33.1 deg`; read along the scale "
+        "of the dial, without one in the sense of the output. Names: `sun`, `moon`, `moon_node`, `moon_perigee`, "
+        "`mercury` to `saturn`, and `moon_anomaly`, `mercury_anomaly` to `saturn_anomaly`. The page draws the train "
+        "in these positions; an output of a zodiac without them is not set to the sky",
     )
     note: str | None = Field(None, description="Remark for readers")
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from itertools import combinations
+from math import hypot
 from typing import Any
 
 from geartrain.errors import Loc, Problem, dotted, suggest
@@ -151,6 +153,19 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
         )
 
 
+def set_outputs(train: Train) -> Iterator[Problem]:
+    """Yield problems of links that outputs set twice at the epoch, or after an output that is relative to them."""
+    used: dict[str, str] = {}  # links that are set or referred to, with the output
+    for name, output in train.outputs.items():
+        of, base = output.links(name, train.frame)
+        if output.at_epoch is not None and of in used:
+            why = "a link has one angle at the epoch, before outputs that are relative to it"
+            fix = f"remove one `at_epoch`, or move '{name}' above '{used[of]}'"
+            yield Problem(f"'{used[of]}' and '{name}' both need '{of}'", why, fix, train.place("outputs", name))
+        if output.at_epoch is not None:
+            used = {base: name} | used | {of: name}
+
+
 def _suggested_unit(train: Train, per: str) -> str:
     """Return a correction of a unit that cannot be read."""
     number, name = re.fullmatch(r"([\d./ ]*)(.*)", per.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
@@ -228,8 +243,10 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _unresolved(train)
     yield from _prescriptions(train)
     yield from _one_way(train)
+    yield from _dials(train)
     yield from _reconstruction(train)
     yield from declared_units(train)
+    yield from set_outputs(train)
 
 
 _HOMES = {
@@ -463,6 +480,8 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
                 stated.append(((*loc, "teeth"), wheel.teeth))
     for at, gear in enumerate(train.gears):
         stated += [(("gears", at), gear), (("gears", at, "fitting"), gear.fitting)]
+    stated += [(("dials", name), dial) for name, dial in train.dials.items()]
+    stated.append((("dial_plate",), train.dial_plate))
     yield from (("source", part.source, loc) for loc, part in stated if part is not None)
     if train.reconstruct is not None:
         for at, pair in enumerate(train.reconstruct.apart):
@@ -485,6 +504,24 @@ def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Ite
     if output.published:
         yield "source", output.published.source, (*loc, "published")
     yield from (("source", target.source, (*loc, "targets", at)) for at, target in enumerate(output.targets))
+
+
+def _dials(train: Train) -> Iterator[Problem]:
+    """Yield a problem for each two dials of a face whose engravings overlap; a dial may be inside another scale."""
+    for (name, dial), (other, mate) in combinations(train.dials.items(), 2):
+        one, two = dial.circle, mate.circle
+        if one is None or two is None or (dial.face == "back") != (mate.face == "back"):
+            continue
+        x, y, apart = two[0] - one[0], two[1] - one[1], hypot(two[0] - one[0], two[1] - one[1])
+        beside = one[2] * dial.reach(x, y) + two[2] * mate.reach(-x, -y)
+        inside = max(one[2] * dial.clear - two[2], two[2] * mate.clear - one[2])
+        over = min(beside - apart, apart - inside)
+        if over > 0:
+            what = f"dials '{name}' and '{other}' overlap by {over:.3g} mm"
+            sizes = f"{2 * one[2]:.4g} and {2 * two[2]:.4g} mm"
+            why = f"their centres are {apart:.4g} mm apart, and their diameters are {sizes}"
+            fix = f"move `centre`, or reduce a `diameter` by {2 * over:.3g} mm"
+            yield Problem(what, why, fix, train.place("dials", other))
 
 
 def _prescriptions(train: Train) -> Iterator[Problem]:

@@ -109,7 +109,8 @@ def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
 
 def test_a_dial_about_two_axes_has_a_face_for_each(show: Opening) -> None:
     """They are distinguished by their outputs; the single hand of each has the first colour."""
-    shown = show("price-1974")
+    unplaced = "outputs: {lunar year: {dial: lower}}\ndials: {lower: {centre: null, diameter: null}}\n"
+    shown = show(f"name: two-faces\nextends: price-1974\n{unplaced}")
     faces = shown.run("[...document.querySelectorAll('.card')].map((each) => each.querySelector('strong').textContent)")
     assert faces == ["zodiac", "lower (synodic month)", "lower (lunar year)", "upper"]
     hands = shown.run(
@@ -123,7 +124,7 @@ def test_a_dial_about_two_axes_has_a_face_for_each(show: Opening) -> None:
     "name", ["freeth-2008", "freeth-2021", "moon-triangular", "freeth-2021-teeth", "pennestri-2002-teeth"]
 )
 def test_pins_and_real_teeth_move_as_the_motion_says(show: Opening, name: str) -> None:
-    motion = shipped.train(name).motion()
+    motion = shipped.train(name).motion()._with_angles({body.id: body.start for body in shipped.scene(name).bodies})
     turns = np.array([0.0, 0.4140625, 3.25, 1000.0, 76543.21875, 1e6 + 0.8125])
     errors = motion.at(turns).error
     shown = show(name)

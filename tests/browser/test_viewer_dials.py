@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import hypot
+from math import hypot, pi
 
 import pytest
 import shipped
@@ -60,7 +60,8 @@ def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> No
         lead = scene.bodies[scene.driving_link or 0].id
         speed = Fraction(solved[pointer.output]) / Fraction(solved.speeds[lead])
         assert of != base
-        words = scale.reading_text(pointer.sense * scale.way * speed * at)
+        start = Fraction((scene.bodies[pointer.body].start - scene.bodies[pointer.base].start) / (2 * pi))
+        words = scale.reading_text(pointer.sense * scale.way * (speed * at + start))
         assert told[pointer.output].partition(", ")[2] == words, pointer.output
         checked += 1
     assert checked >= 3
@@ -105,3 +106,9 @@ def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show: Opening) -> N
     )
     assert classes["sun in zodiac"] == classes["sun"] != classes["zodiac"]
     assert classes["sidereal month"] == classes["moon"] not in (classes["sun"], classes["zodiac"])
+
+
+def test_dials_without_a_declared_place_say_that_their_layout_is_computed(show: Opening) -> None:
+    cards = "[...document.querySelectorAll('.card')].map((each) => /layout computed/.test(each.textContent))"
+    assert not any(show(ANTIKYTHERA).run(cards))
+    assert show("longcase-clock").run(cards) == [True] * 3

@@ -77,7 +77,7 @@ def test_taken_apart_nothing_leaves_the_picture(show: Opening, name: str) -> Non
             apart.fill(share)
             across, upwards = shown.run(SPREAD, 0)
             assert max(across, upwards) < 1, (look, share)
-            assert max(across, upwards) > 0.7, (look, share)
+            assert max(across, upwards) > 0.6, (look, share)  # wheels; the corners of plates are farther out
     shown.page.mouse.move(200, 300)
     for _ in range(12):
         shown.page.mouse.wheel(0, -400)  # nearer: the target keeps its position and its distance

@@ -6,16 +6,29 @@ import math
 import random
 from datetime import date
 from fractions import Fraction
+from math import cos, pi
+from typing import TYPE_CHECKING
 
 import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, go, tab, turns, unfold, wait
 
+from geartrain import GearTrain
+from geartrain.drawing.dial_faces import pointer_readings
+from geartrain.scene import make_scene
 from geartrain.train import date_of, julian_day, period_table, read_date
+
+if TYPE_CHECKING:
+    from conftest import Shown
 
 YEAR = period_table()["year_tropical_J2000"].value
 LUNAR = read_date("-204-05-12")  # the full Moon of month 1, half a month after the Saros pointer's start
-START = julian_day(LUNAR) - Fraction(19, 470) * YEAR
+SET = Fraction(19, 470)  # turns at the epoch, at which the pointers of the zodiac are set
+START = julian_day(LUNAR) - SET * YEAR
+# mean longitude of the Sun at the epoch [turns]: J. Meeus, Astronomical Algorithms, 2nd edition, 1998, equation (25.2);
+# Terrestrial Time is 13,089 s ahead (Morrison and Stephenson 2004)
+CENTURIES = (julian_day(LUNAR) + Fraction(13_089, 86_400) - 2451545) / 36525
+MEAN_SUN = (Fraction("280.46646") + Fraction("36000.76983") * CENTURIES + Fraction("0.0003032") * CENTURIES**2) / 360
 
 MONTHS = [date(2000, month, 1).strftime("%B") for month in range(1, 13)]
 
@@ -94,9 +107,9 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
     go(shown, at)
     unfold(shown, "Comparison")
     assert "Carman and Evans" in shown.page.locator(".epoch").inner_text()
-    assert "Mean motion" in shown.page.locator(".tells").inner_text()
+    assert "true geocentric longitude" in shown.page.locator(".tells").inner_text()
     rows = shown.run(
-        """[...document.querySelectorAll('.sky tbody tr')].map((row) => [row.dataset.pointer, row.dataset.target,
+        """[...document.querySelectorAll('.sky tr[data-target]')].map((row) => [row.dataset.pointer, row.dataset.target,
           ...[...row.querySelectorAll('.angle')].map((cell) => cell.textContent),
           row.querySelector('.copy').dataset.exact])"""
     )
@@ -110,14 +123,17 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
         goal = turned * (YEAR / row.value if row.kind == "period" else abs(row.value))
         own = Fraction(solved[output])
         goal = -goal if own < 0 else goal
-        assert Fraction(exact) == (own - goal) * at, (output, target)
+        assert Fraction(exact) == (own - goal) * (at - SET), (output, target)
         declared = train.declaration.outputs[output]
         face = train.declaration.dials[declared.dial].face if declared.dial else "front"
         sense = clockwise if (face == "front") != (output == "games") else -clockwise  # Games: counted backwards
         for text, speed in ((pointer, own), (sky, goal)):
             # texts are rounded to 0.01 degree; pointers with errors of pins are checked elsewhere
             if output in ("sun", "metonic", "games", "callippic", "saros", "exeligmos"):
-                off = float(text.removesuffix("\u00b0")) - float(sense * speed * at % 1) * 360
+                mean = MEAN_SUN if output == "sun" else own * SET
+                off = (
+                    float(text.removesuffix("\u00b0")) - float((sense * (speed * (at - SET)) + sense * mean) % 1) * 360
+                )
                 assert abs((off + 180) % 360 - 180) <= 0.0051, (output, target)
                 checked.add(output)
     assert len(checked) == 6
@@ -129,7 +145,117 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
         )
     )
     month = period_table()["metonic_235_synodic_modern"].value
-    assert marks["metonic"] == pytest.approx(float(5 * YEAR / month * at % 5), abs=1e-9)
+    assert marks["metonic"] == pytest.approx(float((5 * YEAR / month * (at - SET) + SET * 5 / 19) % 5), abs=1e-9)
+
+
+def sky(shown: Shown) -> dict[str, list[float]]:
+    """Return the pointer, the sky and their difference [deg] in the Sky tab, by output."""
+    rows = shown.run(
+        "[...document.querySelectorAll('[data-heaven]')].map((row) => [row.dataset.heaven, "
+        "...[...row.querySelectorAll('.angle')].slice(0, 3).map((cell) => cell.textContent)])"
+    )
+    number = [
+        (name, [float(text.removesuffix("\u00b0").replace("\u2212", "-")) for text in texts]) for name, *texts in rows
+    ]
+    return dict(number)
+
+
+def same_angle(one: float, other: float) -> float:
+    """Return the difference of two angles [deg], -180 to 180."""
+    return (one - other + 180) % 360 - 180
+
+
+@pytest.mark.parametrize("date", ["-204-05-12", "1000-03-03", "2026-11-28 18:30"])
+def test_pointers_set_to_the_sky_agree_with_a_train_whose_epoch_is_that_date(show: Opening, date: str) -> None:
+    shown = show("freeth-2021")
+    day = julian_day(read_date(date))
+    shown.page.get_by_label("Go to date").fill(date)
+    shown.page.keyboard.press("Enter")
+    unfold(shown, "Comparison")
+    shown.page.get_by_role("button", name="Set at the displayed date").click()
+    declared = shipped.train("freeth-2021").declaration
+    epoch = declared.epoch.changed(date=date, turns=str((day - START) / YEAR))
+    scene = make_scene(GearTrain(declared.changed(epoch=epoch)))
+    found = shown.run("geartrain.scenes[0]")
+    for one, other in zip(found["bodies"], scene.bodies, strict=True):
+        assert cos(one["start"] - other.start) == pytest.approx(1, abs=1e-12), other.id
+    for one, other in zip(found["couplings"], scene.couplings, strict=True):
+        assert cos(one["slot_turn"] - other.slot_turn) == pytest.approx(1, abs=1e-12), other.id
+    for one, other in zip(found["movement"]["sources"], scene.movement.sources, strict=True):
+        assert cos(one["start"] - other.start) == pytest.approx(1, abs=1e-12), other.pair
+    readings = {each.output: 360 * float(each.at) for each in pointer_readings(scene, (day - START) / YEAR)}
+    assert len(sky(shown)) == 9
+    for output, (pointer, heaven, ahead) in sky(shown).items():
+        assert same_angle(pointer, readings[output]) == pytest.approx(0, abs=0.006), output
+        assert same_angle(pointer - heaven, ahead) == pytest.approx(0, abs=0.02), output
+    assert misfits(shown) == pytest.approx([0] * 37, abs=1e-6)
+    assert shown.errors == []
+
+
+def misfits(shown: Shown) -> list[float]:
+    """Return the distance of a tooth from the middle of its space [pitch] at 0 turns, for all pairs of spur wheels."""
+    scene = shown.run("geartrain.scenes[0]")
+    angles = shown.run("geartrain.scenes[0].bodies.map((_, body) => geartrain.machines[0].angle(body, 0))")
+    found = []
+    for pair in scene["pairs"]:
+        wheels = [scene["wheels"][at] for at in pair["wheels"]]
+        if any(wheel["cone"] for wheel in wheels):
+            continue
+        x, y = (wheels[1]["centre"][at] - wheels[0]["centre"][at] for at in (0, 1))
+        past = 0.0
+        for wheel, away in zip(wheels, (0, pi), strict=True):
+            first = math.atan2(wheel["reference"][1], wheel["reference"][0]) + wheel["turn"]
+            seen = first + angles[wheel["body"]] - angles[pair["carrier"]] - math.atan2(y, x) - away
+            past += seen * wheel["teeth"] / (2 * pi)
+        found.append((past + 1) % 1 - 0.5)
+    return found
+
+
+def test_today_sets_the_pointers_to_the_sky_of_the_clock(show: Opening) -> None:
+    shown = show("freeth-2021")
+    shown.page.clock.set_fixed_time("2026-11-28T12:00:00Z")
+    shown.page.get_by_role("button", name="Today").click()
+    assert shown.page.locator(".date").inner_text() == "28 November 2026, 12:00"
+    assert turns(shown) == (julian_day(read_date("2026-11-28")) - START) / YEAR
+    unfold(shown, "Comparison")
+    found = sky(shown)
+    # geocentric longitudes of that day by VSOP87 and ELP-2000/82 (PyMeeus 0.5.12)
+    published = {"sun": 246.26, "mercury": 228.49, "venus": 206.68, "mars": 150.99, "jupiter": 146.68}
+    published |= {"saturn": 8.07, "moon": 120.39}
+    for output, longitude in published.items():
+        assert same_angle(found[output][1], longitude) == pytest.approx(0, abs=0.35), output
+        assert abs(same_angle(found[output][0], longitude)) < 7, output
+    names = shown.run("[...document.querySelectorAll('tr[data-output]')].map((row) => row.textContent)")
+    signs = {"sun": "Sagittarius", "jupiter": "Leo", "saturn": "Aries"}
+    assert [sign for output, sign in signs.items() if any(output in text and sign in text for text in names)] == [
+        *signs.values()
+    ]
+
+
+def test_a_zodiac_without_positions_has_no_date(show: Opening) -> None:
+    unset = CALENDAR.replace("outputs: {week: {", "dials: {z: {names: zodiac}}\noutputs: {week: {dial: z, ")
+    shown = show(text=unset)
+    assert shown.page.locator(".date").inner_text() == "not set to the sky"
+    assert shown.page.get_by_label("Go to date").count() == 0
+    unfold(shown, "Comparison")
+    assert "not set to the sky" in shown.page.locator("[data-heaven=week]").inner_text()
+    shown = show(text=unset.replace("dial: z, ", "dial: z, at_epoch: 33.1 deg, "))
+    assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"
+    go(shown, "7/2")
+    reading = shown.page.locator("[data-angle=week]").inner_text()
+    assert reading == "213.10\u00b0, Scorpio, degree 4"  # half a turn later
+
+
+def test_the_speed_is_in_days_a_second_where_there_are_dates(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    shown.page.clock.install(time="2026-01-01T00:00:00Z")
+    shown.page.clock.pause_at("2026-01-01T01:00:00Z")
+    shown.page.get_by_label("days a second").fill("50")
+    shown.page.get_by_role("button", name="play", exact=True).click()
+    shown.page.clock.run_for(2000)
+    assert float(turns(shown) * YEAR) == pytest.approx(100, rel=0.03)
+    shown = show(SIMPLE)
+    assert shown.page.get_by_label("turns a second").count() == 1
 
 
 def test_errors_of_very_long_times_stay_in_their_column(show: Opening) -> None:

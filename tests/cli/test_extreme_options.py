@@ -78,8 +78,8 @@ pin 10 | value value:length
 pin 10 5 | friction driver
 pin 10 12 --driver slot | friction
 mesh 24 36 --compare | p=arcs p=pressure_angle:angle shaft-angle:angle form
-motion {pair} --samples 40 | turns seed phases tabulated output
-motion {pair} --samples 40 --turns 3 --spectrum --estimates | turns tabulated
+motion {pair} --samples 40 | turns seed phases output
+motion {pair} --samples 40 --turns 3 --spectrum --estimates | turns
 motion {pair} --turns 3 | samples:few
 montecarlo {pair} --trials 4 | seed set clearance workers:few
 montecarlo {pair} | trials:few
@@ -178,7 +178,6 @@ pin 10 | value:length | 1e300
 mesh 24 36 --compare | shaft-angle:angle | 1e-300
 mesh 24 36 --form cycloidal | shaft-angle:angle | 1e-300
 motion {pair} --samples 40 | turns | 1e300 nan -inf
-motion {pair} --samples 40 | tabulated | nan -1
 motion {pair} --samples 40 | seed | -1
 motion {pair} --samples 40 | phases | 9999999999999999999999999
 draw {pair} -o {out}/d.svg | turns | inf

@@ -35,12 +35,12 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_the_page_of_the_largest_train_is_below_1200_kilobytes_and_its_program_below_720(here: Path) -> None:
+def test_the_page_of_the_largest_train_is_below_1250_kilobytes_and_its_program_below_720(here: Path) -> None:
     assert (VIEWER / "built" / "viewer.js").stat().st_size < 720_000
     done = call("view", "freeth-2021")
     written = here / "freeth-2021.html"
     assert done.exit_code == 0, done.output
-    assert 100_000 < written.stat().st_size < 1_200_000
+    assert 100_000 < written.stat().st_size < 1_250_000  # the months of the Metonic dial are 105 kB
     assert f"{written.stat().st_size / 1000:,.0f} kB" in done.output
     assert [path.name for path in here.iterdir()] == ["freeth-2021.html"]
 

@@ -298,3 +298,36 @@ def test_a_dial_on_the_side_is_laid_once_however_many_hands_it_has() -> None:
     assert once == twice
     hands = [each for each in scenes[1].pointers if scenes[1].dials[each.dial or 0].id == "draconic"]
     assert len({each.seat for each in hands}) == 1 < len(hands)
+
+
+@pytest.mark.parametrize("name", ["zf-8hp70", "ford-10r80", "planetary-24-18-60"])
+def test_supports_of_rings_are_as_wide_as_their_rims(name: str) -> None:
+    """Six pins of 0.6 mm held a ring at its disc."""
+    scene = shipped.built(name)
+    rings = [wheel for wheel in scene.wheels if wheel.kind == "ring"]
+    assert rings
+    for ring in rings:
+        held = [part for part in scene.parts if part.name.startswith((f"{ring.id} drum", f"{ring.id} post"))]
+        turning = scene.bodies[ring.body].parent is not None
+        assert [part.kind for part in held] == (["drum"] if turning else ["post"] * 3)
+        for part in held:
+            rim = 2 * max(ring.module, 0.0)
+            low, high, radius, bore = max(part.bands, key=lambda band: band[2])
+            assert radius - bore >= 0.9 * rim if turning else 2 * radius >= 0.9 * rim
+            # it reaches from a face of the ring to a plate of the same body
+            face = ring.centre[2] + np.array([-0.5, 0.5]) * ring.thickness
+            assert min(abs(face - part.place[2] - low)) < 1e-6 or min(abs(face - part.place[2] - high)) < 1e-6
+            plates = [each for each in scene.parts if each.body == ring.body and each.outlines]
+            ends = [each.place[2] + side * each.height / 2 - part.place[2] for each in plates for side in (-1, 1)]
+            assert min(abs(end - other) for end in ends for other in (low, high)) < 1e-6
+
+
+def test_plates_of_a_clock_are_rectangles_and_other_plates_are_not() -> None:
+    def fill(name: str) -> float:
+        edge = np.array(of_kind(shipped.built(name), "frame")[0].outlines[0]).reshape(-1, 2)
+        x, y = edge.T
+        area = abs(float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))) / 2
+        return area / float(np.prod(np.ptp(edge, axis=0)))
+
+    assert fill("longcase-clock") > 0.98
+    assert fill("four-gear-loop") < 0.9

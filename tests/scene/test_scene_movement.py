@@ -63,7 +63,7 @@ def compared(train: GearTrain, back: bool = False) -> float:
     scene = drawn(train)
     way = -1 if Fraction(scene.step) < 0 else 1
     reader = Reader(scene, back)
-    motion, worst = train.motion(), 0.0
+    motion, worst = train.motion()._with_angles({body.id: body.start for body in scene.bodies}), 0.0
     runs = [motion._stretches(stretch, 6, first=1) for stretch in (-0.8125, -1234.5)] if back else [[motion.at(TURNS)]]
     for passage in chain.from_iterable(runs):
         for column, t in enumerate(passage.turns):

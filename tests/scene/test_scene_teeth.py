@@ -131,7 +131,7 @@ def test_likenesses_mesh_without_cutting_into_each_other() -> None:
         ("bevel-differential", "turn"),
         ("south-pointing-chariot", "a bend leftwards"),
         ("planets-in-place", None),
-        ("freeth-2021", None),
+        ("freeth-jones-2012", None),
         ("humpage", None),
     ],
 )

@@ -79,6 +79,13 @@ def test_names_with_spans_count_the_divisions() -> None:
         ({"numerals": "romain"}, "use 'roman' or 'arabic'"),
         ({"around": {"names": "zodiac", "turns": 2}}, "unknown key 'turns'"),
         ({"counted": "left"}, "use 'clockwise' or 'counter-clockwise'"),
+        ({"face": "left"}, "use 'front' or 'back'"),
+        ({"diameter": "0 mm"}, "must be greater than 0"),
+        ({"diameter": "-3 mm"}, "give a diameter such as 150 mm"),
+        ({"centre": ["0 mm"]}, "dials.d.centre"),
+        ({"source": "X"}, "declare `sources: {X: author and year}`"),
+        ({"divisions": 3, "doubled": [4]}, "cell 4 is beyond the 3 divisions"),
+        ({"names": ["day", "night"], "inscriptions": {"nigth": "ΝΥΞ"}}, "did you mean 'night'?"),
     ],
 )
 def test_what_a_dial_refuses_it_says_how_to_mend(keys: dict[str, object], said: str) -> None:
@@ -104,3 +111,38 @@ def test_a_dial_looks_away_only_from_who_looks_from_behind_it(face: str | None, 
     report = str(GearTrain.declare({**declared(**({"face": face} if face else {})), "view": view}).report())
     # the pointer makes -1/3 turn
     assert ("counter-clockwise, a turn in" in report) != away
+
+
+def test_names_of_cells_repeat_and_leap_months_double_the_month_before() -> None:
+    found = dial(divisions=7, cell_names=["a", "b", "c"], doubled=[3, 6])
+    assert " ".join(found.cells) == "a b b c a a b"
+
+
+BIG, SMALL = {"centre": ["0 mm", "0 mm"], "diameter": "100 mm"}, {"centre": ["20 mm", "0 mm"], "diameter": "10 mm"}
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "over"),
+    [
+        (BIG, {**BIG, "centre": ["101 mm", "0 mm"]}, None),
+        (BIG, {**BIG, "centre": ["60 mm", "79 mm"]}, "0.798"),  # 100 - sqrt(60^2 + 79^2)
+        (BIG, {**BIG, "centre": ["99 mm", "0 mm"], "face": "back"}, None),
+        (BIG, SMALL, None),
+        # a circle is engraved to 0.74 of its radius: 20 mm + 20 mm - 37 mm
+        (BIG, {**SMALL, "diameter": "40 mm"}, "3"),
+        # a spiral of five turns to 0.46 of its radius: 20 mm + 5 mm - 23 mm
+        ({**BIG, "turns": 5}, SMALL, "2"),
+        # on the right, after a quarter turn, its outermost turn is 3/4 of 0.09 radii from its end, or 3.375 mm
+        ({**BIG, "turns": 5}, {**BIG, "centre": ["97 mm", "0 mm"]}, None),
+        ({**BIG, "turns": 5, "counted": "counter-clockwise"}, {**BIG, "centre": ["97 mm", "0 mm"]}, "1.88"),
+    ],
+)
+def test_dials_of_one_face_may_not_overlap(one: dict[str, object], other: dict[str, object], over: str | None) -> None:
+    data = {**declared(**one), "dials": {"d": one, "e": other}}
+    if over is None:
+        assert set(declare(data).dials) == {"d", "e"}
+        return
+    with pytest.raises(DeclarationError) as found:
+        declare(data)
+    assert f"dials 'd' and 'e' overlap by {over} mm" in str(found.value)
+    assert "reduce a `diameter`" in str(found.value)

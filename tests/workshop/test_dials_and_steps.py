@@ -14,6 +14,7 @@ import pytest
 import shapely
 from shipped import train as load
 
+import geartrain
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import assembly_steps, export_files, parts_list
 
@@ -70,7 +71,8 @@ def test_the_metonic_spiral_has_235_months_in_five_turns() -> None:
     work = model("freeth-2008")
     lines = about(work, engraved(work, "dial-metonic-and-games-and-callippic-and-saros-and-exeligmos"), "metonic")
     radial = [line for line in lines if len(line) == 2 and abs(clockwise(line[0]) - clockwise(line[1])) < 1e-4]
-    marks = [line[0] for line in radial if hypot(*line[0]) > hypot(*line[1])]
+    # a turn is 6.57 mm wide: (1 - 0.55) / 5 of a radius of 73 mm; strokes of letters are shorter
+    marks = sorted((line[0] for line in radial if hypot(*line[0]) - hypot(*line[1]) > 6), key=lambda mark: hypot(*mark))
     assert len(marks) == 236, "the last cell has an end too"
     assert [clockwise(mark) for mark in marks] == pytest.approx([5 * k / 235 % 1 for k in range(236)], abs=1e-4)
     radii = [hypot(*mark) for mark in marks]
@@ -99,10 +101,16 @@ def test_arbors_go_through_the_dials_on_which_they_are_read() -> None:
                 assert all(part.turned is not None and part.turned.diameter < circle.hole for part in rods)
 
 
+_UNSIZED = ", ".join(
+    f"{name}: {{diameter: null}}" for name in ["zodiac", "metonic", "games", "callippic", "saros", "exeligmos"]
+)
+
+
 @pytest.mark.parametrize("name", ["freeth-2008", "voulgaris-2024-a"])
 def test_the_edge_of_a_dial_passes_the_wheel_of_the_crank(name: str) -> None:
     """The feet are outside the dials; the edge of the plate between them passed through the crown wheel."""
-    work = model(name)
+    train = geartrain.load(f"name: unsized\nextends: {name}\ndial_plate: null\ndials: {{{_UNSIZED}}}\n")
+    work = SolidModel(train, ManufacturingSizes())
     (plate,) = (each for each in work.parts if each.name.startswith("dial zodiac") and each.kind == "plate")
     (crown,) = (each for each in work.parts if each.name == "a1")
     x, y, z = crown.placed.vertices.T

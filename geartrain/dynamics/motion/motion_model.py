@@ -280,6 +280,10 @@ class Motion(Shown):
                 )
             )
 
+    def _with_angles(self, angles: Mapping[str, float]) -> Motion:
+        """Return the motion with other starting angles of some links [rad]."""
+        return Motion(replace(self._problem, angles={**self._problem.angles, **angles}), self.outputs)
+
     def with_random_phases(self, random: Generator) -> Motion:
         """Return the motion in which each pair with a declared tooth form but without a declared phase has a random
         phase.

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from math import hypot
 from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 from geartrain.analysis.gear_train import GearTrain
@@ -22,6 +23,7 @@ from geartrain.train.wheel_stock import wheel_thickness
 if TYPE_CHECKING:
     from geartrain.teeth.coupling import Coupling
     from geartrain.teeth.lantern import Lantern
+    from geartrain.train.outputs import Dial
 
 Point = tuple[float, float]
 """Point in plan: coordinates [mm] perpendicular to parallel axes."""
@@ -159,10 +161,12 @@ class CouplingTie:
 
 
 class DialEnds(NamedTuple):
-    """Flags for the low and the high end of an arbor: True if that end extends beyond the stack to a dial."""
+    """Numbers of hands, one above the other, at the low and the high end of an arbor: 0 if that end is not extended to
+    a dial, 1 if it is, and 2 if its hand passes over the hand of a dial inside its dial.
+    """
 
-    low: bool = False
-    high: bool = False
+    low: int = 0
+    high: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,6 +193,8 @@ class DeclaredGeometry:
     """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
     belts: tuple[Mapping[str, float], ...] = ()
     """Radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
+    centres: tuple[tuple[str, str, Vector], ...] = ()
+    """Dials with a declared centre: name, axis of the pointers, and the centre at height 0 [mm]."""
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -217,7 +223,14 @@ class DeclaredGeometry:
 def read_geometry(train: GearTrain) -> DeclaredGeometry:
     """Return the declared geometry of a train: its axes, wheels, gear pairs and couplings."""
     declared, tree = train.declaration, train.kinematics.tree
+    # a positive rotation about z is clockwise only for a viewer on the side of -z
+    front = -1 if declared.view.positive == "clockwise" else 1
     lines = {line.label: line for line in _lines(declared, tree)}
+    centres = tuple(dict.fromkeys(_dial_centres(declared, tree, front)))
+    for label, centre in {dial: (label, centre) for dial, label, centre in reversed(centres)}.values():
+        line = lines[label]
+        if line.given is None and len(line.bearers) == 1 and 1 - abs(line.direction[2]) < _ACROSS:
+            lines[label] = replace(line, given=centre)
     axis: dict[str, str] = {}
     contacts, ties, strays = [], [], []
     pins = {coupling.name: coupling for coupling in declared.pin_couplings}
@@ -238,8 +251,6 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         contacts.append(_contact(train, circuit, ends, lines, stretches.get(circuit.id, Fraction(1))))
     for wheel, (link, _) in declared.wheels.items():
         axis.setdefault(wheel, tree.axis(link) or next(iter(lines), ""))
-    # a positive rotation about z is clockwise only for a viewer on the side of -z
-    front = -1 if declared.view.positive == "clockwise" else 1
     return DeclaredGeometry(
         lines,
         axis,
@@ -253,6 +264,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
         dict(_lantern_discs(declared)),
         tuple(_belts(train)),
+        centres,
     )
 
 
@@ -321,6 +333,20 @@ def _stretches(train: GearTrain) -> dict[str, Fraction]:
     return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}
 
 
+def _dial_centres(declared: Train, tree: Tree, front: int) -> Iterator[tuple[str, str, Vector]]:
+    """Yield dials of the frame with a declared centre: name, axis of the pointers, and centre at height 0 [mm]."""
+    for case in declared.cases:
+        for name, output in case.outputs.items():
+            dial = declared.dials.get(output.dial or "")
+            of, base = output.links(name, declared.frame)
+            if dial is None or dial.centre is None or base != declared.frame or (axis := tree.axis(of)) is None:
+                continue
+            x, y = (float(millimetres(each)) for each in dial.centre)
+            # the right of a reader who looks along +z is -x
+            side = -front if looks_away(dial.face, declared.view.from_) else front
+            yield output.dial or "", axis, (side * x, y, 0.0)
+
+
 def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front: int) -> dict[str, DialEnds]:
     found: dict[str, DialEnds] = {}
     for case in declared.cases:
@@ -331,10 +357,20 @@ def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front
             across = line is not None and abs(line.direction[2]) < _ACROSS  # it faces neither the reader nor away
             if dial is None or dial.look == "ball" or (across and dial.face not in ("front", "back")):
                 continue
+            hands = 2 if any(_encloses(dial, each) for each in declared.dials.values()) else 1
             high = (front > 0) != looks_away(dial.face, declared.view.from_)
             before = found.get(link, DialEnds())
-            found[link] = DialEnds(before.low or not high, before.high or high)
+            ends = (before.low, max(before.high, hands)) if high else (max(before.low, hands), before.high)
+            found[link] = DialEnds(*ends)
     return found
+
+
+def _encloses(dial: Dial, other: Dial) -> bool:
+    """Return True if another dial of the same face is inside the scale of a dial."""
+    one, two = dial.circle, other.circle
+    if one is None or two is None or dial.face != other.face or two[2] >= one[2]:
+        return False
+    return 0 < hypot(one[0] - two[0], one[1] - two[1]) < one[2]
 
 
 def _contact(

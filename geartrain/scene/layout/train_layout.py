@@ -85,6 +85,7 @@ def notices(
         if contact.name in gaps:
             yield _not_touching(contact, gaps[contact.name], place[contact.name])
     yield from _simplified(declared, place)
+    yield from _misplaced(train, found)
     for stack in found.stacks:
         yield from _crowding(found, stack)
     for name, miss in misses.items():
@@ -115,6 +116,20 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
         what = f"wheel '{wheel}' is drawn only on axis '{declared.axis[wheel]}'"
         why = f"pair '{pair}' requires it on axis '{axis}' as well"
         yield Problem(what, why, "declare a separate wheel for each of its meshes", place[pair])
+
+
+def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
+    """Yield notices on dials whose pointers turn about another point than the declared centre."""
+    declared = found.geometry.declared
+    for name, axis, centre in declared.centres:
+        off = size(across(minus(found.points[axis], centre), declared.lines[axis].direction))
+        if off > _NONE:
+            yield Problem(
+                f"dial '{name}' is drawn {off:.3g} mm from its declared centre",
+                f"its pointers turn about axis '{axis}', which is declared or carried elsewhere",
+                f"remove `centre` of the dial, or the position of axis '{axis}'",
+                train.declaration.place("dials", name, "centre"),
+            )
 
 
 def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:

@@ -113,8 +113,10 @@ class ColumnProblem:
     at: Point
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
-    ends: Mapping[str, tuple[bool, bool]]
-    """Link -> (below, above): True for each end of the link's arbor that extends beyond the stack."""
+    ends: Mapping[str, tuple[int, int]]
+    """Link -> (below, above): number of hands one above the other at each end of the link's arbor; 0 if the end does
+    not extend beyond the stack.
+    """
     span: tuple[float, float]
     """Lowest and highest point of the stack, including the space of dials [mm]."""
     frame: str
@@ -206,14 +208,16 @@ class ColumnProblem:
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
         parted = {link for link, apart in pieces if apart}
         for (link, apart), discs in pieces.items():
-            below, above = self.ends.get(link, (False, False))
+            below, above = self.ends.get(link, (0, 0))
             if link in parted:  # a separate piece extends on its own side, the rest on the other
                 under = min(disc.low for disc in pieces[link, True]) < min(disc.low for disc in pieces[link, False])
-                below, above = below and under == apart, above and under != apart
+                below, above = below * (under == apart), above * (under != apart)
             low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
-            low, high = (self.span[0] if below else low), (self.span[1] if above else high)
+            low = self.span[0] - HAND * (below - 1) if below else low
+            high = self.span[1] + HAND * (above - 1) if above else high
             hubs = tuple(disc.middle for disc in discs)
-            found.append(CoaxialLink(link, hubs, low, high, discs=tuple(discs), ends=(below, above)))
+            ends = below > 0, above > 0
+            found.append(CoaxialLink(link, hubs, low, high, discs=tuple(discs), ends=ends))
         return tuple(found)
 
     @cached_property

@@ -177,8 +177,15 @@ class FramePlan:
     thickness: float
     core: float | None
     """Diameter of all arbors [mm]; None if it may be chosen for each axis."""
-    ends: Mapping[str, tuple[bool, bool]]
-    """Link -> (below, above): True for each end of the link's arbor that extends to a dial."""
+    ends: Mapping[str, tuple[int, int]]
+    """Link -> (below, above): number of hands one above the other at each end of the link's arbor; 0 if the end does
+    not extend to a dial.
+    """
+
+    @property
+    def has_sized_dials(self) -> bool:
+        """True if the diameter of a dial is declared."""
+        return any(each.diameter is not None for each in self.stack.train.declaration.dials.values())
 
     # --------------------------------------------------------------------------------------------------- as laid out
 
@@ -208,7 +215,10 @@ class FramePlan:
         return best_places(axes, self.stack.discs, seats, self._gaps, self._blocked, self._cut)
 
     def _axes(self, discs: Sequence[StackDisc], taken: Sequence[tuple[float, float]]) -> Iterator[ColumnProblem]:
-        span = taken[0][0] - _DIAL, taken[-1][1] + _DIAL
+        # dials of a declared size are beyond wheels on crossing axes too
+        beyond = self.stack.across if self.has_sized_dials else ()
+        low = min([taken[0][0], *(each.low for each in beyond)])
+        span = low - _DIAL, max([taken[-1][1], *(each.high for each in beyond)]) + _DIAL
         for label, axis in self.stack.axes.items():
             if any(disc.axis == label for disc in self.stack.discs):
                 at, sizes = self.stack.flat(axis.point), self._arbor(label)
@@ -479,11 +489,11 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 
 
 def arm_seats(
-    stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
+    stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[int, int]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
     """Yield arms beyond all wheels for links that extend to a dial and cannot be nested; each is connected by a bar."""
     for link in column.tangled or ():
-        below, above = ends.get(link, (False, False))
+        below, above = ends.get(link, (0, 0))
         about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]
         own = [disc for disc in about if disc.link == link]
         if not own or below == above or link == stack.frame:

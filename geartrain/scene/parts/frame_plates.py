@@ -147,7 +147,8 @@ class FramePlates:
             circles = [(hole.at, hole.diameter / 2) for hole in holes]
             crossing = filter(None, (wheel.passage(faces) for wheel in self.plan.wheels_across))
             passages = clear_passages([*crossing, *mortises], circles)
-            edge, windows = with_passages(around(points, self.pillar + _LAND), passages)
+            corners = _box(points) if self.plan.stack.train.declaration.escapement else points
+            edge, windows = with_passages(around(corners, self.pillar + _LAND), passages)
             name = f"{self.plan.stack.frame} {side} plate"
             yield FlatPlate(self.plan.stack.frame, name, edge, holes, *faces, windows=windows)
         if self.plan.bridge is not None:
@@ -320,6 +321,12 @@ class FramePlates:
                 what = f"{where} has no hole for axis '{hole.name}'"
                 why = f"it would overlap the hole of '{other.name}', {dist(hole.at, other.at):.3g} mm away"
                 yield Problem(what, why, "use a smaller --bore, or make one stepped stud for both")
+
+
+def _box(points: Sequence[Point]) -> list[Point]:
+    """Return the corners of the upright rectangle around points: clocks have rectangular plates."""
+    (left, right), (low, high) = ((min(values), max(values)) for values in zip(*points, strict=True))
+    return [(left, low), (right, low), (right, high), (left, high)]
 
 
 def _meet(one: Hole, other: Hole) -> bool:

@@ -118,20 +118,23 @@ TENON = 0.6
 """Radius of the end of a pillar or post in a plate, divided by the radius of the pillar or post."""
 _POSTS, _TRIED = 3, 72
 _POST_WIDEST = 2.0  # mm: maximum radius of a post
-_RIM_PART = 0.3  # radius of a post divided by the width of a ring's rim
+_RIM_PART = 0.3  # radius of the end of a post divided by the width of a ring's rim
 
 
 def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
-    """Return the posts that hold all rings of a plan: fixed rings in a frame plate, turning rings in their discs."""
+    """Return the parts that hold all rings of a plan: posts in a frame plate, and drums between turning rings and their
+    discs.
+    """
     found: list[TurnedPart] = []
     discs = {plate.ring: plate.disc.name for plate in plan.turning if plate.ring}
     for disc in plan.discs:
         if disc.hub:
             continue
         if disc.link == plan.stack.frame:
-            found += _posts(plan, disc, nearer_plate(plan, disc.middle), (disc.name,))
+            found += _posts(plan, disc, nearer_plate(plan, disc.middle))
         elif disc.name in discs:
-            found += _posts(plan, disc, plan.heights.plates[discs[disc.name]], (disc.name, discs[disc.name]))
+            wall = Band(*_between(disc, plan.heights.plates[discs[disc.name]]), disc.outer, disc.root)
+            found.append(TurnedPart(disc.link, f"{disc.name} drum", "drum", disc.at, (wall,), plan.process.joint))
     return tuple(found)
 
 
@@ -140,20 +143,19 @@ def nearer_plate(plan: FramePlan, height: float) -> tuple[float, float]:
     return min((plan.places.back, plan.places.front), key=lambda each: abs(sum(each) / 2 - height))
 
 
-def _posts(
-    plan: FramePlan, ring: StackDisc, plate: tuple[float, float], through: tuple[str, ...]
-) -> Iterator[TurnedPart]:
-    """Yield the posts of one ring. In a frame plate they are placed with clearance to other parts."""
-    wide = ring.outer - ring.root
-    radius = min(_RIM_PART * wide, _POST_WIDEST)
-    away = (ring.outer + ring.root) / 2
-    free = ring.link == plan.stack.frame
-    spots = _spots(plan, ring, plate, away, radius) if free else evenly(ring.at, away, 2 * _POSTS)
-    low, high = min(plate[0], ring.low), max(plate[1], ring.high)
-    inner = (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
+def _between(ring: StackDisc, plate: tuple[float, float]) -> tuple[float, float]:
+    """Return the faces of a ring and of a plate that are opposite to each other, as heights in ascending order [mm]."""
+    return (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
+
+
+def _posts(plan: FramePlan, ring: StackDisc, plate: tuple[float, float]) -> Iterator[TurnedPart]:
+    """Yield the posts of one ring in a frame plate, placed with clearance to other parts."""
+    radius = min(_RIM_PART / TENON * (ring.outer - ring.root), _POST_WIDEST)
+    spots = _spots(plan, ring, plate, (ring.outer + ring.root) / 2, radius)
+    low, high, inner = min(plate[0], ring.low), max(plate[1], ring.high), _between(ring, plate)
     for number, at in enumerate(spots, 1):
         bands = Band(low, inner[0], radius * TENON), Band(*inner, radius), Band(inner[1], high, radius * TENON)
-        yield TurnedPart(ring.link, f"{ring.name} post {number}", "post", at, bands, plan.process.joint, through)
+        yield TurnedPart(ring.link, f"{ring.name} post {number}", "post", at, bands, plan.process.joint, (ring.name,))
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:

@@ -43,7 +43,7 @@ class TurnedPart:
     link: str
     name: str
     kind: str
-    """Kind of part, such as arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, pin, barrel or bob."""
+    """Kind of part, such as arbor, pipe, stud, collar, spacer, collet, pillar, post, drum, foot, pin, barrel or bob."""
     at: Point
     """Position of the part's axis in the stack [mm]."""
     bands: tuple[Band, ...]

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, product
-from math import cos, dist, inf, pi, sin
+from math import cos, dist, hypot, inf, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import cross, dot
 from geartrain.scene.dial_scale import DialScale, engrave
 from geartrain.scene.parts.frame_plan import FramePlan
@@ -21,12 +22,15 @@ from geartrain.scene.parts.pillar_places import clear_of, far_apart, pillar_plac
 from geartrain.scene.parts.stack_discs import Point, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing, around
+from geartrain.scene.stroke_letters import text_length
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.train.outputs import DEPTH
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.arbor_columns import AxisColumn
     from geartrain.scene.train_scene import DialFace, Scene
+    from geartrain.train.outputs import FacePlate
 
 THICKNESS = 1.5
 """Default thickness of a dial [mm]."""
@@ -35,6 +39,7 @@ _ROOM = 0.5  # mm of clearance round the arbor of its pointer
 _BESIDE = 1.0  # mm from a dial's edge to the arbor of another
 _SCALE, _LETTER = 0.965, 0.055  # radius of the scale, and height of letters, divided by the radius of a dial
 _SMALLEST = 1.2  # mm: minimum height of letters
+_CORNER = 6.0  # mm from the sides of a rectangular plate to the middle of a foot
 _LAND = 1.0  # mm: width of plate round the end of a foot
 _SIDES = 48  # points of a circle for a convex hull
 _SAME = 1e-6
@@ -61,10 +66,15 @@ class DialCircle:
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials as letters to be engraved below the hole, relative to the centre of the disc."""
+        """Yield the names of dials that fit, as letters to be engraved below the hole, relative to the centre of the
+        disc.
+        """
         height = max(_LETTER * self.radius, _SMALLEST)
+        inside = min(self.radii.values()) * (1 - DEPTH)
         for depth, name in enumerate(self.scales):
-            yield EngravedText(name, (0.0, -(self.hole / 2 + (1.2 + 1.4 * depth) * height)), height)
+            low = self.hole / 2 + (1.2 + 1.4 * depth) * height
+            if hypot(text_length(name) * height / 2, low + height / 2) < inside:
+                yield EngravedText(name, (0.0, -low), height)
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +95,8 @@ class DialPlate:
     """Unit vector to the right of the plate's reader, in the coordinates of the stack."""
     up: Point
     """Unit vector upwards for the plate's reader, in the coordinates of the stack."""
+    corners: tuple[Point, ...] = ()
+    """Corners of a rectangular plate, in the coordinates of the stack [mm]; empty if the edge follows the dials."""
 
     @property
     def at(self) -> Point:
@@ -110,8 +122,12 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return a single dial's disc if it contains all feet, else the convex curve around all dials and feet."""
+        """Return the declared rectangle, or a single dial's disc if it contains all feet, else the convex curve around
+        all dials and feet.
+        """
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
+        if self.corners:
+            return around([place(point) for point in _inset(self.corners, wide)], wide)
         if len(self.circles) == 1 and all(dist(each.at, first.at) + wide < first.radius + _SAME for each in self.feet):
             return Contour.circle(first.radius, place(first.at))
         turns = [2 * pi * k / _SIDES for k in range(_SIDES)]
@@ -164,6 +180,7 @@ def _plate(
     """Return the plate of dials on one side; None if no pointer's arbor reaches it or its dials have no space."""
     ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
     ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
+    ends += [face for each in plan.wheels_across for face in (each.low, each.high) if plan.has_sized_dials]
     near = (max(ends) if side > 0 else min(ends)) + side * _AWAY
     low, high = sorted((near, near + side * thickness))
     found = (_circle(columns[axis], faces, plan, (low, high)) for axis, faces in by_axis.items())
@@ -171,10 +188,33 @@ def _plate(
     if not circles:
         return None
     name = f"dial {' and '.join(name for circle in circles for name in circle.scales)}"
-    feet = dial_feet(plan, name, [(each.at, each.radius) for each in circles], (low, high))
     first = next(iter(by_axis.values()))[0]
     right, up = (plan.stack.flat(way) for way in (cross(first.zero, first.normal), first.zero))
-    return DialPlate(name, low, high, circles, tuple(feet), right, up)
+    corners = _corners(plan.stack.train.declaration.dial_plate, right, up)
+    spots = _inset(corners, _CORNER) if corners else ()
+    feet = dial_feet(plan, name, [(each.at, each.radius) for each in circles], (low, high), spots)
+    return DialPlate(name, low, high, circles, tuple(feet), right, up, corners)
+
+
+def _corners(sheet: FacePlate | None, right: Point, up: Point) -> tuple[Point, ...]:
+    """Return the corners of a declared plate, in the coordinates of the stack [mm]; empty without a declaration."""
+    if sheet is None:
+        return ()
+    wide, high = float(millimetres(sheet.width)) / 2, float(millimetres(sheet.height)) / 2
+    x, y = (0.0, 0.0) if sheet.centre is None else (float(millimetres(each)) for each in sheet.centre)
+    seen = ((x + u * wide, y + v * high) for u, v in ((1, 1), (-1, 1), (-1, -1), (1, -1)))
+    return tuple((a * right[0] + b * up[0], a * right[1] + b * up[1]) for a, b in seen)
+
+
+def _inset(corners: Sequence[Point], far: float) -> tuple[Point, ...]:
+    """Return the corners of a rectangle moved inwards by a distance from both of their sides."""
+    found = []
+    for at, (x, y) in enumerate(corners):
+        for u, v in (corners[at - 1], corners[(at + 1) % 4]):
+            share = far / dist((u, v), corners[at])
+            x, y = x + share * (u - corners[at][0]), y + share * (v - corners[at][1])
+        found.append((x, y))
+    return tuple(found)
 
 
 def _circle(
@@ -184,10 +224,8 @@ def _circle(
     if not through:
         return None
     radius = max(face.radius for face in faces)
-    for other in plan.columns:
-        if other.axis != column.axis and (rod := other.radius(*heights)):
-            radius = min(radius, dist(other.at, column.at) - rod - _BESIDE)
-    radius = min(radius, clear_of(column.at, plan.across(*heights)) - _BESIDE)
+    sized = plan.stack.train.declaration.dials[max(faces, key=lambda each: each.radius).id].diameter is not None
+    radius = radius / _SCALE if sized else _free_radius(column, radius, plan, heights)
     hole = 2 * (through + _ROOM)
     if radius <= hole:
         return None
@@ -196,6 +234,14 @@ def _circle(
     ordered = sorted(faces, key=lambda each: -each.radius)
     scales, radii = {face.id: face.scale for face in ordered}, {face.id: share * face.radius for face in ordered}
     return DialCircle(column.at, radius, hole, scales, radii)
+
+
+def _free_radius(column: AxisColumn, radius: float, plan: FramePlan, heights: tuple[float, float]) -> float:
+    """Return the radius of a dial, reduced so that it is clear of other arbors and of wheels on crossing axes [mm]."""
+    for other in plan.columns:
+        if other.axis != column.axis and (rod := other.radius(*heights)):
+            radius = min(radius, dist(other.at, column.at) - rod - _BESIDE)
+    return min(radius, clear_of(column.at, plan.across(*heights)) - _BESIDE)
 
 
 # ----------------------------------------------------------------------------------------------------------------- feet
@@ -216,9 +262,14 @@ _STEPS = 32  # samples from the centre of a dial to a foot, at which the edge be
 
 
 def dial_feet(
-    plan: FramePlan, name: str, circles: Sequence[tuple[Point, float]], faces: tuple[float, float]
+    plan: FramePlan,
+    name: str,
+    circles: Sequence[tuple[Point, float]],
+    faces: tuple[float, float],
+    corners: Sequence[Point] = (),
 ) -> list[TurnedPart]:
-    """Return the feet of a plate of dials: up to four, far apart inside its dials, otherwise outside all turning parts.
+    """Return the feet of a plate of dials: up to four, at its corners or far apart inside its dials, otherwise outside
+    all turning parts.
 
     circles   centres and radii of the discs of its dials [mm]
     faces     heights of its faces [mm]
@@ -227,9 +278,8 @@ def dial_feet(
     plate = plan.places.front if above else plan.places.back
     low, high = (plate[1], faces[0]) if above else (faces[1], plate[0])
     turning = list(_between(plan, low, high))
-    free = [
-        spot for at, radius in circles for spot in _tried(at, radius) if clear_of(spot, turning) > FOOT_RADIUS + _GAP
-    ]
+    tried = corners or [spot for at, radius in circles for spot in _tried(at, radius)]
+    free = [spot for spot in tried if clear_of(spot, turning) > FOOT_RADIUS + _GAP]
     spots = far_apart(free, free[0], _MOST) if free else []
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
         even = len({column.at for column in plan.columns}) == 1  # same condition as for pillars

@@ -87,13 +87,18 @@ export function inWords({ year, month, day, part }) {
 
 /** Conversion between turns of the driving link and dates, for a scene with an epoch. */
 export class Epoch {
-  constructor({ julian_day: day, turns, days, calendar, source, note }) {
-    Object.assign(this, { calendar, source, note });
+  constructor({ julian_day: day, turns, days, calendar, source, note, unset }) {
+    Object.assign(this, { calendar, source, note, known: !unset.length }); // `known`: all pointers of a zodiac are set
     [this.day, this.turns, this.days] = [day, turns, days].map((each) => Fraction.of(each));
   }
 
+  /** Julian day of a number of turns. */
+  dayAt(turns) {
+    return this.day.plus(turns.minus(this.turns).times(this.days));
+  }
+
   dateAt(turns) {
-    return dateOf(this.day.plus(turns.minus(this.turns).times(this.days)), this.calendar);
+    return dateOf(this.dayAt(turns), this.calendar);
   }
 
   turnsAt(date) {

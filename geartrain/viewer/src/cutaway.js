@@ -3,7 +3,7 @@
 
 import { isParallel, offAxis, vector } from "./space.js";
 
-const OPENED = ["frame", "carrier", "wall", "post", "pillar", "foot"]; // kinds of parts that are cut; arbors, studs and wheels within rings stay whole
+const OPENED = ["frame", "carrier", "wall", "drum", "post", "pillar", "foot"]; // kinds of parts that are cut; arbors, studs and wheels within rings stay whole
 const LEVEL = 1e-3; // relative to the train's size: rings closer than this along their axis are in one stage
 
 /** True if a part of a built train is cut; pins are cut if they are fixed in a ring. */

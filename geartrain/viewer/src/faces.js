@@ -17,8 +17,9 @@ export function dialParts(scene, index) {
   const centre = vector(dial.centre).addScaledVector(vector(dial.normal), dial.plate ? 0.5 * thick : 0).toArray();
   const matrix = frameAt(centre, dial.normal, dial.zero);
   const hole = holeOf(dial);
-  const face = swept(new Shape(), band(hole, dial.radius * 1.03, -thick, 0), 72);
-  const bezel = swept(new Shape(), band(dial.radius * 1.03, dial.radius * 1.075, -thick, 1.2 * thick), 72);
+  const edge = dial.placed ? 1.005 : 1.03; // dials at their declared places are close together, on one plate
+  const face = swept(new Shape(), band(hole, dial.radius * edge, -thick, 0), 72);
+  const bezel = swept(new Shape(), dial.placed ? [] : band(dial.radius * edge, dial.radius * 1.075, -thick, 1.2 * thick), 72);
   const common = { body: dial.body, matrix, at: vector(dial.centre), dial: index, plate: true };
   return [
     { ...common, colour: PARTS.face, gloss: 0.05, shape: face },

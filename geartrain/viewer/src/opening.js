@@ -15,20 +15,22 @@ export function pace(scene) {
   return Math.min(FASTEST, Math.max(SLOWEST, POINTER / Math.max(1, ...scene.pointers.map((each) => Math.abs(speedOf(each))))));
 }
 
-/** The smallest part of a turn between hands with these speeds, or between a hand and the zero mark, over that of hands at equal distances. */
-function apart(speeds, turns) {
-  const places = [0, 1, ...speeds.map((speed) => (((speed * turns) % 1) + 1) % 1)].sort((one, other) => one - other);
-  return Math.min(...places.slice(1).map((place, n) => place - places[n])) * (speeds.length + 1);
+/** The smallest part of a turn between hands [speed, start in turns], or between a hand and the zero mark, over that of hands at equal distances. */
+function apart(hands, turns) {
+  const places = [0, 1, ...hands.map(([speed, start]) => (((speed * turns + start) % 1) + 1) % 1)].sort((one, other) => one - other);
+  return Math.min(...places.slice(1).map((place, n) => place - places[n])) * (hands.length + 1);
 }
 
 /** Turns of the driving link at which the hands of each dial are apart from one another; all outputs if there are no dials. */
 export function momentOf(scene) {
   if (scene.run || scene.driving_link === null) return Fraction.of(0);
   const groups = scene.dials.length ? scene.dials.map((_, at) => scene.pointers.filter(({ dial }) => dial === at)) : [scene.pointers];
-  const speeds = groups.map((group) => [...new Set(group.map(speedOf).filter(Boolean))]).filter(({ length }) => length);
+  const startOf = ({ body, base, sense }) => (sense * (scene.bodies[body].start - scene.bodies[base].start)) / (2 * Math.PI);
+  const handsOf = (group) => [...new Map(group.filter(speedOf).map((each) => [speedOf(each), [speedOf(each), startOf(each)]])).values()];
+  const hands = groups.map(handsOf).filter(({ length }) => length);
   const step = Fraction.of(scene.step).times(PART);
   const size = Math.abs(Number(step));
-  const score = (n) => speeds.reduce((sum, group) => sum + apart(group, n * size), 0);
+  const score = (n) => hands.reduce((sum, group) => sum + apart(group, n * size), 0);
   let [best, most] = [0, 0];
   for (let n = 1; n <= TRIED; n += 1) if (score(n) > most + 1e-9) [best, most] = [n, score(n)];
   return step.times(best);

@@ -8,14 +8,15 @@ import { Shape, swept } from "./shape.js";
 import { barOf, paneOf } from "./sight.js";
 import { along, endsOf, frameAt, isParallel, offAxis, vector } from "./space.js";
 
-const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4], guide: PARTS.slot, road: PARTS.arm, hub: PARTS.arm, figure: PARTS.bezel };
+const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4], guide: PARTS.slot, road: PARTS.arm, nave: PARTS.arm, figure: PARTS.bezel };
 const SMOOTH = ["figure"]; // turned parts whose bands are joined by cones
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // wall of a cup, which continues a flexible wheel
 export const ROUND = 84; // vertices of a circle as wide as a train
 const ENDING = ["post", "pin"]; // parts that end in the face of the part they hold
 const PROUD = 0.06; // relative to their radius: they protrude, because coplanar faces flicker
-const COVERS = ["frame", "carrier", "dial"];
+const DRUM = "drum"; // holds a ring at its disc, with which it becomes transparent
+const COVERS = ["frame", "carrier", "dial", DRUM];
 
 /** Colour of a part, from its kind. */
 export const colourOf = ({ kind }) => COLOURS[kind] ?? PARTS.arbor;
@@ -37,9 +38,9 @@ function partsOf(scene, parts, main) {
     const flat = part.outlines.length > 0;
     const upright = isParallel(direction, main.toArray());
     const cover = COVERS.includes(kind) ? vector(direction) : null;
-    const shape = flat ? flatShape(part) : SMOOTH.includes(kind) ? smoothShape(part.bands) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL ? ROUND : 40);
+    const shape = flat ? flatShape(part) : SMOOTH.includes(kind) ? smoothShape(part.bands) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL || kind === DRUM ? ROUND : 40);
     // parts along the direction in which layers move are stretched
-    const at = upright && !flat ? null : vector(place);
+    const at = kind === DRUM ? endsOf(part)[0].lerp(endsOf(part)[1], 0.5) : upright && !flat ? null : vector(place);
     return { body, kind, cover, colour: colourOf(part), gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
   });
 }

@@ -15,7 +15,7 @@ annual equation: 1.3, 0.7 and 0.2 degrees) and of both by the planets are neglec
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import degrees, hypot, pi, sqrt
 from typing import TYPE_CHECKING, Literal, NamedTuple
@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorDifference
-from geartrain.dynamics.motion.extreme_search import count_extremes
+from geartrain.dynamics.motion.motion_run import MotionRun
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.kinematics.willis_system import axis_sense
@@ -72,35 +72,22 @@ class ToothMotion:
     reversing_drivers: tuple[str, ...]
 
 
-def find_tooth_motion(
-    motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
-) -> ToothMotion:
-    """Return the ripple and lost motion of every output from `samples` positions in `turns` turns of the input.
-
-    on_done   callback with the number of positions of each chunk that is done
-    """
-    # the difference of two motions at the same position: with and without teeth, then backwards and forwards
-    ideal = motion._with_ideal_teeth()._forward
-    ripple = ErrorDifference(motion._forward, ideal)
+def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion:
+    """Return the ripple and lost motion of every output from `samples` positions in `turns` turns of the input."""
+    ripple = MotionRun(motion.without_anomaly(), turns, samples)
+    ripple.run()
+    # difference of two motions at the same position: backwards and forwards
     lost = ErrorDifference(motion._backward, motion._forward)
-    tallies = motion._statistics()
-    maximum, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
-    back: set[str] = set()
-    chunk = min(ripple.chunk, lost.chunk)
-    for start in range(0, samples, chunk):
-        at = turns * (np.arange(start, min(start + chunk, samples)) / (samples - 1))
-        passage, backlash = ripple.at(at), lost.at(at)
-        for tally, error, rate in zip(tallies, passage.error, passage.rate, strict=True):
-            tally.add(error, rate)
-        back |= passage.reversing_drivers | backlash.reversing_drivers
+    maximum, squares = np.zeros(len(motion.outputs)), np.zeros(len(motion.outputs))
+    back = set(ripple.reversing_drivers)
+    for start in range(0, samples, lost.chunk):
+        backlash = lost.at(turns * (np.arange(start, min(start + lost.chunk, samples)) / (samples - 1)))
+        back |= backlash.reversing_drivers
         maximum = np.maximum(maximum, np.abs(backlash.error).max(axis=1))
         squares += np.sum(backlash.error**2, axis=1)
-        on_done(len(at))
-    # samples miss the extremes, so each is refined
-    count_extremes([motion._forward, ideal], ripple, turns, tallies)
     names = list(motion.outputs)
     return ToothMotion(
-        dict(zip(names, tallies, strict=True)),
+        dict(zip(names, ripple.statistics, strict=True)),
         {
             name: (float(most), sqrt(square / samples))
             for name, most, square in zip(names, maximum, squares, strict=True)

@@ -246,8 +246,8 @@ class _Steps:
             yield from self._column(column)
         yield from self._pins()
         for plate in self.plan.turning:
-            posts = [post.name for post in self.frame.posts if plate.disc.name in post.through]
-            tail = ", pins through the ring" if plate.ring else ""
+            posts = [post.name for post in self.frame.posts if plate.ring and post.name == f"{plate.ring} drum"]
+            tail = ", with the ring on its drum" if plate.ring else ""
             yield self._step(
                 f"Fix '{plate.disc.name}' to '{plate.disc.link}'{tail}", [plate.disc.name, plate.ring, *posts]
             )

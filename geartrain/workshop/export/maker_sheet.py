@@ -41,16 +41,14 @@ def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byte
     """Yield path, title and function that returns the content of each sheet and of its tables as CSV."""
     plates = [] if work.frame is None else [plate for plate in work.frame.plates() if plate.holes]
     for name, plate in zip(file_names(plate.name for plate in plates), plates, strict=True):
-        yield f"drawings/{name}.svg", f"{plate.name} with its holes", partial(_content, plate_sheet, work, plate)
+        title = f"{plate.name}: holes from a datum, to read"
+        yield f"drawings/{name}.svg", title, partial(plate_sheet, work, plate)
     if plates:
-        yield "drawings/holes.csv", "coordinates and diameters of holes", partial(_content, _holes_csv, plates)
+        rows = [(plate.name, *row) for plate in plates for row in hole_rows(plate)]
+        yield "drawings/holes.csv", "coordinates and diameters of holes", csv_text(("plate", *_HOLES), rows).encode
     if work.blanks.wheels:
-        yield "drawings/wheels.svg", "table of wheels", partial(_content, wheel_sheet, work)
-        yield "drawings/wheels.csv", "table of wheels", partial(_content, _wheels_csv, work)
-
-
-def _content(make: Callable[..., str], *arguments: object) -> bytes:
-    return make(*arguments).encode("utf-8")
+        yield "drawings/wheels.svg", "table of wheels", wheel_sheet(work).encode
+        yield "drawings/wheels.csv", "table of wheels", csv_text(_WHEELS, wheel_rows(work)).encode
 
 
 # ------------------------------------------------------------------------------------------------------------ contents
@@ -74,11 +72,6 @@ def _ordered(plate: FlatPlate) -> list[Hole]:
     return sorted(plate.holes, key=lambda hole: hole.name in _NO_AXIS)
 
 
-def _holes_csv(plates: Sequence[FlatPlate]) -> str:
-    rows = [(plate.name, *row) for plate in plates for row in hole_rows(plate)]
-    return csv_text(("plate", *_HOLES), rows)
-
-
 def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
     """Return the sizes of each shape of wheel [mm]: transverse module and diameters; the inside diameter of a ring is
     its tip diameter.
@@ -96,10 +89,6 @@ def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
     return rows
 
 
-def _wheels_csv(work: SolidModel) -> str:
-    return csv_text(_WHEELS, wheel_rows(work))
-
-
 def _mm(length: float) -> str:
     """Return a length in mm with four decimals at most."""
     return f"{round(length, 4) + 0.0:.4f}".rstrip("0").rstrip(".")
@@ -108,8 +97,8 @@ def _mm(length: float) -> str:
 # -------------------------------------------------------------------------------------------------------------- sheets
 
 
-def plate_sheet(work: SolidModel, plate: FlatPlate) -> str:
-    """Return the sheet of a plate as SVG: outline, numbered holes, datum, table of holes, scale bar, title block."""
+def plate_sheet(work: SolidModel, plate: FlatPlate) -> bytes:
+    """Return the sheet of a plate as an SVG file: outline, numbered holes, datum, table, scale bar, title block."""
     edge = plate.outline.flattened(0.05)
     (left, low), (right, high) = edge.min(axis=0), edge.max(axis=0)
     room = 3 * _SIZE  # around the plate, for numbers of holes
@@ -129,7 +118,7 @@ def plate_sheet(work: SolidModel, plate: FlatPlate) -> str:
     what = [f"thickness {plate.high - plate.low:.4g} mm"] + ([] if solid is None else [material_of(work, solid)])
     first = rows[0]
     remark = f"datum: centre of hole 1 ({first[1]}), x to the right, y upwards; holes have their finished size"
-    return _page(work, plate.name, ", ".join([*what, "scale 1:1"]), remark, (width, height), lines)
+    return _page(work, plate.name, ", ".join([*what, "scale 1:1"]), remark, (width, height), lines).encode("utf-8")
 
 
 def wheel_sheet(work: SolidModel) -> str:

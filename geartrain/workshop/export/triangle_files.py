@@ -159,7 +159,13 @@ def _materials() -> list[dict[str, Any]]:
 
 
 def _material(part: SolidPart) -> int:
-    name = part.status if part.kind == "wheel" else "plate" if part.kind in ("plate", "pillar", "post") else "arbor"
+    name = (
+        part.status
+        if part.kind == "wheel"
+        else "plate"
+        if part.kind in ("plate", "pillar", "post", "drum")
+        else "arbor"
+    )
     return list(_COLOURS).index(name)
 
 

@@ -19,7 +19,6 @@ from geartrain.drawing.style import (
     MOST_ROWS,
     RED,
     SCALE,
-    SMALL,
     WIDTH,
     Axes,
     Figure,
@@ -37,7 +36,6 @@ from geartrain.drawing.style import (
 )
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics import IntervalEstimate
-from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -141,6 +139,8 @@ def _jam_map(cleared: Sequence[ClearanceCase]) -> Figure:
     """Draw a map of the probability of a jam over the clearance and the factor of the errors."""
     clearances = sorted({each.clearance for each in cleared if each.clearance is not None})
     scales = sorted({each.scale for each in cleared})
+    several = cleared if len(clearances) > 1 < len(scales) else ()
+    _require(several, "a map has at least two clearances and two scales of errors", "give --vary with a COUNT above 1")
     table = np.full((len(clearances), len(scales)), np.nan)  # missing combinations remain blank
     for each in cleared:
         if each.clearance is not None:
@@ -250,11 +250,8 @@ def jam_map_figure(clearances: ArrayLike, scales: ArrayLike, probabilities: Arra
     clearances     ascending clearance factors, or fractions of clearance windows, (n,)
     scales         ascending factors of the errors, (m,)
     probabilities  probabilities of a jam, 0 to 1, (n, m); NaN for missing data
-
-    Raises `QuestionError` if the arrays do not form a map.
     """
     x, y, table = (np.asarray(each, dtype=float) for each in (clearances, scales, probabilities))
-    _check(x, y, table)
     figure = Figure(figsize=(WIDTH, 6.4), layout="constrained")
     axes = figure.add_subplot()
     shown = np.ma.masked_invalid(table.T)
@@ -279,17 +276,6 @@ def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: An
 
 def _arcsine(probability: Any) -> Any:
     return np.arcsin(np.sqrt(probability))
-
-
-def _check(x: Floats, y: Floats, table: Floats) -> None:
-    finite = table[np.isfinite(table)]
-    rising = all(each.ndim == 1 and each.size > 1 and (np.diff(each) > 0).all() for each in (x, y))
-    if not (rising and table.shape == (x.size, y.size) and finite.size and finite.min() >= 0 and finite.max() <= 1):
-        what = f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}"
-        why = "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)"
-        raise QuestionError(
-            Problem(what, why, "give ascending arrays of shapes (n,) and (m,), and probabilities of shape (n, m)")
-        )
 
 
 # ---------------------------------------------------------------------------------------------------- variance shares
@@ -327,48 +313,23 @@ def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = 
 
 
 def convergence_figure(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> Figure:
-    """Draw the probability of a jam in any pair with its interval over the number of trials, and below it the half
-    width of the interval.
+    """Draw the probability of a jam in any pair with its 95 % interval over the number of trials.
 
-    A dotted line shows a slope of -1/2. Raises `QuestionError` without trials.
+    Raises `QuestionError` without trials.
 
     steps   ascending numbers of trials with their estimates
     """
     _require(steps, "no trial is completed", "give at least one trial")
     counts = np.array([float(count) for count, _ in steps])
     low, high = np.array([share.interval for _, share in steps]).T
-    width = (high - low) / 2
-    figure, (above, below) = curve_panels((3.6, 2.4))
-    below.set_xscale("log")
+    figure, (axes,) = curve_panels([3.6])
+    axes.set_xscale("log")
+    axes.fill_between(counts, low, high, color=BLUE, alpha=0.15, linewidth=0, gid="95 %")
     look = {**series_look(0), "linewidth": 1.6, "marker": "o", "markersize": 3.5}
-    above.fill_between(counts, low, high, color=series_colour(0), alpha=0.15, linewidth=0)
-    above.plot(counts, [share.value for _, share in steps], label="any pair", gid="any pair", **look)
-    below.plot(counts, width, gid="width of any pair", **look)
-    if len(counts) > 1:
-        _slope(below, counts, width)
-    name_axes(above, y="probability of a jam")
-    name_axes(below, "trials", "half width of the\n95 % interval")
-    below.set_ylim(width.min() / 2, 2 * width.max())
-    below.set_yscale("log")
+    axes.plot(counts, [share.value for _, share in steps], gid="any pair", **look)
+    name_axes(axes, "trials; shaded: 95 % interval", "probability of a jam")
     # every n-th number of trials from the last one down, so that the full number is labelled
-    below.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
-    below.set_xticks([], minor=True)
-    below.xaxis.set_major_formatter(lambda count, _: f"{count:,.0f}")
-    legend_below(figure, 4, side="left")
+    axes.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
+    axes.set_xticks([], minor=True)
+    axes.xaxis.set_major_formatter(lambda count, _: f"{count:,.0f}")
     return figure
-
-
-def _slope(axes: Axes, trials: Floats, widths: Floats) -> None:
-    """Draw a reference line proportional to the inverse square root of the number of trials."""
-    ends = trials[[0, -1]]
-    # geometric mean fit, lowered by 0.6 so that the line does not cover the points
-    line = 0.6 * np.exp(np.mean(np.log(widths * np.sqrt(trials)))) / np.sqrt(ends)
-    axes.plot(ends, line, color=GREY, linewidth=1.0, linestyle=":", gid="slope")
-    beside: dict[str, Any] = {
-        "xytext": (0, -6),
-        "textcoords": "offset points",
-        "fontsize": SMALL,
-        "color": GREY,
-        "va": "top",
-    }
-    axes.annotate("slope -1/2", (ends[0], line[0]), ha="left", **beside)

@@ -1,9 +1,11 @@
 // The crank: a wheel to drag, with buttons, speed and position.
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
+import { today, turnsOn } from "../setting.js";
 import { el, field, icon, svg } from "./element.js";
 import { turns, typed } from "./number.js";
 
+const TODAY = "Set the pointers to the sky at this moment";
 const WORDS = 100; // ms between two dates of a moving crank
 export const PLAY = "M7 4.5v15l12.5-7.5z";
 export const PAUSE = "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z";
@@ -16,12 +18,13 @@ export function gearing(scene) {
 }
 
 export class Crank {
-  /** `beside`: text about a second train that turns with it */
-  constructor(scene, drive, beside = "") {
+  /** `beside`: text about a second train that turns with it; `set(day)` sets the pointers to the sky on a Julian day */
+  constructor(scene, drive, { beside = "", set = null } = {}) {
     this.scene = scene;
     this.drive = drive;
     this.gearing = gearing(scene);
     this.lead = scene.driving_link === null ? "the input" : scene.bodies[scene.driving_link].id;
+    this.onSet = set;
     this.epoch = scene.epoch ? new Epoch(scene.epoch) : null;
     this.date = this.epoch && el("output", { class: "date", "aria-live": "off" });
     this.wheel = this.#wheel();
@@ -51,7 +54,7 @@ export class Crank {
       ),
       this.#speed(),
       this.#goTo(),
-      this.epoch && this.#goToDate(),
+      this.epoch?.known && this.#goToDate(),
       this.fault,
     );
     if (!drive.movable) for (const each of this.node.querySelectorAll("button, input")) each.disabled = true;
@@ -109,18 +112,23 @@ export class Crank {
     this.wheel.focus({ preventScroll: true });
   }
 
+  /** Speed of playback: in days a second if the turns have dates, otherwise in turns a second. */
   #speed() {
-    const pace = el("span", { class: "pace" });
-    const slider = el("input", { type: "range", min: -3, max: 2, step: 0.1, value: Math.log10(this.drive.rate) });
-    const set = () => {
-      this.drive.rate = 10 ** Number(slider.value);
-      const text = Number(this.drive.rate.toPrecision(2));
-      pace.textContent = `${text} turns/s`;
-      slider.setAttribute("aria-valuetext", `${text} turns a second`);
+    const { drive } = this;
+    const [unit, size] = this.epoch ? ["days", Math.abs(Number(this.epoch.days))] : ["turns", 1];
+    const slider = el("input", { type: "range", min: -3, max: 2, step: 0.1 });
+    const pace = el("input", { type: "number", class: "pace", min: 0, step: "any", "aria-label": `${unit} a second` });
+    const show = (rate, typed = false) => {
+      drive.rate = rate;
+      const text = Number((rate * size).toPrecision(2));
+      if (!typed) pace.value = text;
+      slider.value = Math.log10(rate);
+      slider.setAttribute("aria-valuetext", `${text} ${unit} a second`);
     };
-    slider.addEventListener("input", set);
-    set();
-    return field("Speed", el("span", { class: "with" }, slider, pace), { class: "field speed" });
+    slider.addEventListener("input", () => show(10 ** Number(slider.value)));
+    pace.addEventListener("input", () => Number(pace.value) > 0 && show(Number(pace.value) / size, true));
+    show(drive.rate);
+    return field("Speed", el("span", { class: "with" }, slider, pace, `${unit}/s`), { class: "field speed" });
   }
 
   #goTo() {
@@ -207,10 +215,22 @@ export class Crank {
       field("Go to date", day),
       el("button", { type: "submit" }, "Go"),
       el("button", { type: "button", onclick: run, title: "Run to this date in eight seconds" }, "Run"),
+      el("button", { type: "button", onclick: () => this.#today(), title: TODAY }, "Today"),
     );
   }
 
+  /** Sets the pointers to the sky at this moment. */
+  #today() {
+    const day = today();
+    this.drive.play(false);
+    if (this.scene.epoch.settings.length) this.onSet?.(day);
+    this.drive.goTo(turnsOn(this.scene, day));
+  }
+
   #tellDate(at) {
+    this.date.title = this.epoch.known ? "" : `Without a position in the sky: ${this.scene.epoch.unset.join(", ")}`;
+    this.date.textContent = "not set to the sky";
+    if (!this.epoch.known) return;
     const date = this.epoch.dateAt(at);
     this.dated = performance.now();
     this.date.textContent = inWords(date);

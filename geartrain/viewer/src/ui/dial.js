@@ -2,7 +2,7 @@
 import { NEEDLES } from "../colours.js";
 import { engraved, handOf } from "../faces.js";
 import { svg } from "./element.js";
-import { skyOf } from "./sky.js";
+import { bodyOf, markOf } from "./sky.js";
 
 const RIM = 90;
 const PLAIN = { turns: 1, divisions: 12, inner: 1, outer: 1, way: 1 }; // scale of an output without a dial
@@ -66,11 +66,11 @@ export class Dial {
     return group;
   }
 
-  /** Marker of the first target of a pointer: an open circle on its scale. */
-  #sky({ order, pointer }) {
+  /** Marker of the sky or of the first target of a pointer: an open circle on its scale. */
+  #sky({ order, pointer, machine, index }) {
     const [target] = pointer.targets;
     if (!target) return null;
-    const title = svg("title", {}, `${pointer.output} by ${target.label}, mean motion`);
+    const title = svg("title", {}, bodyOf(machine.scene, index) ? `${pointer.output} in the sky` : `${pointer.output} by ${target.label}, mean motion`);
     return svg("circle", { class: `target hand-${order % NEEDLES.length}`, r: 4, "data-output": pointer.output }, title);
   }
 
@@ -101,7 +101,7 @@ export class Dial {
   set() {
     for (const { reading, node, sky } of this.hands) {
       const value = reading.now;
-      if (sky) this.#place(sky, skyOf(reading, reading.pointer.targets[0], reading.machine.made()));
+      if (sky) this.#place(sky, markOf(reading));
       node.classList.toggle("unknown", !value);
       if (!value) continue;
       const turn = (this.scale.way * value.degrees + (this.zero * 180) / Math.PI) % 360;

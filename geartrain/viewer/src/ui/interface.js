@@ -38,7 +38,7 @@ class Interface {
     this.tools = new Tools(app.options);
     this.theme = new Theme((background) => this.all.forEach(({ stage }) => stage?.theme({ background })));
     this.theme.apply(); // before the layout, so that the page does not flash
-    this.crank = new Crank(first, this.drive);
+    this.crank = new Crank(first, this.drive, { set: (day) => this.setTo(day) });
     this.keys = new Keys({
       timed: this.all.some(({ machine }) => machine.run),
       drive: this.drive,
@@ -154,7 +154,7 @@ class Interface {
     this.drive.run = first.machine.run ?? null;
     this.drive.movable = sides.some(({ movable }) => movable);
     this.app.gears = this.all.map((side) => (side === second ? side.gearing(first) : Fraction.of(1)));
-    const crank = this.drive.run ? new Playhead(first, this.drive) : new Crank(first.scene, this.drive, second?.beside(first));
+    const crank = this.drive.run ? new Playhead(first, this.drive) : new Crank(first.scene, this.drive, { beside: second?.beside(first), set: (day) => this.setTo(day) });
     this.crank.node.replaceWith(crank.node);
     this.crank = crank;
   }
@@ -170,10 +170,22 @@ class Interface {
   count(side, counts) {
     const { name, formulas } = side.declared;
     const same = (each) => each.formulas && each.declared.name === name && String(each.formulas.given.wheels) === String(formulas.wheels);
+    this.#renew(this.all.filter(same), (each) => each.change(counts));
+    this.live.say(side.steps.map(({ wheel, count }) => `${wheel} ${count} teeth`).join(", ") || "all as declared");
+  }
+
+  /** Sets all trains with an epoch to the sky on a Julian day. */
+  setTo(day) {
+    this.#renew(this.all.filter(({ scene }) => scene.epoch?.settings.length), (each) => each.setTo(day));
+    this.live.say("set to the sky");
+  }
+
+  /** Changes sides: first numbers, then pictures. */
+  #renew(sides, change) {
     const key = document.activeElement?.dataset?.key;
     const chosen = this.panel.chosen;
-    for (const each of this.all.filter(same)) {
-      each.change(counts);
+    for (const each of sides) {
+      change(each);
       each.redraw((stage) => this.tools.dress(each, stage));
     }
     this.drive.movable = this.sides.some(({ movable }) => movable);
@@ -186,7 +198,6 @@ class Interface {
     if (key) document.querySelector(`[data-key="${CSS.escape(key)}"]`)?.focus({ preventScroll: true });
     this.drive.goTo(this.drive.at);
     this.panel.set(true);
-    this.live.say(side.steps.map(({ wheel, count }) => `${wheel} ${count} teeth`).join(", ") || "all as declared");
   }
 
   /** Highlights the parts on which an output depends, in every side with this output. */

@@ -57,7 +57,10 @@ export class Panel {
   use(sides) {
     const say = (text) => this.owner.live.say(text);
     const onChoose = (output) => this.owner.choose(output);
-    this.readings = new Readings(sides, { onChoose, say });
+    const onSet = (day) => this.owner.setTo(day);
+    const unfolded = this.readings?.comparison?.open;
+    this.readings = new Readings(sides, { onChoose, onSet, say });
+    if (unfolded && this.readings.comparison) this.readings.comparison.open = true;
     const onCounts = (side, counts) => this.owner.count(side, counts);
     this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), onCounts, say });
     this.change = new Change(sides, { onCounts, say });

@@ -54,7 +54,8 @@ function shownAt(reading) {
   const named = scale.names.find(([name, first, span]) => name && done + 1e-9 >= ratio(first) && done + 1e-9 < ratio(first) + ratio(span));
   const parts = scale.turns > 1 ? [`turn ${(Math.floor(turns + 1e-9) % scale.turns) + 1}`] : [];
   if (named) parts.push(named[0]);
-  if (!named) parts.push(`${scale.cell} ${numberOf(scale, done)}`);
+  if (scale.cells?.length) parts.push(scale.cells[done]);
+  else if (!named) parts.push(`${scale.cell} ${numberOf(scale, done)}`);
   else if (scale.names.length < scale.divisions) parts.push(`${scale.cell} ${done - Math.floor(ratio(named[1])) + 1}`);
   parts.push(...scale.glyphs.filter(([cell, glyph]) => glyph && cell === done + 1).map(([, glyph]) => glyph));
   return parts.join(", ");

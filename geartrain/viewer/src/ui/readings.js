@@ -34,15 +34,17 @@ function linksInWords({ bodies, pointers }) {
 }
 
 export class Readings {
-  /** `sides` as in `side.js`; `onChoose(output)`; `say(text)` for screen readers */
-  constructor(sides, { onChoose, say }) {
+  /** `sides` as in `side.js`; `onChoose(output)`; `onSet(day)` sets pointers to the sky; `say(text)` for screen readers */
+  constructor(sides, { onChoose, onSet, say }) {
     Object.assign(this, { sides, onChoose, say });
     this.dials = [];
     this.angles = [];
     this.rows = [];
     this.names = [...new Set(sides.flatMap((side) => side.scene.pointers.map((each) => each.output)))];
     this.one = sides.every((side) => side.scene.unit === sides[0].scene.unit);
-    this.sky = sides.some(({ scene }) => hasTargets(scene)) && new Sky(sides, say);
+    const aims = sides.some(({ scene }) => scene.epoch?.settings.length) ? "the sky and targets" : "targets";
+    this.sky = sides.some(({ scene }) => hasTargets(scene)) && new Sky(sides, { say, onSet });
+    this.comparison = this.sky && more(`Comparison with ${aims}`, this.sky.node, () => this.set(true));
     this.search = el("input", {
       type: "search",
       placeholder: "Find an output",
@@ -56,7 +58,7 @@ export class Readings {
       !this.one && el("p", { class: "note" }, "The two trains use different units of speed, so no differences are shown."),
       sides.map(({ scene }) => !scene.asks && el("p", { class: "quiet" }, linksInWords(scene))),
       this.#lists(),
-      this.sky && more("Comparison with targets", this.sky.node, () => this.set(true)),
+      this.comparison,
     );
   }
 
@@ -118,7 +120,7 @@ export class Readings {
         "figcaption",
         {},
         el("strong", {}, dial.title),
-        [label, scale, dial.note].filter(Boolean).map((text) => el("span", { class: "quiet said" }, text)),
+        [label, scale, dial.look === "scale" && !dial.placed && "layout computed", dial.note].filter(Boolean).map((text) => el("span", { class: "quiet said" }, text)),
       ),
     );
   }

@@ -2,7 +2,9 @@
 import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
 import { NEEDLES } from "../colours.js";
+import { Machine } from "../motion.js";
 import { momentOf, pace, purposeOf } from "../opening.js";
+import { setTo, today, turnsOn } from "../setting.js";
 import { Callouts } from "./callouts.js";
 import { PAUSE, PLAY } from "./crank.js";
 import { legend } from "./colours.js";
@@ -35,12 +37,13 @@ export class Showcase {
     Object.assign(this, { app, kiosk, idle });
     this.index = Math.max(0, app.machines.findIndex((machine) => machine.moves)); // moving trains take precedence
     this.scene = app.scenes[this.index];
+    if (kiosk && this.scene.epoch?.settings.length) this.#setToday();
     const { run } = app.machines[this.index];
     this.drive = new Drive(app, Fraction.of(this.scene.step));
     this.drive.run = run ?? null;
     this.drive.rate = run ? paceOf(run) / run.period : pace(this.scene);
     this.drive.movable = app.machines[this.index].moves;
-    if (this.drive.movable) this.drive.at = momentOf(this.scene);
+    if (this.drive.movable) this.drive.at = this.moment ?? momentOf(this.scene);
     this.look = 0;
     this.theme = new Theme((background) => this.stage?.theme({ background }));
     this.theme.apply();
@@ -48,6 +51,14 @@ export class Showcase {
     this.drive.listen(() => this.#moved());
     this.drive.goTo(this.drive.at);
     if (kiosk) this.#attend();
+  }
+
+  /** Sets the pointers to the sky at this moment, from which the train turns. */
+  #setToday() {
+    const day = today();
+    this.moment = turnsOn(this.scene, day);
+    this.scene = this.app.scenes[this.index] = setTo(this.scene, day);
+    this.app.machines[this.index] = new Machine(this.scene);
   }
 
   #lay() {
@@ -84,7 +95,7 @@ export class Showcase {
   /** Readings shown in a kiosk: the date, if there is one, and outputs, those with dials first. */
   #outputs() {
     const { scene, index, app } = this;
-    if (scene.epoch && !this.drive.run) this.epoch = new Epoch(scene.epoch);
+    if (scene.epoch && !scene.epoch.unset.length) this.epoch = new Epoch(scene.epoch);
     this.date = this.epoch && el("output", { class: "date" });
     const asked = scene.asks ? scene.pointers.map((_, at) => at) : [];
     const order = asked.sort((one, other) => (scene.pointers[one].dial === null) - (scene.pointers[other].dial === null));

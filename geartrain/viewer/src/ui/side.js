@@ -2,6 +2,7 @@
 import { CountFormulas } from "../formulas.js";
 import { Fraction } from "../fraction.js";
 import { Machine } from "../motion.js";
+import { setTo } from "../setting.js";
 import { copyOf } from "../still.js";
 import { Callouts } from "./callouts.js";
 import { el } from "./element.js";
@@ -66,12 +67,18 @@ export class Side {
   change(counts) {
     this.counts = counts;
     const { turns } = this.machine;
-    const same = this.steps.length === 0;
-    this.scene = same ? this.declared : this.formulas.changed(counts);
-    this.machine = same ? this.declaredMachine : new Machine(this.scene);
+    this.scene = this.steps.length ? this.formulas.changed(counts) : this.declared;
+    if (this.day) this.scene = setTo(this.scene, this.day);
+    this.machine = this.scene === this.declared ? this.declaredMachine : new Machine(this.scene);
     this.machine.turns = turns;
     this.app.scenes[this.index] = this.scene;
     this.app.machines[this.index] = this.machine;
+  }
+
+  /** Sets the pointers to the sky on a Julian day. */
+  setTo(day) {
+    this.day = day;
+    this.change(this.counts);
   }
 
   /** Redraws the picture after a short time, once for several successive changes. */

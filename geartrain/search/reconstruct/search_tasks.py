@@ -164,6 +164,7 @@ def count_topologies(
     Raise `QuestionError` if there are more choices of tooth counts than any search can cover.
     """
     _refuse_absurd(problem)
+    _search(problem)  # built before the tasks, which may seem long enough for further processes otherwise
     tasks = [
         TopologyTask(problem, added, part, parts)
         for added in range(problem.additions.wheels + 1)

@@ -81,15 +81,11 @@
     setTimeout(() => said.classList.remove("shown"), 2000);
   };
 
-  // the viewer shows its first scene: move the wanted scene to the front and reload the frame
+  // name the wanted scene as the first and reload the frame
   const turn = (frame, number) => {
     frame.dataset.given ??= frame.srcdoc;
     const inner = new DOMParser().parseFromString(frame.dataset.given, "text/html");
-    const held = inner.getElementById("scenes");
-    const data = JSON.parse(held.textContent);
-    const [wanted] = data.scenes.splice(number - 1, 1);
-    data.scenes.unshift(wanted);
-    held.textContent = JSON.stringify(data).replace(/[<>&\u2028\u2029]/g, (sign) => `\\u${sign.charCodeAt(0).toString(16).padStart(4, "0")}`);
+    inner.getElementById("scenes").dataset.first = number - 1;
     frame.srcdoc = `<!DOCTYPE html>${inner.documentElement.outerHTML}`;
     frame.scrollIntoView({ block: "nearest" });
   };

@@ -7,14 +7,13 @@ A diagram is a few lines of the viewer's own program (geartrain/viewer/src/diagr
 
 from __future__ import annotations
 
+import json
 import re
 from functools import cache
 from html import escape
 from pathlib import Path
 
 import diagram_data
-
-from geartrain.viewer.viewer_page import json_in_script
 
 ROOT = Path(__file__).resolve().parents[3]
 BUILT = ROOT / "geartrain" / "viewer" / "built"
@@ -32,7 +31,9 @@ def files() -> dict[str, Path]:
 @cache
 def data_text(kind: str) -> str:
     """The data of a diagram as they stand in a script element."""
-    return json_in_script(getattr(diagram_data, kind)())
+    text = json.dumps(getattr(diagram_data, kind)(), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    # signs that could end or start a script element mean the same as numbers
+    return re.sub("[<>&\u2028\u2029]", lambda sign: f"\\u{ord(sign[0]):04x}", text)
 
 
 def element(kind: str, still: str) -> str:

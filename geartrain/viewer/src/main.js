@@ -1,5 +1,6 @@
-// Start of the page: scenes from its JSON, a machine for each, the interface, and then the pictures.
+// Start of the page: scenes from its compressed JSON, a machine for each, the interface, and then the pictures.
 
+import { strFromU8, unzlibSync } from "three/examples/jsm/libs/fflate.module.js";
 import { Fraction } from "./fraction.js";
 import { Machine } from "./motion.js";
 import { Plan } from "./plan.js";
@@ -7,7 +8,11 @@ import { buildInterface } from "./ui/interface.js";
 import { Showcase } from "./ui/showcase.js";
 import { Stage } from "./view.js";
 
-const { scenes: given, options } = JSON.parse(document.getElementById("scenes").textContent);
+const held = document.getElementById("scenes");
+const packed = Uint8Array.from(atob(held.textContent), (each) => each.charCodeAt(0));
+const { scenes: given, options } = JSON.parse(strFromU8(unzlibSync(packed)));
+// a page around this one can choose the first scene
+given.unshift(...given.splice(Number(held.dataset.first ?? 0), 1));
 // the same train with all drive flanks in contact can be shown next to a simulated run
 const scenes = given.flatMap((scene) => (scene.run ? [scene, { ...scene, touching: true }] : [scene]));
 const machines = scenes.map((scene) => new Machine(scene));

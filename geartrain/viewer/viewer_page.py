@@ -70,7 +70,7 @@ def page(
         raise QuestionError(Problem("there are too few scenes for a page", why, fix))
     # the default layout needs no entry
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
-    data = {"scenes": [_data(scene) for scene in scenes], "options": options}
+    data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
     program = _built("viewer.js")
     policy = f"{own_script_only(program)}; img-src data: blob:; connect-src 'none'"  # no connections
     return Template(_part("page.html")).substitute(
@@ -157,14 +157,6 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
     """
     style = f"width:100%;height:{height}px;border:0"
     return f'<iframe src="{escape(quote(address))}" title="{escape(title)}" style="{style}" loading="lazy"></iframe>'
-
-
-def _data(scene: Scene) -> dict[str, Any]:
-    """Return a scene as plain data, with tooth profiles rounded to 1e-10 of the pitch radius."""
-    data = scene.to_dict()
-    for profile in data["profiles"]:
-        profile["points"] = [[round(radius, 10), round(angle, 10)] for radius, angle in profile["points"]]
-    return data
 
 
 def _compressed(data: object) -> str:

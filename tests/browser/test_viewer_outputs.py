@@ -79,23 +79,31 @@ def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tm
     assert shown.page.locator(".path").is_hidden()
 
 
+HANDS = (
+    "Object.fromEntries([...document.querySelectorAll('.dial .hand')].map((h) => [h.dataset.output, "
+    "[Number(h.dataset.turns), Number(/rotate\\(([^)]+)/.exec(h.getAttribute('transform'))[1])]]))"
+)
+"""Turns and rotation [deg] of each hand in the list of readings."""
+
+
 def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
     shown = show(ANTIKYTHERA)
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(100_003, 7)
+    go(shown, Fraction(0))
+    first = shown.run(HANDS)
     go(shown, at)
-    hands = shown.run(
-        "Object.fromEntries([...document.querySelectorAll('.dial .hand')].map((h) => [h.dataset.output, "
-        "[Number(h.dataset.turns), Number(/rotate\\(([^)]+)/.exec(h.getAttribute('transform'))[1])]]))"
-    )
+    hands = shown.run(HANDS)
     positive = 1 if train.declaration.view.positive == "clockwise" else -1
     # the front is seen as the view declares; on the back all senses are reversed
     for output in ("sun", "metonic", "games", "callippic", "saros", "exeligmos"):
         dial = train.declaration.dials[str(train.declaration.outputs[output].dial)]
         sense = positive if dial.face == "front" else -positive
         way = -1 if output == "games" else 1  # only its years are counted in the opposite direction
-        read = sense * way * Fraction(solved[output]) * at % dial.turns
+        # only pointers that the declaration sets to the sky start elsewhere than at their zero mark
+        assert (first[output][0] == 0) == (train.declaration.outputs[output].at_epoch is None)
+        read = (first[output][0] + float(sense * way * Fraction(solved[output]) * at % dial.turns)) % dial.turns
         made, rotated = hands[output]
         assert made == pytest.approx(float(read), abs=1e-9), output
         assert rotated == pytest.approx(float(way * (read % 1)) * 360, abs=1e-5), output

@@ -77,7 +77,7 @@ def test_taken_apart_nothing_leaves_the_picture(show: Opening, name: str) -> Non
             apart.fill(share)
             across, upwards = shown.run(SPREAD, 0)
             assert max(across, upwards) < 1, (look, share)
-            assert max(across, upwards) > 0.6, (look, share)  # wheels; the corners of plates are farther out
+            assert max(across, upwards) > 0.5, (look, share)  # wheels; the corners of plates are farther out
     shown.page.mouse.move(200, 300)
     for _ in range(12):
         shown.page.mouse.wheel(0, -400)  # nearer: the target keeps its position and its distance
@@ -93,13 +93,17 @@ def test_needles_in_the_picture_point_where_fractions_say(show: Opening) -> None
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(1234, 7)
+    shown.run("(t) => geartrain.setTurns(t)", "0")
+    first = shown.run(NEEDLES)
     shown.run("(t) => geartrain.setTurns(t)", str(at))
     pointed = shown.run(NEEDLES)
     positive = 1 if train.declaration.view.positive == "clockwise" else -1
     for output in ("sun", "metonic", "games", "callippic", "saros", "exeligmos"):
         face = train.declaration.dials[str(train.declaration.outputs[output].dial)].face
         sense = positive if face == "front" else -positive
-        off = (pointed[output] - float(sense * Fraction(solved[output]) * at % 1)) % 1
+        # only pointers that the declaration sets to the sky start elsewhere than at their zero mark
+        assert (abs(first[output]) < 1e-9) == (train.declaration.outputs[output].at_epoch is None)
+        off = (pointed[output] - first[output] - float(sense * Fraction(solved[output]) * at % 1)) % 1
         assert min(off, 1 - off) < 1e-6, output
 
 

@@ -76,7 +76,7 @@ Speeds = Literal["sliding", "pitch_line"]
 
 
 class FrictionLaw(BaseModel, ABC):
-    """Law for the friction coefficient of teeth as a function of speed: the sliding speed at each contact, or the
+    """Friction law: coefficient of friction of teeth as a function of the sliding speed at each contact or of the
     pitch-line speed.
 
     See Also
@@ -320,8 +320,8 @@ class PairFriction(Shown):
     """Pitch-line speed [m/s]: one value, or one for each position."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
-        """Return the coefficient at sliding speeds divided by the pitch-line speed; NaN where `sliding` is NaN (no
-        contact).
+        """Return the coefficient of friction at the relative sliding speeds `sliding` (sliding speed divided by
+        pitch-line speed). It is NaN where `sliding` is NaN (no contact).
         """
         import numpy as np
 

@@ -113,7 +113,7 @@ def _refuse_jumps(composition: ErrorComposition) -> None:
         jumping = [composition.sources[at].id for at in step.sources if composition.sources[at].transmission.at_once]
         if step.coupled and jumping:
             what = f"the step of '{jumping[0]}' turns its own driver"
-            why = "a step at once has no position of the driver during the step"
+            why = "an instantaneous step does not define the position of the driver during the step"
             raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
 
 

@@ -250,7 +250,7 @@ class _DeclaredCoupling(NamedTuple):
             names = (f"its {driven}", f"its {driver}") if driven != driver else (f"'{circuit.i}'", f"'{circuit.j}'")
             sides = [f"'{label}' of {name}" for label, name in zip(labels, names, strict=True)]
             what = f"coupling '{coupling.name}': the axes {sides[1]} and {sides[0]} are not parallel"
-            fix = "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels"
+            fix = "declare parallel directions in `axes`, or connect the links by a universal joint or bevel wheels"
             return self._problem(what, coupling.PARALLEL, fix)
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
@@ -396,7 +396,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     else:
         where = " and at ".join(changes)
         why = f"on the turning pairs {steps} the axis changes at {where}, so the centre distance is not fixed"
-        fix = f"join '{i}' and '{j}' to one carrier: {' or '.join(changes)}"
+        fix = f"connect '{i}' and '{j}' to one carrier: {' or '.join(changes)}"
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 

@@ -60,7 +60,8 @@ class SolidModel(Shown):
     Raises
     ------
     QuestionError
-        At first use, if the train declares sizes that `making` also gives, or if its teeth cannot have the backlash.
+        At first use, if sizes in `making` are already declared by the train, or if the requested backlash is not
+        possible for its teeth.
 
     Examples
     --------

@@ -151,13 +151,13 @@ class PointerBudget(Result):
 
     @property
     def ranked(self) -> tuple[BudgetCause, ...]:
-        """Causes whose size is known, in descending order of size."""
+        """Causes whose contribution is known, in descending order of contribution."""
         known = [cause for cause in self.causes if cause.degrees is not None]
         return tuple(sorted(known, key=lambda cause: -(cause.degrees or 0.0)))
 
     @property
     def ranking(self) -> tuple[str, ...]:
-        """Names of the causes whose size is known, in descending order of size."""
+        """Names of the causes whose contribution is known, in descending order of contribution."""
         return tuple(cause.name for cause in self.ranked)
 
     @property

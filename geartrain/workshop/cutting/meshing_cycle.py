@@ -72,7 +72,9 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that jam or clash, and so cannot turn through their cycle with a dragging driven wheel."""
+        """Mask of pairs that jam or clash, and therefore cannot turn through their meshing cycle if the driven wheel
+        drags.
+        """
         return self.jams | self.clash
 
     @classmethod

@@ -123,7 +123,7 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
         return share_figure(indices, f"error of '{found.output}' by {found.by}: {found.trials:,} base samples")
     if picture == "pairs":
         first = trials.pointers[0]
-        why = f"variance shares need two trials that turn, and errors of '{first.name}' that differ"
+        why = f"variance shares need two trials in which the train turns, and errors of '{first.name}' that differ"
         _require(first.shares, why, "give more --trials, smaller errors (--cutting), or another output (--of)")
         shares = {name: (IntervalEstimate(value, value, value),) for name, value in first.shares.items()}
         return share_figure(shares, f"error of '{first.name}' by pair")
@@ -238,7 +238,9 @@ def _bands_key() -> list[Patch]:
 
 
 def _no_errors(why: str) -> QuestionError:
-    return QuestionError(Problem("the errors cannot be drawn", why, "give trials that turn, and at least one pointer"))
+    return QuestionError(
+        Problem("the errors cannot be drawn", why, "give trials in which the train turns, and at least one pointer")
+    )
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities

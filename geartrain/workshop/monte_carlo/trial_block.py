@@ -234,8 +234,8 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the first-order approximation of `errors` [rad]: each pair at its mean angle, each pin at its mean
-        ratio.
+        """Return the first-order approximation of `errors` [rad]: the error of each pair is evaluated at its driver's
+        mean angle and multiplied by the mean ratios of the following pairs and pins.
         """
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)

@@ -148,7 +148,9 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train in which the clearance of every pair is in the middle of its clearance window, if it has one."""
+        """Train in which the clearance factor of every pair that has a clearance window is in the middle of this
+        window.
+        """
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property

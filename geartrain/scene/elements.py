@@ -339,7 +339,7 @@ class SceneShiftElement:
     text: str
     """Description of the brake or clutch, such as `B brakes ring`."""
     one_way: bool = False
-    """True for a one-way clutch in force, which is closed if it holds and open if it overruns."""
+    """True for an active one-way clutch, which is closed if it holds and open if it overruns."""
 
 
 @dataclass(frozen=True, slots=True)

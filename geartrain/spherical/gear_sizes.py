@@ -297,7 +297,7 @@ class SphereSizing(Result):
 
     @property
     def undercut(self) -> dict[str, float]:
-        """Mapping from kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
+        """Mapping from gear kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
         undercut.
         """
         # pressure angle at the mean pitch: cos alpha = c / lambda

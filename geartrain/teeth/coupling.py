@@ -100,7 +100,7 @@ class Coupling(BaseModel):
     SIDES: ClassVar[tuple[str, str]] = ("driven", "driver")
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
-    """True if the coupling may join each of several equal links to one other link."""
+    """True if the coupling may connect each of several equal links to one other link."""
     LOCKS_BACK: ClassVar[bool] = False
     """True if the driven side cannot drive, because the device locks it."""
     PARALLEL: ClassVar[str] = "its parts must move in the same plane"
@@ -121,7 +121,7 @@ class Coupling(BaseModel):
     efficiency: DeclaredEfficiency | None = Field(
         None,
         description="Basic efficiency with the carrier fixed, at most 1: a number or a percentage, or "
-        "`{forward, backward}`, where forward means that the first link drives; default without loss",
+        "`{forward, backward}`, where forward means that the first link drives; default no loss",
     )
     source: str | None = Field(None, description="Key of the source of the dimensions")
     status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(

@@ -137,7 +137,7 @@ REFUSED = {
         ["'m' and 'c' would lock an arbor"],
     ),
     "itself": (COUPLED.replace("[m, k]", "[m, m]"), ["connects arbors that are already connected"]),
-    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "already joined"]),
+    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "already"]),
     "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["known mesh 'w~x'", "lock"]),
     "follower": (
         COUPLED + "couplings: [{kind: pin_follower, pin: m, slot: n}]\n",

@@ -82,7 +82,7 @@ MISTAKES = {
     "a cycle of turning pairs": (changed("gears:", "  - {pair: [a, b], axis: A}\ngears:"), 8, ["cycle"]),
     "a turning pair twice": (changed("gears:", "  - {pair: [frame, b], axis: B}\ngears:"), 8, ["cycle"]),
     "a turning pair with itself": (changed("[frame, b]", "[b, b]"), 7, ["joins 'b' to itself"]),
-    "a link left out": (changed("  - {pair: [frame, b], axis: B}\n", ""), 4, ["link 'b' is not joined"]),
+    "a link left out": (changed("  - {pair: [frame, b], axis: B}\n", ""), 4, ["link 'b' is not connected"]),
     "one label for two axes": (
         changed("  b: {wheels", "  c: {}\n  b: {wheels").replace(
             "- {pair: [frame, b], axis: B}", "- {pair: [a, c], axis: C}\n  - {pair: [c, b], axis: A}"

@@ -108,7 +108,7 @@ _MAIN = 3  # outputs in a summary
 
 
 def _refuse_jumps(composition: ErrorComposition) -> None:
-    """Raise `GearTrainError` if a step at once moves its own driver, whose position is then not unique."""
+    """Raise `GearTrainError` if an instantaneous step moves its own driver, whose position is then not unique."""
     for step in composition.steps:
         jumping = [composition.sources[at].id for at in step.sources if composition.sources[at].transmission.at_once]
         if step.coupled and jumping:

@@ -389,7 +389,7 @@ class _Decision:
     def _refuse(self) -> None:
         declared, frame = self.train.declaration, self.train.declaration.frame
         if len(self.names) > MOST_CLUTCHES:
-            what = f"{len(self.names)} one-way clutches are in force"
+            what = f"{len(self.names)} one-way clutches are active"
             why = f"at most {MOST_CLUTCHES} are supported, because all combinations of holding clutches are tried"
             raise DeclarationError(
                 [

@@ -202,7 +202,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
 
 
 def _refuse_jumps(setting: LoadCase) -> None:
-    """Raise `QuestionError` if a coupling that transmits torque moves at once."""
+    """Raise `QuestionError` if a coupling that transmits torque moves instantaneously."""
     for circuit in setting.circuits:
         joint = setting.joints.get(circuit.id)
         if joint is not None and joint.transmission.at_once:

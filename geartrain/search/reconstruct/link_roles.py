@@ -206,7 +206,7 @@ Joined = Mapping[str, tuple[str, ...]]
 
 
 def joined_arbors(evidence: Train) -> Joined:
-    """Return the groups of links that given couplings join to one arbor.
+    """Return the groups of links that given couplings connect to one arbor.
 
     A group is named after the input link if the group contains it, otherwise after its first link with wheels.
     """
@@ -315,8 +315,8 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
             what = f"the coupling of '{link}', which turns on '{bearing}', crosses a carrier"
             why = f"the speed of '{link}' depends on its carrier"
             fix = (
-                f"join the arbors before and after '{bearing}', which have the same mean speed, and remove the arbors "
-                "on it"
+                f"connect the arbors before and after '{bearing}', which have the same mean speed, and remove the "
+                "arbors on it"
             )
             yield Problem(what, why, fix, place)
 

@@ -71,13 +71,16 @@ class Belt(Coupling):
     HOLDS = True
     UNKNOWN = "slip, creep and stretch"
 
-    kind: Literal["belt"] = Field(description="Belt, chain or cable: all pulleys have one circumferential speed")
+    kind: Literal["belt"] = Field(description="Belt, chain or cable: all pulleys have the same circumferential speed")
     around: Pulleys = Field(
-        description="Links with the pitch diameters of their pulleys, or a list of wheels, by their teeth; the speeds "
-        "of the others follow from the first"
+        description="Links with the pitch diameters of their pulleys, or a list of wheels, "
+        "whose tooth counts are used; the first determines the speeds of the "
+        "others"
     )
     reversed: tuple[str, ...] = Field(
-        (), description="Pulleys that turn in the opposite sense: of a crossed belt, or touched by the back of the belt"
+        (),
+        description="Pulleys that turn in the opposite sense: a pulley of a crossed belt, "
+        "or pulleys that the back of the belt touches",
     )
 
     @model_validator(mode="after")

@@ -48,7 +48,7 @@ class SteppingCoupling(Coupling):
     LOCKS_BACK = HOLDS = True
     UNKNOWN = "friction of pin, finger and lock; impacts where the lock stops the driven link"
 
-    pair: tuple[str, str] = Field(description="Driving link, and the link that moves by steps")
+    pair: tuple[str, str] = Field(description="Driving link, and the link that moves in steps")
     internal: Boolean = Field(
         False, description="True if both links turn in the same sense; by default they turn in opposite senses"
     )
@@ -128,7 +128,8 @@ class Step(SteppingCoupling):
         1, ge=1, le=10_000, description="Number of engagements in one revolution of the driver, evenly spaced"
     )
     over: Annotated[Angle, not_below_zero("give an angle of 0 or more")] | None = Field(
-        None, description="Angle of the driver during which an engagement moves the teeth evenly; default 0, at once"
+        None,
+        description="Angle of the driver during which an engagement moves the teeth evenly; default 0 (instantaneous)",
     )
     loss: Annotated[Energy, not_below_zero("give an energy of 0 or more")] | None = Field(
         None, description="Energy lost for every tooth that passes the jumper or click spring; default 0"

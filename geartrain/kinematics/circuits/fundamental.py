@@ -267,7 +267,7 @@ class _DeclaredCoupling(NamedTuple):
                 link, does, joints, key = circuit.i, "turns", "slides", "slides"
             what = f"coupling '{coupling.name}': '{link}' {does} on '{carrier}'"
             fix = f"declare '{link}' under `{joints}`, or name another link as `{key}`"
-            return self._problem(what, f"a {coupling.kind} joins a link that turns to a link that slides", fix)
+            return self._problem(what, f"a {coupling.kind} connects a link that turns with a link that slides", fix)
         b = circuit.b
         if coupling.kind != "screw":
             # the sense of a screw is that of its thread; other couplings are declared about and along their own axes
@@ -299,7 +299,7 @@ class _DeclaredCoupling(NamedTuple):
             f"coupling '{name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
             f"'{other.carrier}' those of '{other.j}' and '{other.i}'",
             f"the distance between '{first.i}' and '{other.i}' changes, and a {kind} keeps its length",
-            f"join all its links to one carrier, or declare a {kind} for each carrier",
+            f"connect all its links to one carrier, or declare a {kind} for each carrier",
         )
 
     def _problem(self, what: str, why: str, fix: str, *key: str) -> Problem:

@@ -217,7 +217,7 @@ class ImpactList(Result):
 
     See Also
     --------
-    TimeRun.impacts : Such an object.
+    TimeRun.impacts : Field of this type.
     """
 
     KEYS = ("total",)
@@ -242,7 +242,7 @@ class EnergyAccount(Result):
 
     See Also
     --------
-    TimeRun.energy : Such an object.
+    TimeRun.energy : Field of this type.
     """
 
     KEYS = (

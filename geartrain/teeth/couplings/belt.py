@@ -113,7 +113,7 @@ class Belt(Coupling):
         return ", ".join(map("".join, zip(self.ends, sizes, marks, strict=True)))
 
     def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
-        """Yield what is wrong with the pulleys: two on one link, or a wheel that a belt cannot go around."""
+        """Yield the faults of the pulleys: two pulleys on one link, or a wheel that a belt cannot go around."""
         yield from super().problems(wheels)
         for name in self.ends if self.by_teeth else ():
             wheel = wheels[name][1]

@@ -89,7 +89,8 @@ class _GenevaDeviation(PeriodicFunction):
 
 
 class StepTransmission(TableTransmission):
-    """Transmission function of engagements that move whole teeth, at once or evenly over an angle of the driver.
+    """Transmission function of engagements that move whole teeth, instantaneously or uniformly over an angle of the
+    driver.
 
     The first engagement begins at S = 0. The driven angle counts from its position before this engagement.
 

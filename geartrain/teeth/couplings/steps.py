@@ -42,7 +42,7 @@ _Moves = Annotated[
 
 
 class SteppingCoupling(Coupling):
-    """Coupling that moves its driven link by steps, base class of all kinds."""
+    """Coupling that moves its driven link in steps, base class of all kinds."""
 
     # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
     LOCKS_BACK = HOLDS = True
@@ -150,7 +150,7 @@ class Step(SteppingCoupling):
 
     @property
     def moving_angle(self) -> Fraction:
-        """Angle of the driver during which an engagement moves the teeth [turn]; 0 for steps at once."""
+        """Angle of the driver during which an engagement moves the teeth [turn]; 0 for instantaneous steps."""
         return Fraction(0) if self.over is None else self.over.base
 
     @property
@@ -160,7 +160,7 @@ class Step(SteppingCoupling):
 
     @property
     def remark(self) -> str:
-        """Number of steps at once, or the fraction of the time during which the driven link moves, in words."""
+        """Number of instantaneous steps, or the fraction of the time during which the driven link moves, in words."""
         if self.moving_angle:
             return super().remark
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))

@@ -141,7 +141,7 @@ class DeviationTransmission(TransmissionFunction):
 
     @cached_property
     def at_once(self) -> bool:  # type: ignore[override]
-        """True if the driven side moves at once, so that the transmission error is discontinuous."""
+        """True if the driven side jumps, so that the transmission error is discontinuous."""
         return bool(self._jumps(0).any())
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:

@@ -70,10 +70,9 @@ class BestToothSizes(Tabular, Pictured, Result):
     outlines: OutlineAgreement
     """Comparison of the best design's results with the results that its drawn outlines give."""
     equal_depth: ToothSizes | None
-    """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it does not turn.
-    """
+    """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it cannot turn."""
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, otherwise as `start`; None if it does not turn."""
+    """Design with tip radii in the ratio of the tooth numbers, otherwise as `start`; None if it cannot turn."""
     front: tuple[ToothSizes, ...]
     """Pareto front from the best design for the first objective to that for the second; empty for one objective."""
     evaluations: int
@@ -81,7 +80,7 @@ class BestToothSizes(Tabular, Pictured, Result):
     stops: float | None
     """Probability that the best design jams or clashes, 0 to 1; None if this probability was not limited."""
     tried: tuple[ToothSizes, ...]
-    """Evaluated designs that turn and satisfy all limits."""
+    """Evaluated designs that can turn and satisfy all limits."""
 
     def _summary(self) -> str:
         aim = self.aims[0]
@@ -91,7 +90,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table of the best design, the rule-based designs that turn, and the Pareto front; angles are in rad."""
+        """Table of the best design, the rule-based designs that can turn, and the Pareto front; angles are in rad."""
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -149,8 +148,7 @@ def find_tooth_sizes(
     Raises
     ------
     QuestionError
-        If an objective, parameter or range is invalid, or if no design both turns without a jam and satisfies the
-        limits.
+        If an objective, parameter or range is invalid, or if no design can turn and satisfies the limits.
 
     Notes
     -----

@@ -32,7 +32,7 @@ USUAL_RANGES: Mapping[str, Range] = {
 """Default bounds of the free parameters; angles in rad."""
 
 _BEYOND = 1e3  # value above every figure, for designs that turn but violate a limit
-_NOTHING = 1e6  # value of designs that do not turn
+_NOTHING = 1e6  # value of designs that cannot turn
 _FRONT = 9  # number of bounds on the second objective
 _WORTH = 0.005  # minimum distance of designs on a front, as a fraction of its range in the second objective
 _CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance")  # other keys of a declared clearance

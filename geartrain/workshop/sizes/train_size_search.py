@@ -393,7 +393,7 @@ class PairSizes(Result):
 
     @property
     def declared(self) -> ToothSizes | None:
-        """Declared sizes of the pair; None if the pair does not turn with them."""
+        """Declared sizes of the pair; None if the pair cannot turn with them."""
         return self.before if self.runs else None
 
 

@@ -99,7 +99,8 @@ def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show: Opening) -> N
     shown = show("prague-orloj")
     hands = "geartrain.stages[0].world.parts.filter(({dial, plate, colour}) => dial !== undefined && !plate)"
     outputs = [shown.run(f"geartrain.scenes[0].bodies[{body}].id") for body in shown.run(f"{hands}.map((e) => e.body)")]
-    assert outputs == ["sun", "zodiac", "moon"]
+    # a hand can have several parts
+    assert [*dict.fromkeys(outputs)] == ["sun", "zodiac", "moon"]
     classes = shown.run(
         "Object.fromEntries([...document.querySelectorAll('.card .hand')]"
         ".map((hand) => [hand.dataset.output, hand.getAttribute('class')]))"

@@ -188,7 +188,7 @@ OUTPUT = {"exact", "value", "of", "relative_to", "output/input", "period_s", "ex
 TARGET = {"target", "speed", "compared", "ppm", "days_per_century", "degrees_per_unit", "met"}
 TARGET |= {"seconds_per_day", "seconds_per_year", "days_to_one_day"}
 REPORT = {"closure", "build_findings", "gridlock", "sources", "circuits", "adjacency", "remarks", "sensitivity"}
-REPORT |= {"teeth", "pins", "couplings", "torques", "strength", "motion", "errata"}
+REPORT |= {"teeth", "pins", "couplings", "torques", "timekeeping", "strength", "motion", "errata"}
 
 
 def check_answer(answer: Mapping[str, Any]) -> None:

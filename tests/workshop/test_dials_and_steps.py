@@ -165,7 +165,7 @@ def test_a_clock_is_made_with_its_barrel_its_pendulum_and_its_weight() -> None:
     work = SolidModel(load("longcase-clock"), ManufacturingSizes())
     rows = {row.names[0]: row for row in parts_list(work)}
     assert (rows["weight"].material, rows["weight"].mass) == ("lead", pytest.approx(5900))
-    assert rows["great barrel"].size.startswith("diameter 25.4,")
+    assert rows["great barrel"].size.startswith("diameter 50.8,")
     parts = {part.name: part for part in work.parts}
     hung = parts["pendulum rod"].place - parts["pendulum bob"].place
     assert np.linalg.norm(hung) == pytest.approx(994)

@@ -75,22 +75,23 @@ class BentTeeth:
 
 
 def _sections(points: Floats) -> list[Floats]:
-    """The outlines of both faces, corner by corner, out of the corners of the triangles drawn.
+    """Return the outlines of both faces, corner by corner, from the corners of the drawn triangles.
 
-    Of a tooth four corners of every piece of flank, then on either face four of every strip down to its base; of a pin
-    then the corners of both its ends.
+    The corners are four of each piece of the flanks, then those of either face, and at last those of the wall of a rim.
+    The outline of a face begins with its base, and a pin has none.
     """
-    pieces = len(points) // 12
-    quads, strips = points[: 4 * pieces].reshape(-1, 4, 3), points[4 * pieces : 12 * pieces].reshape(2, pieces, 4, 3)
-    whole = len(points) == 12 * pieces and np.allclose(strips[0, :, 3], quads[:, 0])
-    flanks = quads if whole else points[: 4 * (len(points) // 6)].reshape(-1, 4, 3)
-    if not np.allclose(flanks[:-1, 1], flanks[1:, 0]) or not np.allclose(flanks[:-1, 2], flanks[1:, 3]):
-        raise ValueError("the pieces of a flank do not hang together: the viewer builds teeth in another way")
-    if not whole:
+    quads = points[: len(points) // 4 * 4].reshape(-1, 4, 3)
+    joined = np.isclose(quads[:-1, 1:3], quads[1:, [0, 3]]).all((1, 2))
+    pieces = 1 + int(np.argmin([*joined, False]))
+    flanks, rest = points[: 4 * pieces].reshape(-1, 4, 3), points[4 * pieces :]
+    if len(rest) == 2 * pieces:
         return [flanks[:, 0], flanks[:, 3]]
-    outer = [np.vstack([flanks[:, at], flanks[-1:, to]]) for at, to in ((0, 1), (3, 2))]
-    base = [np.vstack([strips[end, :, 0], strips[end, -1:, 1]]) for end in (0, 1)]
-    return [np.vstack([side, foot[::-1]]) for side, foot in zip(outer, base, strict=True)]
+    edge = np.vstack([flanks[:, 0], flanks[-1:, 1]])
+    for base in range(len(rest) // 2 - pieces):
+        if np.allclose(rest[base : base + len(edge)], edge):
+            size = base + len(edge)
+            return [rest[:size], rest[size : 2 * size]]
+    raise ValueError("no face follows the flanks: the viewer builds teeth in another way")
 
 
 def _turns(points: Floats, starts: int) -> list[Floats]:

@@ -76,7 +76,7 @@ def run(
         ),
     ] = None,
     sobol: Annotated[
-        bool, typer.Option("--sobol", help="Compute Sobol indices by wheel and by kind of error.")
+        bool, typer.Option("--sobol", help="Compute Sobol indices for each wheel and for each kind of error.")
     ] = False,
     workers: Workers = None,
     resume: Resume = False,

@@ -116,7 +116,7 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
 
 def list_trains(
     evidence: Annotated[
-        bool, typer.Option("--evidence", help="List the evidence files shipped for `reconstruct`.")
+        bool, typer.Option("--evidence", help="List evidence files shipped for `reconstruct`.")
     ] = False,
 ) -> None:
     """List the shipped trains with their titles.

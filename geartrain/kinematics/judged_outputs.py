@@ -261,9 +261,7 @@ class OutputResult(Result):
 
     @property
     def found_text(self) -> str | None:
-        """Value that is compared with a published period, as a string in the units of the source; None if the published
-        value is not a period.
-        """
+        """Value that is compared with a published period, as a string in the units of the source; otherwise None."""
         figure = self.output.published
         if figure is None or self.found is None or not isinstance(figure.value, PrintedPeriod):
             return None

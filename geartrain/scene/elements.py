@@ -118,8 +118,7 @@ class SceneBody(Shown):
     a link that slides, one turn corresponds to a travel of 1 mm.
     """
     shown: str | None
-    """Speed of the link at the declared inputs, in the train's unit, exact if the inputs are exact; None if it is not
-    determined.
+    """Speed at the declared inputs, in the train's unit, exact if the inputs are exact; None if it is not determined.
     """
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""

@@ -161,9 +161,7 @@ class BuckinghamFriction(FrictionLaw):
     [0.0517, 0.0112, 0.0385]
     """
 
-    law: Literal["buckingham"] = Field(
-        description="Buckingham's friction law of lubricated cast iron, as a function of the pitch-line speed"
-    )
+    law: Literal["buckingham"] = Field(description="Buckingham's law of lubricated cast iron, for the pitch-line speed")
 
     @property
     def of_pitch_line(self) -> bool:
@@ -197,9 +195,7 @@ class DokosFriction(FrictionLaw):
     [0.53, 0.48, 0.18]
     """
 
-    law: Literal["dokos"] = Field(
-        description="Dokos's friction law of dry steel on dry steel, as a function of the sliding speed"
-    )
+    law: Literal["dokos"] = Field(description="Dokos's law of dry steel on dry steel, for the sliding speed")
     slowest: PositiveVelocity = Field(
         SLOWEST_OF_DOKOS,
         description="Sliding speed up to which the coefficient is 0.53; assumed, since the source gives no speed",

@@ -629,9 +629,7 @@ class GearPair(Declared):
         description="Number of pitches by which a tooth of the first wheel is past the line of centres at angle 0; "
         "default 0",
     )
-    fitting: PairMounting | None = Field(
-        None, description="Mounting errors of the axes of the pair; default from the train"
-    )
+    fitting: PairMounting | None = Field(None, description="Mounting errors of both axes; default from the train")
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
 

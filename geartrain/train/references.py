@@ -630,7 +630,7 @@ def _sliding_inputs(train: Train, loc: Loc, inputs: Mapping[str, Quantity]) -> I
         elif link not in train.sliding and travels:
             what = f"'{speed}' is a {speed.dimension}, but a speed is required, because '{link}' turns"
             fix = f"give a number or a speed of rotation, or declare '{link}' under `slides`"
-            yield Problem(what, "the speed of a turning link is given in turns", fix, place)
+            yield Problem(what, "a turning link has a speed in turns", fix, place)
         elif train.sliding and speed.unit and not travels and not speed.unit.startswith(_IN_TURNS):
             what = f"the input '{speed}' is not in turns"
             why = "travel is in mm per turn, so that a train with slides needs speeds in turns"
@@ -645,9 +645,7 @@ def _sliding_loads(train: Train, loc: Loc, loads: Mapping[str, Quantity]) -> Ite
         place, slides = train.place(*loc, "loads", link), link in train.sliding
         if slides and load.value and load.dimension != "force":
             what = f"'{link}' slides, but its load '{load}' is not a force"
-            yield Problem(
-                what, "the load of a sliding link is a force", f"give a force, such as `{link}: -100 N`", place
-            )
+            yield Problem(what, "the load of a slide is a force", f"give a force, such as `{link}: -100 N`", place)
         elif not slides and load.dimension == "force":
             what = f"'{link}' turns, but its load '{load}' is a force"
             fix = f"give a torque, such as `{link}: -2 N m`, or put the force on a link that slides"
@@ -667,9 +665,7 @@ def _sliding_outputs(train: Train, loc: Loc, part: Train | State) -> Iterator[Pr
                 yield Problem(what, _PER_UNIT, fix, train.place(*place, key))
             elif not slides and value.unit is not None:
                 what = f"'{name}' turns, but `{key}` is the length {value}"
-                yield Problem(
-                    what, "the speed of a turning link is given in turns", "give a number", train.place(*place, key)
-                )
+                yield Problem(what, "a turning link has a speed in turns", "give a number", train.place(*place, key))
         printed = output.published is not None and output.published.as_ == "period"
         if slides and (printed or any(target.speed is None for target in output.targets)):
             fix = "give a travel per unit of the train, such as `{speed: 5 mm}`"

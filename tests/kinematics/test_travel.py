@@ -398,7 +398,7 @@ MISTAKES = {
     "torque on a slide": (
         "{pinion: 1}",
         "{pinion: 1}\nloads: {carriage: -2 N m}",
-        "the load of a sliding link is a force",
+        "the load of a slide is a force",
     ),
     "force on an arbor": ("{pinion: 1}", "{pinion: 1}\nloads: {pinion: 2 N}", "the load of a turning link is a torque"),
     "inertia of a slide": ("carriage: {}}", "carriage: {inertia: 1 kg m2}}", "give its `mass`"),

@@ -392,14 +392,7 @@ class _Decision:
             what = f"{len(self.names)} one-way clutches are active"
             why = f"at most {MOST_CLUTCHES} are supported, because all combinations of holding clutches are tried"
             raise DeclarationError(
-                [
-                    Problem(
-                        what,
-                        why,
-                        "disable some clutches: list them under `free` in a state",
-                        declared.place("clutches"),
-                    )
-                ]
+                [Problem(what, why, "disable some: list them under `free`", declared.place("clutches"))]
             )
         base = replace(declared.case(self.state, ()), inputs={}, fixed=(), locks=())
         for name in self.names:

@@ -207,7 +207,7 @@ def _refuse_jumps(setting: LoadCase) -> None:
         joint = setting.joints.get(circuit.id)
         if joint is not None and joint.transmission.at_once:
             what = f"the torque of '{circuit.id}' over a turn is not defined"
-            why = "the force of an instantaneous step is undefined; only the mean torque is known"
+            why = "an instantaneous step has no defined force; only the mean torque is known"
             raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
 
 

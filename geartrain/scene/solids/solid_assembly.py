@@ -60,8 +60,7 @@ class SolidModel(Shown):
     Raises
     ------
     QuestionError
-        At first use, if sizes in `making` are already declared by the train, or if the requested backlash is not
-        possible for its teeth.
+        At first use, if the train already declares sizes in `making`, or its teeth cannot have this backlash.
 
     Examples
     --------

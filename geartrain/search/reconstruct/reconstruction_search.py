@@ -43,8 +43,7 @@ _NONE: _Wheel = ("", 0)
 
 @dataclass(frozen=True, slots=True)
 class ExplanationCount(Result):
-    """Numbers of trains, and of equivalence classes of trains, that explain the evidence with a given number of added
-    wheels.
+    """Numbers of explanations (trains, and equivalence classes of trains) with a given number of added wheels.
 
     See Also
     --------

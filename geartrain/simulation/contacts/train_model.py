@@ -403,9 +403,7 @@ def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
     if transmission.at_once:
         fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
         raise QuestionError(
-            Problem(
-                f"the dynamics of {label} cannot be simulated", "the force of an instantaneous step is undefined", fix
-            )
+            Problem(f"the dynamics of {label} cannot be simulated", "an instantaneous step has no defined force", fix)
         )
 
 

@@ -269,7 +269,7 @@ class TabledLaw(_VaryingPair):
 
     kind: Literal["law"] = Field(description="Driven angle given by a mean ratio and a periodic deviation")
     mean_ratio: Figure = Field(
-        alias="mean", description="Exact mean speed of the driven link divided by the speed of the driver"
+        alias="mean", description="Exact mean speed of the driven link divided by that of the driver"
     )
     unit: Angle = Field(description="Angle of the driven link for a deviation of 1")
     harmonics: Annotated[dict[int, Harmonic], AfterValidator(FrozenDict)] | None = Field(

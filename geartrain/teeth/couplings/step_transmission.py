@@ -89,8 +89,7 @@ class _GenevaDeviation(PeriodicFunction):
 
 
 class StepTransmission(TableTransmission):
-    """Transmission function of engagements that move whole teeth, instantaneously or uniformly over an angle of the
-    driver.
+    """Transmission function of engagements that move whole teeth, instantaneously or evenly over a driver angle.
 
     The first engagement begins at S = 0. The driven angle counts from its position before this engagement.
 

@@ -72,9 +72,7 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that jam or clash, and therefore cannot turn through their meshing cycle while the driven wheel
-        lags.
-        """
+        """Mask of pairs that jam or clash, so that they cannot turn through their cycle while the driven wheel lags."""
         return self.jams | self.clash
 
     @classmethod
@@ -229,9 +227,7 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum number of pitches between tooth pairs that can touch at the same time; -1 if no pair can
-    touch.
-    """
+    """Return the maximum number of pitches between tooth pairs in simultaneous contact; -1 if no pair can touch."""
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)

@@ -238,9 +238,7 @@ def _bands_key() -> list[Patch]:
 
 
 def _no_errors(why: str) -> QuestionError:
-    return QuestionError(
-        Problem("the errors cannot be drawn", why, "give trials in which the train turns, and at least one pointer")
-    )
+    return QuestionError(Problem("the errors cannot be drawn", why, "give trials in which a pointer turns"))
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities

@@ -79,9 +79,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Return a probability in percent with its confidence interval as a string, such as `1.2 % (0.9..1.6)`; "-" without
-    trials.
-    """
+    """Return a probability with its confidence interval as a string, such as `1.2 % (0.9..1.6)`; "-" without trials."""
     if not each.of:
         return "-"
     low, high = each.interval

@@ -68,9 +68,7 @@ class ToothSizes(Result):
     radii: float
     """Ratio of the tip radii R2/R1, divided by the ratio of the tooth numbers z2/z1 [1]; 1 for pitch-true radii."""
     window: float
-    """Position of the clearance factor within the clearance window [1]: 0 where the pair jams, 1 where it loses
-    contact.
-    """
+    """Position of the clearance factor in the clearance window [1]: 0 where the pair jams, 1 where it loses contact."""
     half_angles: tuple[float, float]
     """Half aperture angles of the teeth of both wheels [rad]."""
     friction: float

@@ -148,9 +148,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train in which the clearance factor of every pair that has a clearance window is in the middle of this
-        window.
-        """
+        """Train in which the clearance factor of every pair with a clearance window is in the middle of it."""
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property

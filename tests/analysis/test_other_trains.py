@@ -124,7 +124,8 @@ def test_what_is_not_changed_stays_as_it_was_declared_and_where_it_was_written()
     for name in geartrain.shipped():
         before = load(name).declaration
         after = load(name).with_changes().declaration
-        assert after.model_dump() == before.model_dump()
+        # a tour describes the train that declares it
+        assert after.model_dump() == before.model_dump() | {"tour": ()}
         parts = ("gears", 0) if before.gears else ("couplings", 0)
         for part in (("links", next(iter(before.links))), parts, ("outputs",)):
             assert after.place(*part) == before.place(*part)

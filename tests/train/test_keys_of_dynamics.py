@@ -197,7 +197,7 @@ def test_editors_are_told_of_every_key() -> None:
     parts = json.loads(call("inspect", "schema").stdout)["$defs"]
     assert {"drag", "inertia", "mass", "bearing"} <= set(parts["Link"]["anyOf"][1]["properties"])
     assert {"sliding", "static", "deviation"} == set(parts["CoulombFriction"]["anyOf"][1]["properties"])
-    assert {"rate", "torque", "weight", "drum", "spring", "hand"} == set(parts["Drive"]["properties"])
+    assert {"rate", "torque", "weight", "drum", "falls", "drop", "spring", "hand"} == set(parts["Drive"]["properties"])
 
 
 def test_teeth_yield_as_their_form_says_where_their_pair_does_not() -> None:

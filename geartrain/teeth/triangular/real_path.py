@@ -339,10 +339,12 @@ def drag(path: RealPath) -> DraggedPath:
     envelope, angle = path.envelope, path.tooth_pair.angle
     if not envelope:
         return DraggedPath((), 0.0, inf)
-    # start at the minimum of g, which the driven wheel reaches whatever its earlier position
-    first = min(range(len(envelope)), key=lambda at: _minimum(path, envelope[at])) if len(envelope) > 1 else 0
-    following = (replace(each, tooth_pair=each.tooth_pair + 1) for each in envelope[: first + 1])
     small, wide = _SMALL * path.sizes.p2, _SMALL * path.pitch
+    # start at the minimum of g, which the driven wheel reaches whatever its earlier position: at the last of two,
+    # which equal wheels have
+    minima = [_minimum(path, each) for each in envelope]
+    first = max(at for at, each in enumerate(minima) if each <= min(minima) + small)
+    following = (replace(each, tooth_pair=each.tooth_pair + 1) for each in envelope[: first + 1])
     done, arrested, clash, lost = [envelope[first]], False, 0.0, 0.0
     held: DriveInterval | None = None  # the interval whose tooth pair let go
     for interval in (*envelope[first + 1 :], *following):

@@ -536,10 +536,10 @@ class Expect(Declared):
 
     value: Amount = Field(
         description="Expected speed in the train's unit, or travel of a sliding link with its unit; integers and "
-        "fractions are exact, decimals are compared to the number of their digits"
+        "fractions are exact, decimals are compared to half a unit of their last digit"
     )
     tolerance: Annotated[Amount, _TOLERANCE] | None = Field(
-        None, description="Maximum difference, in the unit of the value; default determined by its digits"
+        None, description="Maximum difference, in the unit of the value; default half a unit of its last digit"
     )
 
     def holds(self, speed: Any) -> bool:
@@ -591,7 +591,7 @@ class Published(Declared):
     tolerance: Annotated[Amount, BeforeValidator(_read_printed), _TOLERANCE] | None = Field(
         None,
         description="Maximum difference, in the unit of the value; for a period a time; "
-        "default determined by its digits",
+        "default half a unit of its last digit",
     )
     place: str | None = Field(None, description="Page or table of the source")
     source: str | None = Field(None, description="Key of the source in `sources`")

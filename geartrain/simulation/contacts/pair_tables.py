@@ -60,7 +60,7 @@ class TabledFunction(NamedTuple):
     jump: float
 
     def __call__(self, S: Floats) -> Floats:
-        """Return the function at driver angles S [rad]."""
+        """Return the values of the function at driver angles S [rad]."""
         found: Floats = self.slope * S + self.table(S)
         return found
 

@@ -127,7 +127,7 @@ class DeviationTransmission(TransmissionFunction):
         return self.deviation.breakpoints
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous."""
+        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous."""
         at = self._breakpoints
         driver = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
         found: list[float] = driver.tolist()
@@ -164,5 +164,5 @@ class TableTransmission(DeviationTransmission, LosslessTransmission):
     """Transmission function of a coupling with a periodic deviation from uniform motion."""
 
     def mirrored(self) -> TableTransmission:
-        """Return the function for a driver whose forward sense is reversed."""
+        """Return the transmission function for a driver whose forward sense is reversed."""
         return TableTransmission(self.ratio, self.deviation, self.phase, -self.way)

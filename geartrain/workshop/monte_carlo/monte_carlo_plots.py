@@ -282,7 +282,7 @@ def _arcsine(probability: Any) -> Any:
 
 
 def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
-    """Draw a chart with the first-order and the total share of each cause, with their intervals as lines.
+    """Draw a chart with the first-order and the total share of each cause, with confidence intervals as lines.
 
     Only the `MOST_ROWS` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
     `QuestionError` without a cause.

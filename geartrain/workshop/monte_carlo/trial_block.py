@@ -122,7 +122,7 @@ def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, ro
 JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
 """Event flags of a pair in one trial, combined as a bit mask."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
-"""Bit masks of pairs that stop with a dragging driven wheel, and of pairs that are excluded from averages."""
+"""Bit masks of pairs that jam or clash, and of pairs that are excluded from averages."""
 
 
 @dataclass(frozen=True)

@@ -230,7 +230,7 @@ class MissingExtraError(GearTrainError):
     --------
     >>> print(MissingExtraError("matplotlib", "plot", "a picture"))
     matplotlib is not installed
-      why: a picture needs it, and it comes with the extra 'plot'
+      why: a picture requires it; it is installed with the extra 'plot'
       fix: pip install 'matplotlib>=3.8' # 98 MB
     """
 
@@ -238,7 +238,7 @@ class MissingExtraError(GearTrainError):
         super().__init__(
             Problem(
                 what=f"{library} is not installed",
-                why=f"{purpose} needs it, and it comes with the extra '{extra}'",
+                why=f"{purpose} requires it; it is installed with the extra '{extra}'",
                 fix=f"{install_command(extra)} # {_MEGABYTES[extra]} MB",
             )
         )

@@ -32,7 +32,7 @@ If the environment variable `GEARTRAIN_TRACEBACK` is set, the traceback of an in
 All files that a command writes (`-o`, `--to`, `--plot`, `--profile`) follow the same rules. An existing file is
 overwritten only with `--force`. Without it the command stops before any computation. Symbolic links are followed: the
 target is replaced, and the link is kept. Only regular files are overwritten. Folders, FIFOs, devices and sockets are
-refused, and so are read-only files, even for root and with `--force`. A file is written completely or not at all, and
+rejected, and so are read-only files, even for root and with `--force`. A file is written completely or not at all, and
 keeps its permissions. `-o -` writes the content of the file to standard output. Partial files of an interrupted run are
 continued with `--resume`, or overwritten with `--force`.
 """

@@ -50,7 +50,7 @@ In a clone of the repository, `pip install -e '.[plot]'` installs the same packa
 
 Sizes are those of the installed files before Python compiles them. Extras share packages, so several extras together
 need less space than the sum of their sizes. `all` omits `step` because of its size. Three more extras are for
-development: `dev` (810 MB with the core), `site` for this site, and `ci` for all tests. `python
+development: `dev` (810 MB including the core packages), `site` (builds this site) and `ci` (runs all tests). `python
 docs/scripts/make_extras.py --measure` writes the table.
 """
 

@@ -115,7 +115,9 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
 
 
 def list_trains(
-    evidence: Annotated[bool, typer.Option("--evidence", help="List the shipped evidence for `reconstruct`.")] = False,
+    evidence: Annotated[
+        bool, typer.Option("--evidence", help="List evidence files shipped for `reconstruct`.")
+    ] = False,
 ) -> None:
     """List the shipped trains with their titles.
 

@@ -173,7 +173,7 @@ TURNS, SKIP = "10", "1"
 Rate = Annotated[
     str | None,
     typer.Option(
-        "--rate", help="Input speed, in turns per second or with a unit such as '30 rpm'; default: as declared."
+        "--rate", help="Input speed, in turns per second or with a unit such as '30 rpm'; default: the declared speed."
     ),
 ]
 Turns = Annotated[
@@ -195,7 +195,7 @@ Steps = Annotated[
 Restitution = Annotated[
     str | None,
     typer.Option(
-        "--restitution", help="Coefficient of restitution of every impact, 0 to 1; default: as declared, or 0."
+        "--restitution", help="Coefficient of restitution of every impact, 0 to 1; default: the declared value, or 0."
     ),
 ]
 ToothModel = Annotated[

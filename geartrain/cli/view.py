@@ -127,7 +127,7 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
     Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
     """
     if embed and kiosk:
-        what, why = "--embed and --kiosk are given together", "a page has one layout"
+        what, why = "--embed and --kiosk are given together", "a page can have only one layout"
         raise option_error("view", what, "omit one of them", why)
     if (embed or kiosk) and other is not None:
         layout = "--embed" if embed else "--kiosk"

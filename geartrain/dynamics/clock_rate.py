@@ -94,7 +94,7 @@ class Timekeeping(Result):
     going_time: float | None
     """Time from one winding to the next [s]."""
     circular: float | None
-    """Rate error because the pendulum swings in a circular arc [s/day]."""
+    """Rate error due to the circular arc of the pendulum [s/day]."""
     escapement: float | None
     """Rate error due to the impulses of the escapement [s/day]."""
     thermal: float | None
@@ -102,8 +102,8 @@ class Timekeeping(Result):
 
     @property
     def goes(self) -> bool | None:
-        """True if the drive suffices: torque reaches the escape wheel, and the amplitude the `arc`; None if the arc or
-        the amplitude is not known.
+        """True if the drive is sufficient: torque reaches the escape wheel, and the amplitude reaches the `arc`; None
+        if the arc or the amplitude is not known.
         """
         if self.efficiency <= 0:
             return False

@@ -280,7 +280,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target.
+        """Outputs that differ from their `expect` or `published` value, or are outside the tolerance of a target.
         Undetermined outputs are included only if the verdict is `determined`.
         """
         # if the verdict has failed, undetermined outputs are its consequence and no further failures

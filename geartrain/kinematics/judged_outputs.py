@@ -261,7 +261,7 @@ class OutputResult(Result):
 
     @property
     def found_text(self) -> str | None:
-        """Value that is compared with a published period as text, in the units of the source; None for other values."""
+        """Value that is compared with a published period, as a string in the units of the source; otherwise None."""
         figure = self.output.published
         if figure is None or self.found is None or not isinstance(figure.value, PrintedPeriod):
             return None
@@ -297,7 +297,7 @@ class OutputResult(Result):
 
     @property
     def holds(self) -> bool:
-        """False if the output does not agree with an `expect`, a `published` value or the tolerance of a target;
+        """False if the output differs from an `expect` or `published` value, or is outside the tolerance of a target;
         otherwise True.
         """
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))

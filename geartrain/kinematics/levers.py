@@ -27,7 +27,7 @@ class Lever(Shown):
 
     See Also
     --------
-    find_levers : has an example
+    find_levers : Contains an example.
     """
 
     carrier: str

@@ -177,9 +177,9 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
     for at, coupling in enumerate(train.couplings):
         for link in coupling.links(train.wheels):
             if train.links[link].copies > 1 and not _allows_copies(train, coupling):
-                what = f"coupling '{coupling.name}' cannot join {train.links[link].copies} equal links '{link}'"
+                what = f"coupling '{coupling.name}' cannot connect {train.links[link].copies} equal links '{link}'"
                 fix = "declare these links one by one, each with its coupling"
-                why = "copies have equal motions and equal pairs, and this coupling would join each of them differently"
+                why = "copies have equal motions and equal pairs, and this coupling would connect each one differently"
                 yield Problem(what, why, fix, train.place("couplings", at))
 
 
@@ -191,7 +191,7 @@ def _allows_copies(train: Train, coupling: Coupling) -> bool:
 
 def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
     counts = [train.links[link].copies for link in (first, second)]
-    what = f"{counts[0]} links '{first}' cannot be joined to {counts[1]} links '{second}'"
+    what = f"{counts[0]} links '{first}' cannot be connected to {counts[1]} links '{second}'"
     return Problem(what, f"each '{first}' needs its own '{second}'", "give both the same `copies`", train.place(*loc))
 
 

@@ -73,7 +73,7 @@ def lint_train(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterato
     for circuit in circuits:
         if circuit.note:
             yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place(*places[circuit.id]))
-    why = "the mean ratio is exact; the motion is intermittent: a finger moves by steps, declare it as `kind: step`"
+    why = "the mean ratio is exact; the motion is intermittent: a finger drives in steps; declare it as `kind: step`"
     for position, gear in enumerate(train.gears):
         for name, mate in permutations(gear.pair):
             if _is_finger(train, gear, name, mate):
@@ -633,7 +633,7 @@ def _nearest(speed: Fraction) -> float:
     if value is None:
         why = "in float64 it would become 0 or infinite"
         fix = "use `method='exact'`, with input speeds in turns and not in radians"
-        raise RangeError(Problem("a speed leaves the range of float64", why, fix))
+        raise RangeError(Problem("a speed is outside the range of float64", why, fix))
     return value
 
 

@@ -167,6 +167,6 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
 
 
 def percentiles_of(values: Floats) -> dict[float, IntervalEstimate]:
-    """Return the percentiles in `PERCENTILES` of some values, with their intervals, by percentage."""
+    """Return the percentiles in `PERCENTILES` of some values, with their confidence intervals, by percentage."""
     ordered = np.sort(values)
     return {percent: percentile_of(ordered, percent) for percent in PERCENTILES}

@@ -19,7 +19,7 @@ def timekeeping_section(found: Timekeeping) -> Section:
     lines = [f"{verdict}."] if (verdict := _verdict(found)) else []
     lines.append(
         "Friction of pivots is included only as declared by `bearing`. Rates are for a constant amplitude; friction on "
-        "the dead faces, play of the crutch and the drag of the air are not modelled."
+        "the dead faces, backlash of the crutch and air drag are not modelled."
     )
     return Section(titled(found.state, "timekeeping"), lines, (Table(("quantity", "value"), list(_rows(found))),))
 

@@ -424,7 +424,7 @@ def describe_adjacency(train: GearTrain) -> Document:
 
 def describe_edges(train: GearTrain) -> Document:
     """Return a document with the edge list of a train: one row for each turning pair, gear pair and coupling."""
-    table = Table(("link", "link", "joined by", "axis or pair"), edge_rows(train.graph))
+    table = Table(("link", "link", "connected by", "axis or pair"), edge_rows(train.graph))
     return Document(f"Edges of {train.name}", (), (Section("Edges", (), (table,)),))
 
 

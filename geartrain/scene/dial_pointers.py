@@ -278,7 +278,7 @@ def train_width(stage: SceneContext) -> float:
 
 
 def _side_width(stage: SceneContext, normal: Vector) -> float:
-    """Return the width of the side of the train on which a dial is [mm]; infinite for the front and the back."""
+    """Return the width [mm] of the side of the train on which a dial is placed; infinite for the front and the back."""
     # a cosine of 0.5 (60 degrees) separates dials on the front and back from dials on the sides
     if abs(dot(normal, stage.near)) > 0.5:
         return inf

@@ -407,6 +407,6 @@ def _split(text: str, rows: int) -> list[str]:
 
 
 def _stacked(scale: DialScale, lines: Sequence[str], radius: float, pitch: float) -> float:
-    """Return the maximum height of letters of lines in one cell of a spiral, relative to the radius of the dial."""
+    """Return the maximum letter height at which lines fit in a cell of a spiral scale, relative to the dial radius."""
     deep = _FULL * pitch / (1 + _LEADING * (len(lines) - 1))
     return min(_TALL, deep, *(_fitting(text, radius - pitch / 2, scale.turn_of(1)) for text in lines))

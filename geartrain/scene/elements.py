@@ -53,7 +53,8 @@ class ScenePart(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneHanger(Shown):
-    """Part that hangs on a train, such as a pendulum, the line of a weight or the weight, or that connects two bodies.
+    """Part that hangs from a train, such as a pendulum, the line of a weight or the weight, or that connects two
+    bodies.
 
     See Also
     --------
@@ -114,10 +115,11 @@ class SceneBody(Shown):
     """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; else 1."""
     speed: str | None
     """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined. For
-    a link that slides, one turn is a travel of 1 mm.
+    a link that slides, one turn corresponds to a travel of 1 mm.
     """
     shown: str | None
-    """Speed of the link at the declared inputs, in the train's unit, exact if they are; None if undetermined."""
+    """Speed at the declared inputs, in the train's unit, exact if the inputs are exact; None if it is not determined.
+    """
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
@@ -162,7 +164,7 @@ class ToothProfile(Shown):
     height above the pitch cone, along the back cone.
     """
     hole: bool = False
-    """True if the profile is a closed curve, such as a lantern pinion's pin, whose points go once around it."""
+    """True if the points form a closed curve, such as the outline of a lantern pinion's pin."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +217,7 @@ class SceneWheel(Shown):
     note: str
     """Note on the wheel, or on its uncertainty, as declared; empty if none is declared."""
     doubt: str
-    """Tooth counts of the wheel that the evidence allows, as a string; empty for a certain count."""
+    """Tooth counts that the evidence allows for the wheel, as a string; empty if the count is certain."""
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
@@ -296,7 +298,7 @@ class SceneCoupling(Shown):
     slot_at: Vector
     """Point on the axis of the slot's body at the height of the pin [mm]."""
     pin_radius: float
-    """Distance of the pin from its axis [mm]."""
+    """Distance from the centre of the pin to the axis of the link that carries it [mm]."""
     offset: float
     """Distance between the axes of the pin's body and the slot's body [mm]."""
     drawn: bool
@@ -336,7 +338,7 @@ class SceneShiftElement:
     text: str
     """Description of the brake or clutch, such as `B brakes ring`."""
     one_way: bool = False
-    """True for a one-way clutch in force, which is closed if it holds and open if it overruns."""
+    """True for an active one-way clutch, which is closed if it holds and open if it overruns."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -130,7 +130,7 @@ class Movement(Shown):
     period: str | None = None
     """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
-    """Error tables; equal pairs share one table."""
+    """Transmission-error tables; identical pairs share one table."""
     sources: Sequence[ErrorSource] = ()
     """Gear pairs and couplings with transmission errors, to which `steps` refer by index."""
     steps: Sequence[ErrorStep] = ()

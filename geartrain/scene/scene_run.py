@@ -83,7 +83,7 @@ class SceneContact(Result):
     impact_rate: float
     """Mean number of impacts per second [1/s]."""
     hardest: float
-    """Maximum closing speed of an impact, as a speed of the driven side [rad/s]."""
+    """Maximum closing speed over all impacts, referred to the driven side [rad/s]."""
     changes: Ints
     """Indices of the samples at which the contact changes to the corresponding entry of `states`. Shape (n,)."""
     states: str
@@ -91,7 +91,7 @@ class SceneContact(Result):
     impact_times: Floats
     """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
-    """Closing speeds of the driven side at impacts [rad/s]. Shape (m,)."""
+    """Closing speeds at the impacts, referred to the driven side [rad/s]. Shape (m,)."""
 
 
 @dataclass(frozen=True, slots=True)

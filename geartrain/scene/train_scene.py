@@ -51,7 +51,7 @@ class DialFace(Shown):
     body: int
     """Index of the body on which the dial is mounted."""
     face: str
-    """Face of the train on which the dial is: front, back or another declared name; empty if none is declared."""
+    """Face of the train that has the dial: front, back or another declared name; empty if none is declared."""
     centre: Vector
     """Centre of the dial [mm]."""
     normal: Vector
@@ -96,7 +96,7 @@ class PointerTarget(Shown):
     label: str
     """Name of the target speed."""
     speed: str
-    """Speed relative to the driving link, exact. A target without a sense takes the sense of the output."""
+    """Speed relative to the driving link, exact. A target without a sense of rotation takes the sense of the output."""
     source: str = ""
     """Key of the source of the target; empty if no source is declared."""
 
@@ -188,7 +188,8 @@ class Pointer(Shown):
     speed: str | None
     """Exact speed of the output divided by the speed of the driving link; None if it is not determined."""
     shown: str | None
-    """Speed of the output at the declared inputs, in the train's unit, exact if they are; None if undetermined."""
+    """Speed at the declared inputs, in the train's unit, exact if the inputs are exact; None if it is not determined.
+    """
     decimal: str
     """Rounded speed of the output at the declared inputs, in the train's unit; empty if it is not determined."""
     sense: int

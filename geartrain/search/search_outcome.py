@@ -72,12 +72,12 @@ class CountSizes(ABC):
 
 @dataclass(frozen=True, slots=True)
 class GearStages(CountSizes, Result):
-    """One solution for a ratio by gear pairs in series: the tooth counts of the numerator (`top`) and of the
-    denominator (`beneath`).
+    """Gear pairs in series that approximate a ratio: the tooth counts of the numerator (`top`) and of the denominator
+    (`beneath`).
 
     See Also
     --------
-    find_stages : Search for one ratio by stages.
+    find_stages : Search for gear trains in stages with a given ratio.
     """
 
     KEYS = (

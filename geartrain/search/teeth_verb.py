@@ -101,7 +101,10 @@ Ratio = Annotated[
     ),
 ]
 Range = Annotated[
-    str, typer.Option("--range", help="Admissible tooth counts, such as 15:120, 30,36,48, lego or meccano.")
+    str,
+    typer.Option(
+        "--range", help="Admissible tooth counts: a range (15:120), a list (30,36,48), or a set (lego, meccano)."
+    ),
 ]
 Wheels = Annotated[
     str | None,

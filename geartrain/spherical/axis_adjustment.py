@@ -300,10 +300,10 @@ def equal_pitch(
 
 
 def _refused(kinds: int, free: int, left: float) -> GearTrainError:
-    why = f"{kinds} kinds of mesh must have one pitch, and the symmetries leave {free} free parameters of the axes"
+    why = f"{kinds} kinds of mesh must have the same pitch, and the symmetries leave {free} free parameters of the axes"
     return GearTrainError(
         Problem(
-            "no axes with one pitch for all meshes were found near the axes of the solid",
+            "no axes with the same pitch for all meshes were found near the axes of the solid",
             f"{why}; the best approximation deviates by up to {100 * left:.3g} %",
             "change the tooth numbers, or omit exact=True to keep the axes of faces and vertices",
         )

@@ -63,7 +63,7 @@ class Configuration(Shown):
     only as floats.
     """
     teeth: Mapping[str, int] = field(default_factory=dict)
-    """Mapping from kind to tooth number, for the kinds whose tooth number is chosen."""
+    """Mapping from gear kind to tooth number, for the kinds whose tooth number can be chosen freely."""
     title: str = ""
     """Title of the set for display."""
 

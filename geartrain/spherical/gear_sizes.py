@@ -96,10 +96,11 @@ def one_pitch(configuration: Configuration) -> float:
     minimum, most = int(np.argmin(sizing.pitches)), int(np.argmax(sizing.pitches))
     raise RangeError(
         Problem(
-            f"the meshes do not have one pitch: {sizing.label(most)} requires {sizing.pitches[most]:.12g} and "
+            f"the meshes do not have the same pitch: {sizing.label(most)} requires {sizing.pitches[most]:.12g} and "
             f"{sizing.label(minimum)} requires {sizing.pitches[minimum]:.12g}, "
             f"a mismatch of {100 * sizing.mismatch:.4g} %",
-            impossibility_theorem(configuration) or "each kind of mesh determines its pitch by its own axes and teeth",
+            impossibility_theorem(configuration)
+            or "the pitch of each kind of mesh is determined by its own axes and tooth numbers",
             "size_gears() gives operating cones and pressure angles of involutes on one base pitch; "
             "suggest_tooth_counts() finds better teeth; from_graph() or idlers on the edges give an exact pitch with "
             "other axes",
@@ -296,7 +297,7 @@ class SphereSizing(Result):
 
     @property
     def undercut(self) -> dict[str, float]:
-        """Mapping from kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
+        """Mapping from gear kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
         undercut.
         """
         # pressure angle at the mean pitch: cos alpha = c / lambda

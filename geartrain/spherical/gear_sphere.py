@@ -166,8 +166,8 @@ class GearSphere(Result):
 
     @cached_property
     def cones(self) -> Mapping[str, float | None]:
-        """Mapping from kind to the half-angle of its largest operating pitch cone [rad]; all values are None if a tooth
-        number is missing.
+        """Mapping from gear kind to the half-angle of its largest operating pitch cone [rad]; all values are None if a
+        tooth number is missing.
         """
         kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
@@ -178,8 +178,8 @@ class GearSphere(Result):
 
     @property
     def radii(self) -> Mapping[str, float | None]:
-        """Mapping from kind to pitch radius, in the unit of the sphere's radius; all values are None if a tooth number
-        is missing.
+        """Mapping from gear kind to pitch radius, in the unit of the sphere's radius; all values are None if a tooth
+        number is missing.
         """
         return {kind: None if cone is None else self.radius * sin(cone) for kind, cone in self.cones.items()}
 

@@ -92,7 +92,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
-        raise _refused(f"{alone[0]} meshes with itself", "a mesh joins two different gears", "remove this mesh")
+        raise _refused(f"{alone[0]} meshes with itself", "a mesh connects two different gears", "remove this mesh")
     # a mesh is undirected
     counted = Counter(frozenset(pair) for pair in pairs)
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
@@ -157,9 +157,9 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
         # branch vertices of a subdivided K5 or K3,3
         corners = sorted((str(node) for node, degree in drawn.degree() if degree > 2))
         why = (
-            "each of these gears is joined to every other one"
+            "each of these gears is connected to every other one"
             if len(corners) == 5
-            else "each of three of these gears is joined to each of the other three"
+            else "each of three of these gears is connected to each of the other three"
         )
         raise _refused(
             f"it is not planar: {', '.join(corners)}",
@@ -194,7 +194,7 @@ def with_region_circles(
         raise _refused(
             f"without {i} and {j} it is not connected",
             "a part can be reflected about these two gears, so the packing is not unique",
-            f"add a mesh that joins the parts other than {i} and {j}, or pack one part at a time",
+            f"add a mesh that connects the parts other than {i} and {j}, or pack one part at a time",
         )
     return gears, completed
 

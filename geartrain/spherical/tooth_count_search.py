@@ -173,7 +173,7 @@ class ToothCountCompromise(Shown):
     """
 
     teeth: Mapping[str, int]
-    """Mapping from kind to tooth number."""
+    """Mapping from gear kind to tooth number."""
     mismatch: float
     """Logarithm of the ratio of two pitches. With two kinds of mesh, the pitch of the first is divided by the pitch of
     the second. With more kinds, the maximum pitch is divided by the minimum.

@@ -108,8 +108,8 @@ class CircularArc(ToothForm):
     form: Literal["circular_arc"] = Field(description="Name of the tooth form")
     pinion: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] | None = Field(
         None,
-        description="Number of the wheel that is the pinion, 1 or 2; default the wheel with fewer teeth, the second of "
-        "equal ones",
+        description="Number of the wheel that is the pinion, 1 or 2; default the wheel with fewer teeth, "
+        "or the second wheel if the tooth counts are equal",
     )
     leaf: Literal["A", "B", "C"] | None = Field(
         None,
@@ -133,8 +133,8 @@ class CircularArc(ToothForm):
     )
     backlash: Length | None = Field(
         None,
-        description="Minimum backlash on the pitch circle, in modules or with a unit; the leaves are thinned if they "
-        "have less; default as in the standard",
+        description="Minimum backlash on the pitch circle, in modules or with a unit; "
+        "the leaves are thinned if their backlash is smaller; default as in the standard",
     )
     centre_distance: Length | None = Field(
         None, description="Centre distance, in modules or with a unit; default half the sum of the tooth numbers"

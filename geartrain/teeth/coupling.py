@@ -100,7 +100,7 @@ class Coupling(BaseModel):
     SIDES: ClassVar[tuple[str, str]] = ("driven", "driver")
     """Names of the driven and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
-    """True if the coupling may join each of several equal links to one other link."""
+    """True if the coupling may connect each of several equal links to one other link."""
     LOCKS_BACK: ClassVar[bool] = False
     """True if the driven side cannot drive, because the device locks it."""
     PARALLEL: ClassVar[str] = "its parts must move in the same plane"
@@ -121,7 +121,7 @@ class Coupling(BaseModel):
     efficiency: DeclaredEfficiency | None = Field(
         None,
         description="Basic efficiency with the carrier fixed, at most 1: a number or a percentage, or "
-        "`{forward, backward}`, where forward means that the first link drives; default without loss",
+        "`{forward, backward}`, where forward means that the first link drives; default no loss",
     )
     source: str | None = Field(None, description="Key of the source of the dimensions")
     status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
@@ -131,7 +131,7 @@ class Coupling(BaseModel):
 
     @property
     def ends(self) -> tuple[str, ...]:
-        """Links that the coupling joins, or wheels where it is declared by wheels; the driving link comes first."""
+        """Links that the coupling connects, or wheels if it is declared by wheels; the driving link comes first."""
         values = [getattr(self, key) for key in self.ENDS]
         return tuple(values) if len(values) > 1 else tuple(values[0])
 
@@ -156,14 +156,14 @@ class Coupling(BaseModel):
         return ""
 
     def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
-        """Yield what is wrong with the coupling, why, and how to correct it, from its links and wheels.
+        """Yield the faults of the coupling, their reasons and remedies, found from its links and wheels.
 
         wheels   wheel -> its link and its declaration; all parts that the coupling names are declared
         """
         links = self.links(wheels)
         if twice := next((link for link in links if links.count(link) > 1), None):
             why = f"{' and '.join(dict.fromkeys(self.SIDES))} must be on different links"
-            yield f"coupling '{self.name}' joins '{twice}' to itself", why, "name the other link"
+            yield f"coupling '{self.name}' connects '{twice}' to itself", why, "name the other link"
 
     @property
     def mean(self) -> Fraction:
@@ -177,7 +177,7 @@ class Coupling(BaseModel):
 
     @property
     def losses(self) -> Efficiencies | None:
-        """Basic efficiencies with the first and with the second end driving; None without loss."""
+        """Basic efficiencies with the first and with the second end driving; None without losses."""
         return self.efficiency
 
     @property
@@ -213,7 +213,7 @@ class Coupling(BaseModel):
         return Fraction(0)
 
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
-        """Return the links that the coupling joins, the driving link first.
+        """Return the links that the coupling connects, the driving link first.
 
         wheels   wheel -> its link and its declaration, for a coupling declared by wheels
         """

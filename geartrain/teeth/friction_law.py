@@ -76,7 +76,7 @@ Speeds = Literal["sliding", "pitch_line"]
 
 
 class FrictionLaw(BaseModel, ABC):
-    """Law for the friction coefficient of teeth as a function of speed: the sliding speed at each contact, or the
+    """Friction law: coefficient of friction of teeth as a function of the sliding speed at each contact or of the
     pitch-line speed.
 
     See Also
@@ -124,7 +124,8 @@ class StribeckFriction(FrictionLaw):
     """
 
     law: Literal["stribeck"] = Field(
-        description="Stribeck friction, which falls from `static` to `kinetic` with the sliding speed"
+        description="Stribeck friction law: the coefficient falls from `static` to "
+        "`kinetic` as the sliding speed increases"
     )
     static: Coefficient = Field(description="Coefficient of static friction, at speed 0")
     kinetic: Coefficient = Field(
@@ -160,7 +161,7 @@ class BuckinghamFriction(FrictionLaw):
     [0.0517, 0.0112, 0.0385]
     """
 
-    law: Literal["buckingham"] = Field(description="Buckingham's friction of lubricated cast iron, by pitch-line speed")
+    law: Literal["buckingham"] = Field(description="Buckingham's law of lubricated cast iron, for the pitch-line speed")
 
     @property
     def of_pitch_line(self) -> bool:
@@ -194,7 +195,7 @@ class DokosFriction(FrictionLaw):
     [0.53, 0.48, 0.18]
     """
 
-    law: Literal["dokos"] = Field(description="Dokos's friction of dry steel on dry steel, by sliding speed")
+    law: Literal["dokos"] = Field(description="Dokos's law of dry steel on dry steel, for the sliding speed")
     slowest: PositiveVelocity = Field(
         SLOWEST_OF_DOKOS,
         description="Sliding speed up to which the coefficient is 0.53; assumed, since the source gives no speed",
@@ -227,7 +228,7 @@ class TabulatedFriction(FrictionLaw):
         description="Speeds in ascending order; the coefficient is constant outside their range"
     )
     coefficients: tuple[Coefficient, ...] = Field(description="Coefficient of friction at each speed")
-    of: Speeds = Field("sliding", description="Speed of the table: sliding (at each contact) or pitch_line")
+    of: Speeds = Field("sliding", description="Kind of speed in the table: sliding (at each contact) or pitch_line")
 
     @model_validator(mode="after")
     def _check_table(self) -> TabulatedFriction:
@@ -320,8 +321,8 @@ class PairFriction(Shown):
     """Pitch-line speed [m/s]: one value, or one for each position."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
-        """Return the coefficient at sliding speeds divided by the pitch-line speed; NaN where `sliding` is NaN (no
-        contact).
+        """Return the coefficient of friction at the relative sliding speeds `sliding` (sliding speed divided by
+        pitch-line speed). It is NaN where `sliding` is NaN (no contact).
         """
         import numpy as np
 

@@ -60,7 +60,7 @@ class LeastFriction(ConjugateToothForm):
         None, description="Minimum speed of the contact along a dedendum divided by the pitch-line speed; default 0.15"
     )
     literal: bool = Field(
-        False, description="Use the extremal printed in the source, on one side only, with falling pressure_angles"
+        False, description="Use the extremal printed in the source, on one side only, with decreasing pressure_angles"
     )
     pressure_angles: tuple[Angle, Angle] | None = Field(
         None, description="First and last pressure angle of the literal shape; default [80 deg, 50 deg]"

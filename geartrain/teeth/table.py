@@ -262,7 +262,7 @@ class GivenError(ToothForm):
         description="Angle by which the driven wheel is ahead while the driver turns back",
     )
     function: SkipJsonSchema[LiveFunction | None] = Field(
-        None, repr=False, description="Transmission function of Python, set by `GearTrain.with_tooth_form`"
+        None, repr=False, description="Transmission function defined in Python, set by `GearTrain.with_tooth_form`"
     )
 
     @model_validator(mode="after")

@@ -345,8 +345,8 @@ class TransmissionFunction(Shown, ABC):
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous; by default
-        an empty list.
+        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous; by
+        default an empty list.
         """
         return []
 

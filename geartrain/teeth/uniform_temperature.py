@@ -47,8 +47,8 @@ class UniformTemperature(ConjugateToothForm):
     form: Literal["uniform_temperature"] = Field(description="Name of the tooth form")
     reading: Literal["a", "b", "c"] = Field(
         "b",
-        description="Reading of the source: a (uniform heat on the first wheel), b (on the hotter dedendum) or c (as "
-        "b, with a minimum pressure angle)",
+        description="Interpretation of the source: a (uniform heat on the first wheel), b (on the hotter dedendum) or "
+        "c (as b, with a minimum pressure angle)",
     )
     heat: Figure | None = Field(
         None, description="Heat per area divided by friction times tangential force; a smaller value makes taller teeth"
@@ -57,7 +57,7 @@ class UniformTemperature(ConjugateToothForm):
         None, description="Working depth in modules, instead of heat; default as for the 20 deg involute"
     )
     minimum_angle: Angle | None = Field(
-        None, description="Minimum pressure angle, which is at the pitch point, in reading c; default 12 deg"
+        None, description="Minimum pressure angle, which is at the pitch point, in interpretation c; default 12 deg"
     )
     arcs: TwoFigures = Field(
         "1/2",

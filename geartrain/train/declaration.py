@@ -74,8 +74,8 @@ if TYPE_CHECKING:
 
 
 class Epoch(Declared):
-    """Date at which the position of the train is known, as turns of the input since all pointers were at the start of
-    their scales.
+    """Date at which the position of the train is known. The position is the number of turns of the input since all
+    pointers were at the start of their scales.
 
     Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
     dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single string instead of a mapping
@@ -251,7 +251,7 @@ class Train(Declared):
     solve_for: Id | None = Field(None, description="Link whose external torque is the unknown")
     crank: Id | None = Field(None, description="Link at which power enters the train; default the inputs")
     rate: Rate | None = Field(None, description="Speed of the input in real time, for powers and impacts")
-    drive: Drive | None = Field(None, description="Drive of the train in time; default `rate`")
+    drive: Drive | None = Field(None, description="Drive of the train for simulations in time; default `rate`")
     escapement: Escapement | None = Field(
         None, description="Escapement, which lets one link advance by half a tooth per beat"
     )
@@ -272,7 +272,7 @@ class Train(Declared):
         None, description="Size of the rectangular plates of the dials; default as small as the dials permit"
     )
     epoch: DeclaredEpoch | None = Field(
-        None, description="Date at which the positions of all pointers are known; needs a `unit` of time"
+        None, description="Date at which the positions of all pointers are known; requires a `unit` of time"
     )
     tour: tuple[TourStep, ...] = Field((), description="Tour of the train on its page; not inherited")
     extends: str | None = Field(

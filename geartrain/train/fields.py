@@ -100,7 +100,7 @@ def _replacement_problem(error: Mapping[str, Any]) -> Problem:
     """Return the problem to report for an invalid replacement value of a field."""
     if error["type"] == "missing":
         *parent, key = error["loc"]
-        return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")
+        return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` requires it", f"add `{key}:`")
     fix = error.get("ctx", {}).get("fix", "see docs/reference.md")
     return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"the given value is {str(error['input'])[:60]!r}", fix)
 

@@ -477,21 +477,24 @@ class Link(Declared):
         1, description="Number of equal links, evenly spaced about the axis of the carrier of this link"
     )
     inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(
-        None, description="Moment of inertia about its axis; default from its wheels, if their `density` is given"
+        None,
+        description="Moment of inertia about the axis of the link; default computed from "
+        "its wheels, if their `density` is given",
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
         None,
-        description="Mass of a link that slides or is on a moving carrier; default from its wheels, as for `inertia`",
+        description="Mass of a link that slides or is on a moving carrier; default computed "
+        "from its wheels, as for `inertia`",
     )
     bearing: DeclaredBearing | None = Field(
         None,
-        description="Friction torque of its bearing, opposed to rotation, or `{sliding, static}`; default none",
+        description="Friction torque of the link's bearing, opposed to rotation, or `{sliding, static}`; default none",
     )
     drag: (
         Annotated[TorsionalDamping, not_below_zero("give its magnitude: drag is always opposed to the rotation")] | None
     ) = Field(None, description="Coefficient of viscous drag: torque opposed to the rotation per rad/s; default none")
     arbor: ArborSizes | None = Field(
-        None, description="Dimensions of its arbor between two bearings, for strength calculations"
+        None, description="Dimensions of the link's arbor between two bearings, for strength calculations"
     )
     angle: Angle | None = Field(None, description="Angle at the start; default follows from the meshes")
     note: str | None = Field(None, description="Remark for readers")
@@ -614,19 +617,19 @@ class GearPair(Declared):
     efficiency: DeclaredEfficiency | None = Field(
         None,
         description="Basic efficiency with the carrier fixed, at most 1: a number or a percentage, or "
-        "`{forward, backward}`; default from friction and tooth form",
+        "`{forward, backward}`; default computed from friction and tooth form",
     )
     share: Annotated[Figure, above_zero("give a share above 0, or omit it if it is unknown", "a share")] | None = Field(
         None,
         description="Share of the torque of a wheel with several pairs, relative to its other pairs; above 0",
     )
-    driver: Id | None = Field(None, description="Id of the driving wheel; default from the power flow")
+    driver: Id | None = Field(None, description="Id of the driving wheel; default determined from the power flow")
     phase: Figure | None = Field(
         None,
         description="Number of pitches by which a tooth of the first wheel is past the line of centres at angle 0; "
         "default 0",
     )
-    fitting: PairMounting | None = Field(None, description="Mounting errors of its axes; default from the train")
+    fitting: PairMounting | None = Field(None, description="Mounting errors of both axes; default from the train")
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
 

@@ -392,15 +392,15 @@ class Dial(Graduation):
 
     @property
     def clear(self) -> float:
-        """Radius of the disc inside its engraving, divided by the radius of the dial."""
+        """Radius of the disc inside the engraving, divided by the radius of the dial."""
         outer = 1.0 if self.around is None else 1.0 - RING
         if self.turns > 1:
             return outer * (INNER - (1 - INNER) / self.turns)
         return outer - DEPTH
 
     def reach(self, right: float, up: float) -> float:
-        """Return the extent of its engraving in a direction, divided by the radius of the dial, which a spiral reaches
-        only at its outer end.
+        """Return the extent of the engraving in a direction, divided by the radius of the dial. A spiral reaches this
+        radius only at its outer end.
 
         Parameters
         ----------
@@ -474,7 +474,7 @@ class Target(Declared):
     speed: Amount | None = Field(
         None,
         description="Speed in the train's unit with its sign, or the travel of a sliding link such as `1.25 mm`; "
-        "0 is compared by difference",
+        "a speed of 0 is compared by the difference",
     )
     sense: Literal["direct", "retrograde"] | None = Field(
         None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
@@ -536,10 +536,10 @@ class Expect(Declared):
 
     value: Amount = Field(
         description="Expected speed in the train's unit, or travel of a sliding link with its unit; integers and "
-        "fractions are exact, decimals are compared to their digits"
+        "fractions are exact, decimals are compared to half a unit of their last digit"
     )
     tolerance: Annotated[Amount, _TOLERANCE] | None = Field(
-        None, description="Maximum difference, in the unit of the value; default by its digits"
+        None, description="Maximum difference, in the unit of the value; default half a unit of its last digit"
     )
 
     def holds(self, speed: Any) -> bool:
@@ -589,7 +589,9 @@ class Published(Declared):
         Figure.parse(1), description="Number of turns of the output in the printed period; above 0"
     )
     tolerance: Annotated[Amount, BeforeValidator(_read_printed), _TOLERANCE] | None = Field(
-        None, description="Maximum difference, in the unit of the value; for a period a time; default by its digits"
+        None,
+        description="Maximum difference, in the unit of the value; for a period a time; "
+        "default half a unit of its last digit",
     )
     place: str | None = Field(None, description="Page or table of the source")
     source: str | None = Field(None, description="Key of the source in `sources`")
@@ -659,7 +661,7 @@ class Output(Declared):
     dial: Id | None = Field(None, description="Name of the dial on which the output is read")
     hand: Literal["needle", "hour", "minute", "seconds", "sphere", "bead", "ecliptic", "figure", "wheel"] = Field(
         "needle",
-        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), a thin hand with a "
+        description="Shape of the hand: a slender needle, a spade (hour), a long leaf (minute), a thin hand with a "
         "counterpoise (seconds), a sphere on an arm, a bead on a ring of its own (bead), or the eccentric ring of an "
         "astrolabe (ecliptic); without a dial, a pointing figure on the link, or a road wheel (wheel)",
     )
@@ -669,7 +671,7 @@ class Output(Declared):
         "sky and constants, such as `sun`, `moon - sun`, `mars_anomaly + 180 deg` or `33.1 deg`; read along the scale "
         "of the dial, without one in the sense of the output. Names: `sun`, `moon`, `moon_node`, `moon_perigee`, "
         "`mercury` to `saturn`, and `moon_anomaly`, `mercury_anomaly` to `saturn_anomaly`. The page draws the train "
-        "in these positions; an output of a zodiac without them is not set to the sky",
+        "in these positions; an output on a zodiac without such an angle is not set to the sky",
     )
     note: str | None = Field(None, description="Remark for readers")
 
@@ -687,7 +689,7 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """Unit of all speeds: a speed of 1 is one turn per time, length or period.
+    """Unit of all speeds: a speed of 1 means one turn per declared time, length or period.
 
     See Also
     --------
@@ -722,6 +724,7 @@ class TourStep(Declared):
     """
 
     look_at: Id = Field(
-        description="Name of an output, link, wheel, dial or coupling; the first of these kinds that has this name"
+        description="Name of an output, link, wheel, dial or coupling; if several parts "
+        "have this name, the first of these kinds"
     )
     text: str = Field(description="Text for visitors")

@@ -61,7 +61,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
     named = next((torque for _, torque in found if torque.unit is not None), None)
     for loc, torque in found:
         if named is not None and torque.unit is None and torque.value:
-            why = f"'{named}' has a unit, this value has none"
+            why = f"'{named}' has a unit, but this value has none"
             fix = "give all loads, bearings and drives a unit, or none"
             yield Problem(f"torques with and without units are mixed: '{torque}'", why, fix, train.place(*loc))
             return
@@ -200,7 +200,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
     elif train.unit_quantity is not None and train.unit_quantity.value <= 0:
         yield Problem(
             f"a unit must be greater than 0, not '{train.unit_quantity}'",
-            "a speed of 1 is one turn per this time or length",
+            "a speed of 1 means one turn per unit",
             "give a time or a length above 0",
             train.place("unit"),
         )
@@ -217,7 +217,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
     if plain and named:
         yield Problem(
             "lengths with and without units are mixed",
-            f"`{dotted(named[0])}` has a unit, this value has none",
+            f"`{dotted(named[0])}` has a unit, but this value has none",
             "give all lengths a unit, or none",
             train.place(*plain[0]),
         )
@@ -309,8 +309,8 @@ def _links(train: Train) -> Iterator[Problem]:
                 yield _unknown(train, "link", link, links, key, at, "pair")
         if joint.pair[0] == joint.pair[1]:
             yield Problem(
-                f"a {kind} pair joins '{joint.pair[0]}' to itself",
-                f"a {kind} pair joins two different links",
+                f"a {kind} pair connects '{joint.pair[0]}' to itself",
+                f"a {kind} pair connects two different links",
                 "name the other link",
                 train.place(key, at),
             )
@@ -384,14 +384,14 @@ def _wheels(train: Train) -> Iterator[Problem]:
         place = train.place("gears", at, "pair")
         if link_1 == link_2:
             yield Problem(
-                f"gear pair '{gear.name}' joins two wheels of one link",
+                f"gear pair '{gear.name}' connects two wheels of the same link",
                 f"'{first}' and '{second}' are both on link '{link_1}', so they cannot turn relative to each other",
                 "put one of them on another link",
                 place,
             )
         elif wheel_1.internal and wheel_2.internal:
             yield Problem(
-                f"gear pair '{gear.name}' joins two rings",
+                f"gear pair '{gear.name}' connects two rings",
                 "two wheels with internal teeth cannot mesh",
                 "remove `internal: true` from one of them",
                 place,
@@ -558,7 +558,7 @@ def _one_way(train: Train) -> Iterator[Problem]:
         for at, clutch in enumerate(state.free):
             place = train.place("states", name, "free", at)
             if clutch in train.clutches and train.clutches[clutch].one_way is None:
-                why = "`free` withdraws one-way clutches, and other clutches are open unless they are engaged"
+                why = "`free` disables one-way clutches, and other clutches are open unless they are engaged"
                 yield Problem(f"'{clutch}' is not a one-way clutch", why, "omit it from `free`", place)
             elif clutch in state.engaged:
                 why = "it is required to hold, and not in force"
@@ -645,11 +645,11 @@ def _sliding_loads(train: Train, loc: Loc, loads: Mapping[str, Quantity]) -> Ite
         place, slides = train.place(*loc, "loads", link), link in train.sliding
         if slides and load.value and load.dimension != "force":
             what = f"'{link}' slides, but its load '{load}' is not a force"
-            yield Problem(what, "a slide takes a force", f"give a force, such as `{link}: -100 N`", place)
+            yield Problem(what, "the load of a slide is a force", f"give a force, such as `{link}: -100 N`", place)
         elif not slides and load.dimension == "force":
             what = f"'{link}' turns, but its load '{load}' is a force"
             fix = f"give a torque, such as `{link}: -2 N m`, or put the force on a link that slides"
-            yield Problem(what, "a link that turns takes a torque", fix, place)
+            yield Problem(what, "the load of a turning link is a torque", fix, place)
 
 
 def _sliding_outputs(train: Train, loc: Loc, part: Train | State) -> Iterator[Problem]:
@@ -697,7 +697,7 @@ def _sliding_links(train: Train) -> Iterator[Problem]:
             what, why = f"{part.copies} copies of '{link}', which slides", "copies are spaced about an axis"
             yield Problem(what, why, "declare them one by one", place)
     if train.escapement is not None and train.escapement.link in train.sliding:
-        what, why = f"the escapement is on '{train.escapement.link}', which slides", "an escape wheel turns"
+        what, why = f"the escapement is on '{train.escapement.link}', which slides", "an escape wheel must turn"
         yield Problem(what, why, "name the link of the escape wheel", train.place("escapement", "link"))
 
 

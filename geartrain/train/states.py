@@ -110,7 +110,7 @@ class SpringDrive(Declared):
         description="Turns of winding at the start"
     )
     barrel: Annotated[MeasuredLength, above_zero("give a length such as 15 mm")] | None = Field(
-        None, description="Radius of the barrel to the middle line of the chain; needs `fusee`"
+        None, description="Radius of the barrel to the middle line of the chain; requires `fusee`"
     )
     fusee: Fusee | None = Field(None, description="Fusee on the driving link, turned by a chain from the barrel")
 
@@ -163,7 +163,7 @@ class HandDrive(Declared):
     """
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
-    rate: Speed | None = Field(None, description="Speed that the hand keeps")
+    rate: Speed | None = Field(None, description="Speed that the hand maintains")
     stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 5 N m/rad")] | None = Field(
         None, description="Torque per radian by which the crank lags behind the hand; default rigid"
     )
@@ -210,7 +210,7 @@ class Drive(Declared):
     torque: DriveTorque | None = Field(None, description="Constant torque")
     weight: Annotated[Mass, above_zero("give a mass such as 4 kg")] | None = Field(
         None,
-        description="Mass of a weight on a line around a drum; needs `drum`, unless the `crank` is the link of the "
+        description="Mass of a weight on a line around a drum; requires `drum`, unless the `crank` is the link of the "
         "weight, which slides",
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
@@ -221,7 +221,7 @@ class Drive(Declared):
         1, description="Number of lines that carry the weight; 2 for a weight in a pulley"
     )
     drop: Annotated[MeasuredLength, above_zero("give a length such as 1.28 m")] | None = Field(
-        None, description="Height through which the weight descends between two windings; gives the going time"
+        None, description="Height through which the weight descends between two windings; it determines the going time"
     )
     spring: SpringDrive | None = Field(None, description="Drive by a spring")
     hand: HandDrive | None = Field(None, description="Drive by a hand")
@@ -328,11 +328,11 @@ class Escapement(Declared):
     )
     pendulum: Annotated[Pendulum, short_for("length")] | None = Field(
         None,
-        description="Its pendulum, or only the length of the pendulum from the suspension to the middle of the bob; "
+        description="Pendulum of the escapement, or only its length from the suspension to the middle of the bob; "
         "default none",
     )
     efficiency: Annotated[Share, checked(lambda part: 0 < part.base <= 1, *_EFFICIENCY)] | None = Field(
-        None, description="Part of the energy of the escape wheel that reaches the pendulum; above 0, at most 1"
+        None, description="Fraction of the energy of the escape wheel that reaches the pendulum; above 0, at most 1"
     )
     deadbeat: tuple[Impulse, Impulse] | None = Field(
         None,
@@ -416,7 +416,7 @@ class Clutch(Declared):
         description="Sense in which a one-way clutch overruns: the fixed link may turn only forward or backward; the "
         "second of two locked links may turn only forward or backward relative to the first",
     )
-    teeth: Count | None = Field(None, description="Tooth count of a ratchet, which takes hold within one tooth")
+    teeth: Count | None = Field(None, description="Tooth count of a ratchet, which engages within one tooth")
 
     @model_validator(mode="after")
     def _has_one_key(self) -> Clutch:
@@ -450,7 +450,7 @@ class State(Declared):
         (),
         description="Clutches and brakes that are engaged, by name; a one-way clutch named here is required to hold",
     )
-    free: tuple[Id, ...] = Field((), description="One-way clutches that are not in force, by name")
+    free: tuple[Id, ...] = Field((), description="One-way clutches that are disabled, by name")
     fixed: tuple[Id, ...] | None = Field(None, description="Links fixed to the frame; default from the train")
     locks: tuple[tuple[Id, Id], ...] | None = Field(
         None, description="Pairs of links that are locked together; default from the train"
@@ -462,7 +462,7 @@ class State(Declared):
         "positive sense; default from the train",
     )
     solve_for: Id | None = Field(None, description="Link whose external torque is the unknown; default from the train")
-    drive: Drive | None = Field(None, description="Drive of the train in time; default from the train")
+    drive: Drive | None = Field(None, description="Drive of the train for simulations in time; default from the train")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Outputs of this state, merged with the train's by name"
     )

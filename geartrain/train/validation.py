@@ -161,7 +161,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
         )
     if kind == "missing":
         fix = f"add `{_wheel_pair(error['input'])}`" if _is_wheel_pair(loc) else f"add `{key}:`"
-        return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", fix, place(loc[:-1]))
+        return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} requires it", fix, place(loc[:-1]))
     if kind == "union_tag_invalid":
         tag, known = unknown_tag(error)
         what = f"`{tag}` has the unknown value '{context['tag']}'"
@@ -382,7 +382,7 @@ def _invalid_pair(pair: YamlNode, noun: str = "gear pair", example: str = "sun ~
     # separators that are written by mistake instead of a tilde
     names = re.split(r"\s*[-,/]\s*|\s+", text.strip())
     fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else f"for example, write `{example}`"
-    why = f"a {noun.removeprefix('gear ')} is two wheels with a tilde between them"
+    why = f"a {noun.removeprefix('gear ')} is written as two wheels separated by a tilde"
     return Problem(f"'{text}' is not a {noun}", why, fix, pair.place)
 
 

@@ -74,12 +74,12 @@ error: my.yaml:6: an entry of `gears` is a list
 
 # pairs as a list of wheels: |[p ~ w]|[p, w]|
 error: my.yaml:6: 'p w' is not a gear pair
-  why: a pair is two wheels with a tilde between them
+  why: a pair is written as two wheels separated by a tilde
   fix: write `p ~ w`
 
 # a pair with a hyphen: |[p ~ w]|[p-w]|
 error: my.yaml:6: 'p-w' is not a gear pair
-  why: a pair is two wheels with a tilde between them
+  why: a pair is written as two wheels separated by a tilde
   fix: write `p ~ w`
 
 # pairs that are not a list: |[p ~ w]|p ~ w|
@@ -93,7 +93,7 @@ error: my.yaml:6: no wheel 'a'
   fix: write one of its wheels: p
 
 # a carrier without turning pair: |  b: {wheels|  carrier: {}\n  b: {wheels|
-error: my.yaml:4: link 'carrier' is not joined to the frame
+error: my.yaml:4: link 'carrier' is not connected to the frame
   why: no chain of turning pairs leads from it to 'frame'
   fix: add it to an axis of `revolutes`, or declare an axis of its own: `carrier: [frame, carrier]`
 
@@ -166,7 +166,7 @@ error: my.yaml:6: `gears[0].pair` is not a list in brackets
 
 # a pair that has only an id: |gears: [p ~ w]|gears: [{id: p~w, efficiency: 0.98}]|
 error: my.yaml:6: key 'pair' is missing
-  why: `gears[0]` needs it
+  why: `gears[0]` requires it
   fix: add `pair: [p, w]`
 
 # an input that is a wheel: |inputs: {a: 1}|inputs: {p: 1}|

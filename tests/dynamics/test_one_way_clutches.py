@@ -625,5 +625,5 @@ def test_a_speed_that_varies_within_a_turn_is_noted() -> None:
 
 def test_more_than_twelve_clutches_in_one_state_are_refused() -> None:
     clutches = {f"K{at}": {"fixes": "ring", "one_way": "forward"} for at in range(13)}
-    with pytest.raises(geartrain.DeclarationError, match="13 one-way clutches are in force"):
+    with pytest.raises(geartrain.DeclarationError, match="13 one-way clutches are active"):
         geartrain.load(SET).with_changes(clutches={**clutches, "F": None}).solve()

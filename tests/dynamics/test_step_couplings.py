@@ -179,7 +179,7 @@ def test_s4_a_finger_turns_a_disc_that_carries_its_star() -> None:
 def test_s4_as_a_wheel_of_one_tooth_has_the_same_mean_and_a_remark() -> None:
     case = Path(__file__).parents[1] / "data/public_cases/10-finger-and-star.yaml"
     assert load(case).solve()["disc"] == Fraction(-49, 5837)
-    assert "a finger moves by steps, declare it as `kind: step`" in call("check", case).stdout
+    assert "a finger drives in steps; declare it as `kind: step`" in call("check", case).stdout
 
 
 def test_a_driver_that_rests_where_an_engagement_begins_has_begun_it() -> None:
@@ -226,7 +226,7 @@ def test_a_step_at_once_has_no_force() -> None:
     with pytest.raises(GearTrainError, match="give `over`"):
         load(declared).torques(turns=1)
     heavy = declared.replace("w: {}}\nrev", "w: {inertia: 1e-6 kg m2}}\nrev")
-    with pytest.raises(GearTrainError, match="a step at once has no force"):
+    with pytest.raises(GearTrainError, match="an instantaneous step has no defined force"):
         load(heavy).dynamics(turns=1)
 
 

@@ -382,7 +382,7 @@ def test_the_motion_in_time_follows_the_transmission_function(coupling: str) -> 
 
 def test_a_law_that_jumps_is_refused_in_time() -> None:
     train = simulated("kind: law, mean: 1, unit: 1 deg, table: [0, 1, 0, -1], between: steps")
-    with pytest.raises(Exception, match="a step at once has no force"):
+    with pytest.raises(Exception, match="an instantaneous step has no defined force"):
         str(train.dynamics())
 
 

@@ -218,7 +218,7 @@ def test_unequal_copies_cannot_mesh() -> None:
     text = text.replace("P: [carrier, planet]", "P: [carrier, planet], Q: [carrier, outer]").replace(
         "pair: [p, r]", "pair: [p, o]}, {pair: [o, r]"
     )
-    with pytest.raises(DeclarationError, match="cannot be joined"):
+    with pytest.raises(DeclarationError, match="cannot be connected"):
         read(text).solve()
     assert read(text.replace("copies: 2", "copies: 3")).unfolded.mobility.by_rank == 2
 

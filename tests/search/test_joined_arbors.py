@@ -136,8 +136,8 @@ REFUSED = {
         + "  carrier: c\n",
         ["'m' and 'c' would lock an arbor"],
     ),
-    "itself": (COUPLED.replace("[m, k]", "[m, m]"), ["joins arbors that are already joined"]),
-    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "already joined"]),
+    "itself": (COUPLED.replace("[m, k]", "[m, m]"), ["connects arbors that are already connected"]),
+    "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "already"]),
     "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["known mesh 'w~x'", "lock"]),
     "follower": (
         COUPLED + "couplings: [{kind: pin_follower, pin: m, slot: n}]\n",
@@ -149,11 +149,11 @@ REFUSED = {
     ),
     "axes": (
         COUPLED + "revolutes: [{pair: [frame, n], axis: N}, {pair: [frame, k], axis: N}]\n",
-        ["'m' and 'k' are joined, but are on different axes", "`apart`"],
+        ["'m' and 'k' are connected, but are on different axes", "`apart`"],
     ),
     "places": (
         COUPLED + f"  geometry: {{}}\n{AXES}revolutes: [{{pair: [frame, m], axis: B}}]\n",
-        ["'m' and 'k' are joined, but are on different axes"],
+        ["'m' and 'k' are connected, but are on different axes"],
     ),
 }
 

@@ -308,5 +308,5 @@ def test_pins_in_slots_take_no_copies() -> None:
     couplings: [{id: pin, kind: pin_and_slot, pin: p, slot: q, pin_radius: 10 mm, offset: 2 mm}]
     inputs: {arm: 1}
     """
-    with pytest.raises(DeclarationError, match="coupling 'pin' cannot join 2 equal links 'p'"):
+    with pytest.raises(DeclarationError, match="coupling 'pin' cannot connect 2 equal links 'p'"):
         geartrain.load(text).unfolded.solve()

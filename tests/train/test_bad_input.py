@@ -65,7 +65,7 @@ MISTAKES = {
     "too many teeth": (changed("p: 20", "p: 1000000000001"), 3, ["'1000000000001' is not a tooth count"]),
     "a tooth count of many digits": (changed("p: 20", "p: 1" + "0" * 5000), 3, ["is not a tooth count"]),
     "teeth in words": (changed("p: 20", "p: twenty"), 3, ["'twenty' is not a tooth count"]),
-    "a pair on one link": (changed("[p, w]", "[p, p2]").replace("{p: 20}", "{p: 20, p2: 9}"), 9, ["one link", "'a'"]),
+    "a pair on one link": (changed("[p, w]", "[p, p2]").replace("{p: 20}", "{p: 20, p2: 9}"), 9, ["same link", "'a'"]),
     "two rings": (
         changed("p: 20", "p: {teeth: 20, internal: true}").replace("w: 60", "w: {teeth: 60, internal: true}"),
         9,
@@ -81,8 +81,8 @@ MISTAKES = {
     ),
     "a cycle of turning pairs": (changed("gears:", "  - {pair: [a, b], axis: A}\ngears:"), 8, ["cycle"]),
     "a turning pair twice": (changed("gears:", "  - {pair: [frame, b], axis: B}\ngears:"), 8, ["cycle"]),
-    "a turning pair with itself": (changed("[frame, b]", "[b, b]"), 7, ["joins 'b' to itself"]),
-    "a link left out": (changed("  - {pair: [frame, b], axis: B}\n", ""), 4, ["link 'b' is not joined"]),
+    "a turning pair with itself": (changed("[frame, b]", "[b, b]"), 7, ["connects 'b' to itself"]),
+    "a link left out": (changed("  - {pair: [frame, b], axis: B}\n", ""), 4, ["link 'b' is not connected"]),
     "one label for two axes": (
         changed("  b: {wheels", "  c: {}\n  b: {wheels").replace(
             "- {pair: [frame, b], axis: B}", "- {pair: [a, c], axis: C}\n  - {pair: [c, b], axis: A}"

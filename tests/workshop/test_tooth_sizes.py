@@ -160,7 +160,7 @@ def test_a_limit_on_a_chance_is_requested_of_few_designs_and_met() -> None:
     assert 0.9853 <= found.best.radii < 0.9856
     assert found.stops == 0.0
     assert len(requested) < 20
-    with pytest.raises(QuestionError, match="stop with a probability above"):
+    with pytest.raises(QuestionError, match="jam or clash with a probability above"):
         find_tooth_sizes(pair(48, 96), free={"window": (0.4, 0.6)}, probability=ProbabilityLimit(0.1, lambda _: 1.0))
 
 
@@ -190,7 +190,7 @@ def test_no_design_of_a_front_is_better_than_another_in_both() -> None:
         (0.2, ("loss",), {}, {}, "no parameter is free"),
         (0.2, ("loss",), {"radii": (0.98, 0.99)}, {"loss": 1e-4}, "violates a limit"),
         (0.2, ("loss",), {"radii": (0.98, 0.99)}, {"los": 0.01}, "loss"),
-        (9.0, ("loss",), {"radii": (0.97, 0.98)}, {}, "no design in the ranges turns"),
+        (9.0, ("loss",), {"radii": (0.97, 0.98)}, {}, "no design in the ranges can turn"),
         (0.0, ("loss",), None, {}, "without friction"),
     ],
 )

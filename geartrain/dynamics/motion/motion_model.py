@@ -108,12 +108,12 @@ _MAIN = 3  # outputs in a summary
 
 
 def _refuse_jumps(composition: ErrorComposition) -> None:
-    """Raise `GearTrainError` if a step at once moves its own driver, whose position is then not unique."""
+    """Raise `GearTrainError` if an instantaneous step moves its own driver, whose position is then not unique."""
     for step in composition.steps:
         jumping = [composition.sources[at].id for at in step.sources if composition.sources[at].transmission.at_once]
         if step.coupled and jumping:
             what = f"the step of '{jumping[0]}' turns its own driver"
-            why = "a step at once has no position of the driver during the step"
+            why = "an instantaneous step does not define the position of the driver during the step"
             raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
 
 

@@ -70,7 +70,7 @@ class MotionProblem:
         if requested and (left := outputs.keys() - kept.keys()):
             what = f"the motion of '{min(left)}' is not determined at every position"
             why = "one-way clutches drive it in steps, and only the mean advance is computed"
-            raise QuestionError(Problem(what, why, f"omit '{min(left)}'; `geartrain motion FILE` counts the advance"))
+            raise QuestionError(Problem(what, why, f"omit '{min(left)}'; `geartrain motion FILE` computes the advance"))
         return kept or {link: (link, self.frame) for link in (self.stepped.drivers if self.stepped else ())}
 
     @cached_property

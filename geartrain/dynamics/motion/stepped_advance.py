@@ -39,7 +39,7 @@ def mean_advance(problem: MotionProblem, drivers: ErrorComposition, stepped: Ste
         long = f"the drivers have too many kinks in their common period of {period:.6g} turns"
         why = f"the speeds of {', '.join(unknown)} within a turn are not known" if unknown else long
         fix = "declare the dimensions of all couplings, such as `pin_radius`, and no `tooth_form` before the drivers"
-        raise QuestionError(Problem(f"the advance of '{stepped.link}' cannot be counted", why, fix))
+        raise QuestionError(Problem(f"the advance of '{stepped.link}' cannot be computed", why, fix))
     senses = problem.way * np.array([*stepped.drivers.values()], dtype=float)[:, None]
     means = np.array([[mean_speed(link, problem.ratio(link))] for link in stepped.drivers])
 

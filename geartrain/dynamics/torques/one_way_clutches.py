@@ -357,7 +357,7 @@ class _Decision:
         return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
 
     def _steps(self, pattern: ClutchPattern) -> StateCase:
-        """Return the case in which swinging links drive one link in steps; refused if the steps cannot be counted."""
+        """Return the case in which swinging links drive one link in steps; rejected if the steps cannot be counted."""
         setting, frame, names = pattern.setting, self.train.declaration.frame, _joined(self._swinging)
         assert setting is not None
         driven, drivers, senses = set[str](), dict[str, int](), set[int]()
@@ -378,9 +378,9 @@ class _Decision:
             f"'{link}' does not turn on the frame": setting.bearer(link) != frame,
         }
         if obstacle := next((text for text, applies in obstacles.items() if applies), ""):
-            why = f"the driver of {names} swings to and fro, and {obstacle}"
+            why = f"the driver of {names} oscillates, and {obstacle}"
             fix = f"let clutches drive one unloaded link, or write `free: [{', '.join(self._swinging)}]` in a state"
-            return self._refused(f"the advance of the link behind {names} cannot be counted", why, fix)
+            return self._refused(f"the advance of the link behind {names} cannot be computed", why, fix)
         answer = self._answer(pattern, {}, (f"the speed of '{link}' is not determined by ratios: `motion` counts it",))
         # an undetermined speed is what the declaration means, unless it names another verdict
         expect = "free" if answer.expect == "determined" else answer.expect
@@ -389,9 +389,11 @@ class _Decision:
     def _refuse(self) -> None:
         declared, frame = self.train.declaration, self.train.declaration.frame
         if len(self.names) > MOST_CLUTCHES:
-            what = f"{len(self.names)} one-way clutches are in force"
-            why = f"at most {MOST_CLUTCHES} can be decided, because all patterns of holding clutches are tried"
-            raise DeclarationError([Problem(what, why, "withdraw some by `free`", declared.place("clutches"))])
+            what = f"{len(self.names)} one-way clutches are active"
+            why = f"at most {MOST_CLUTCHES} are supported, because all combinations of holding clutches are tried"
+            raise DeclarationError(
+                [Problem(what, why, "disable some: list them under `free`", declared.place("clutches"))]
+            )
         base = replace(declared.case(self.state, ()), inputs={}, fixed=(), locks=())
         for name in self.names:
             clutch, first, second, _ = self._clutch(name)

@@ -383,7 +383,7 @@ def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
 
 
 class EscapementTorques(NamedTuple):
-    """Torque that drives a clock, and what arrives at its escape wheel [N m]."""
+    """Torque that drives a clock, and torque that arrives at its escape wheel [N m]."""
 
     source: str
     """Link at which power enters."""
@@ -392,7 +392,7 @@ class EscapementTorques(NamedTuple):
     at_escape: float
     """Torque at the escape wheel in the sense of its rotation; 0 or less if friction stops the train."""
     without_bearings: float
-    """The same without friction of bearings."""
+    """Torque at the escape wheel without friction of bearings."""
 
 
 def escapement_torques(setting: LoadCase) -> EscapementTorques | None:

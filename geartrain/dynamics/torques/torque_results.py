@@ -252,8 +252,8 @@ class NeglectedEffect(Result):
 
     @property
     def counts(self) -> bool:
-        """True if the neglected effect changes mean values. Variation within a revolution, and the choice between two
-        mean values, do not count.
+        """True if the neglected effect changes mean values. Variations within a revolution, and the choice between two
+        mean values, are not counted.
         """
         return self.what not in ("variation within a turn", "mean efficiency")
 
@@ -427,8 +427,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def uncounted(self) -> tuple[NeglectedEffect, ...]:
-        """Neglected effects that change powers and efficiency. Variation within a revolution does not change mean
-        values.
+        """Neglected effects that change powers and efficiency. Variations within a revolution are not included, because
+        they do not change mean values.
         """
         return tuple(each for each in self.neglected if each.counts)
 

@@ -202,12 +202,12 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
 
 
 def _refuse_jumps(setting: LoadCase) -> None:
-    """Raise `QuestionError` if a coupling that transmits torque moves at once."""
+    """Raise `QuestionError` if a coupling that transmits torque moves instantaneously."""
     for circuit in setting.circuits:
         joint = setting.joints.get(circuit.id)
         if joint is not None and joint.transmission.at_once:
             what = f"the torque of '{circuit.id}' over a turn is not defined"
-            why = "a step at once has no force; only the mean torque is known"
+            why = "an instantaneous step has no defined force; only the mean torque is known"
             raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
 
 

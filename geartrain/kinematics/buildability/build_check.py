@@ -204,8 +204,8 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
     joints = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
     between = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     if lock:
-        why = f"a clutch can only join coaxial links, and this one would have to block the joints {joints}"
-        fix = "lock coaxial links, or join the two links by a pair of equal wheels"
+        why = f"a clutch can only connect coaxial links, and this one would have to block the joints {joints}"
+        fix = "lock coaxial links, or connect the two links by a pair of equal wheels"
     else:
         why = f"a brake fixes a link that turns on the frame, and this one would have to block the joints {joints}"
         fix = (

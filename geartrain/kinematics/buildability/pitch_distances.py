@@ -1,4 +1,4 @@
-"""Checks of modules and centre distances: wheels in mesh have the same module, and two axes have only one distance.
+"""Checks of modules and centre distances: wheels in mesh have the same module, and two axes have one centre distance.
 
 Modules and distances are stored as multiples of each other. Wheels in mesh share a module (1). The distance between two
 axes is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions
@@ -496,13 +496,13 @@ class PitchDistances:
         wants = [self._length(each, module) for each in (other.distance * scale, pair.distance)]
         shared = set(pair.wheels) & set(other.wheels)
         what = (
-            f"pairs '{other.name}' and '{pair.name}' need different distances between axes {_named(pair.axis_pair)}: "
-            f"{wants[0]} and {wants[1]}"
+            f"pairs '{other.name}' and '{pair.name}' need different centre distances between axes "
+            f"{_named(pair.axis_pair)}: {wants[0]} and {wants[1]}"
         )
         if not is_error:
-            why = f"two axes have only one distance, and the teeth must compensate for {self._length(off, module)}"
+            why = f"two axes have one centre distance, and the teeth must compensate for {self._length(off, module)}"
             return Problem(what, why, _COMPENSATE, pair.place)
-        why = f"two axes have only one distance, and these differ by {self._length(off, module)}"
+        why = f"two axes have one centre distance, but these two differ by {self._length(off, module)}"
         # the distance is half of the sum of the tooth counts
         teeth = 2 * off
         fix = "change tooth counts" + (f", their sum by {teeth}" if teeth.denominator == 1 else "")

@@ -250,7 +250,7 @@ class _DeclaredCoupling(NamedTuple):
             names = (f"its {driven}", f"its {driver}") if driven != driver else (f"'{circuit.i}'", f"'{circuit.j}'")
             sides = [f"'{label}' of {name}" for label, name in zip(labels, names, strict=True)]
             what = f"coupling '{coupling.name}': the axes {sides[1]} and {sides[0]} are not parallel"
-            fix = "declare parallel directions in `axes`, or join the links by a universal joint or bevel wheels"
+            fix = "declare parallel directions in `axes`, or connect the links by a universal joint or bevel wheels"
             return self._problem(what, coupling.PARALLEL, fix)
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
@@ -267,7 +267,7 @@ class _DeclaredCoupling(NamedTuple):
                 link, does, joints, key = circuit.i, "turns", "slides", "slides"
             what = f"coupling '{coupling.name}': '{link}' {does} on '{carrier}'"
             fix = f"declare '{link}' under `{joints}`, or name another link as `{key}`"
-            return self._problem(what, f"a {coupling.kind} joins a link that turns to a link that slides", fix)
+            return self._problem(what, f"a {coupling.kind} connects a link that turns with a link that slides", fix)
         b = circuit.b
         if coupling.kind != "screw":
             # the sense of a screw is that of its thread; other couplings are declared about and along their own axes
@@ -299,7 +299,7 @@ class _DeclaredCoupling(NamedTuple):
             f"coupling '{name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
             f"'{other.carrier}' those of '{other.j}' and '{other.i}'",
             f"the distance between '{first.i}' and '{other.i}' changes, and a {kind} keeps its length",
-            f"join all its links to one carrier, or declare a {kind} for each carrier",
+            f"connect all its links to one carrier, or declare a {kind} for each carrier",
         )
 
     def _problem(self, what: str, why: str, fix: str, *key: str) -> Problem:
@@ -396,7 +396,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     else:
         where = " and at ".join(changes)
         why = f"on the turning pairs {steps} the axis changes at {where}, so the centre distance is not fixed"
-        fix = f"join '{i}' and '{j}' to one carrier: {' or '.join(changes)}"
+        fix = f"connect '{i}' and '{j}' to one carrier: {' or '.join(changes)}"
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 

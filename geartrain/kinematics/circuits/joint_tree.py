@@ -209,13 +209,13 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, loc: Loc) -> Problem
     if other in tree.parent and any(other in joint.pair for joint in train.slides):
         return Problem(
             f"link '{other}' has two joints: to '{tree.parent[other][0]}' and to '{link}'",
-            "a link turns or slides on one other link, not both",
-            f"remove one of the two joints, or declare a further link between '{link}' and '{other}'",
+            "a link can turn or slide on only one other link",
+            f"remove one of the two joints, or declare an additional link between '{link}' and '{other}'",
             train.place(*loc),
         )
     return Problem(
         f"the turning pairs form a cycle: {' - '.join([*links, link])}",
-        "turning pairs must form a tree: n links on one axis are joined by n - 1 turning pairs",
+        "turning pairs must form a tree: n links on one axis are connected by n - 1 turning pairs",
         f"remove one of these turning pairs, such as [{link}, {other}]",
         train.place(*loc),
     )
@@ -243,7 +243,7 @@ def _no_joints(train: Train) -> Problem:
 
 def _unconnected(train: Train, link: str) -> Problem:
     return Problem(
-        f"link '{link}' is not joined to the frame",
+        f"link '{link}' is not connected to the frame",
         f"no chain of turning pairs leads from it to '{train.frame}'",
         f"add it to an axis of `revolutes`, or declare an axis of its own: `{link}: [{train.frame}, {link}]`",
         train.place("links", link),

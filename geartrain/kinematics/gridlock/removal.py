@@ -47,7 +47,7 @@ class MeshRemoval(Result):
 
     See Also
     --------
-    Gridlock : has an example
+    Gridlock : Contains an example.
     """
 
     KEYS = ("meshes", "method", "minimum", "at_least", "choices", "proofs")
@@ -106,7 +106,7 @@ class LockedSubgraph(Result):
 
     See Also
     --------
-    Gridlock : has an example
+    Gridlock : Contains an example.
     """
 
     carrier: str

@@ -235,7 +235,7 @@ class LoopPhase(Result):
 
     See Also
     --------
-    MeshPhasing : has an example
+    MeshPhasing : Contains an example.
     """
 
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")

@@ -293,7 +293,7 @@ class WheelPlace(Shown):
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     given: bool = False
-    """True if the module of the wheel, or of a wheel that meshes connect with it, is declared."""
+    """True if a module is declared for the wheel, or for a wheel that is connected to it by meshes."""
     cone: float = 0.0
     """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0

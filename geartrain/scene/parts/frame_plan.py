@@ -454,7 +454,7 @@ class FramePlan:
         for column in self.all_columns:
             if column.tangled:
                 one, other = column.tangled
-                why = f"on axis '{column.axis}' neither can be a pipe around the other without enclosing a wheel of it"
+                why = f"on axis '{column.axis}' neither arbor can be a pipe around the other without enclosing a wheel"
                 fix = "move one of the arbors to another axis, or remove a wheel from one of them"
                 yield Problem(f"arbors '{one}' and '{other}' cannot be nested", why, fix)
             for disc, room in column.hit:

@@ -56,7 +56,8 @@ class ManufacturingSizes(Shown):
     bore: float | None = None
     """Diameter of the arbors [mm]. With 0, arbors, plates and the holes of wheels are omitted."""
     backlash: float | None = None
-    """Circumferential backlash at the pitch circle of every pair whose declaration does not fix it [mm], 0 or more.
+    """Circumferential backlash at the pitch circle of every pair whose backlash is not determined by its declaration
+    [mm], 0 or more.
 
     By default it is the backlash of a named process, otherwise 1/20 of the module.
     """
@@ -100,7 +101,7 @@ def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearT
     Without a requested module and without declared tooth forms, it is the same train.
 
     Raise `QuestionError` if the declaration gives sizes, which take precedence, if a wheel is too small or too large to
-    be made, or if teeth cannot have the backlash.
+    be made, or if the requested backlash is not possible for the teeth.
 
     layout   layout of the train as it is declared
     """

@@ -60,7 +60,7 @@ class SolidModel(Shown):
     Raises
     ------
     QuestionError
-        At first use, if the train declares sizes that `making` also gives, or if its teeth cannot have the backlash.
+        At first use, if the train already declares sizes in `making`, or its teeth cannot have this backlash.
 
     Examples
     --------

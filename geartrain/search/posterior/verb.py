@@ -82,7 +82,7 @@ def run(
             "--limit",
             min=1,
             max=MOST_COUNT,
-            help="Maximum number of steps of the exact method, above which the default method draws a sample.",
+            help="Maximum number of steps of the exact method; if it is exceeded, the default is to sample.",
         ),
     ] = 2_000_000,
     samples: Annotated[

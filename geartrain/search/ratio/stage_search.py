@@ -42,7 +42,7 @@ class StageFindings(Tabular, Result):
 
     See Also
     --------
-    find_stages : Search for one ratio by stages.
+    find_stages : Search for gear trains in stages with a given ratio.
     """
 
     ROWS = "search.tooth_numbers_report:stage_rows"

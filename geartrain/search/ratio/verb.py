@@ -53,7 +53,7 @@ def run(
     ] = 0,
     hunting: Hunting = False,
     reverted: Annotated[
-        bool, typer.Option("--reverted", help="Require the same centre distance for all gear pairs.")
+        bool, typer.Option("--reverted", help="Require a reverted train: all gear pairs have the same centre distance.")
     ] = False,
     different: Different = False,
     maximum_total: Annotated[

@@ -210,7 +210,7 @@ def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
             what = f"{wheel.name or wheel.teeth} and {child.driven.name or child.driven.teeth} cannot mesh in a ring"
             yield BrokenRule("ring", (), what, None)
     if problem.geometry.reach is not None and not candidate_likelihood(candidate, problem.geometry):
-        what = "radii of meshing wheels do not fit the distance of their axes"
+        what = "radii of meshing wheels do not match the distance between their axes"
         yield BrokenRule("distance", (), what, "if the distances between axes exclude no meshes")
 
 

@@ -187,7 +187,7 @@ class MissingExplanation(Result):
     requested: int
     """Number of changes of the evidence that were tried."""
     refused: tuple[str, ...]
-    """Changes for which the search was refused."""
+    """Changes for which the search was rejected."""
 
 
 def explain_missing(problem: ReconstructionProblem, execution: Execution | None = None) -> MissingExplanation:

@@ -193,7 +193,7 @@ class EvidenceQuestion(Shown):
     base: BaseLink
     """Link that carries the arbors. The speeds of the problem are relative to this link."""
     joined: Joined
-    """Links that form one arbor because given couplings join them, by the name of the arbor."""
+    """Links that form one arbor because given couplings connect them, by the name of the arbor."""
     unused: tuple[str, ...]
     """Declarations that do not affect the result, one line for each."""
 
@@ -206,7 +206,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     evidence : Train
         Declaration with `reconstruct`.
     wheels : int, optional
-        Maximum number of added wheels, which replaces the number in the evidence.
+        Maximum number of added wheels; it overrides the number in the evidence.
     idlers : bool
         True if a driven wheel may also drive, even if the evidence does not allow it.
 

@@ -44,9 +44,9 @@ class BaseLink:
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of a reconstruction: the link that carries its arbors, and the link at which the train begins.
+    """Return the base of a reconstruction: the link that carries the arbors, and the link at which the train begins.
 
-    The evidence must be valid, so that `base_problems` yields no problem.
+    The evidence must be valid: `base_problems` must not yield any problem.
     """
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
@@ -206,7 +206,7 @@ Joined = Mapping[str, tuple[str, ...]]
 
 
 def joined_arbors(evidence: Train) -> Joined:
-    """Return the groups of links that given couplings join to one arbor.
+    """Return the groups of links that given couplings connect to one arbor.
 
     A group is named after the input link if the group contains it, otherwise after its first link with wheels.
     """
@@ -219,7 +219,7 @@ def joined_arbors(evidence: Train) -> Joined:
 
 
 def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, Any]]:
-    """Yield the couplings of joined links as plain data, with the keys of a declaration."""
+    """Yield the couplings whose pin is on one of the links, as plain data with the keys of a declaration."""
     requested = evidence.reconstruct
     for coupling in evidence.pin_couplings:
         if coupling.pin in links:
@@ -279,18 +279,18 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
         said = " and ".join(f"'{link}'" for link in pair)
         first, second = (joined.get(link, {link}) for link in pair)
         if bearing & set(pair):
-            fix = "name the two arbors that it joins"
+            fix = "name the two arbors that it connects"
             why = "the frame and the carrier do not turn with an arbor"
             yield Problem(f"the coupling of {said} would lock an arbor", why, fix, place)
         elif second & first:
-            what = f"the coupling of {said} joins arbors that are already joined"
+            what = f"the coupling of {said} connects arbors that are already connected"
             yield Problem(what, "given couplings must form a tree of arbors", "remove the coupling", place)
         joined.update(dict.fromkeys(first | second, first | second))
         yield from _bearing_problems(evidence, pair, place)
     for at, gear in enumerate(evidence.gears):
         first_link, second_link = (evidence.wheels[wheel][0] for wheel in gear.pair)
         if second_link in joined.get(first_link, ()):
-            what = f"the arbors of the known mesh '{gear.name}' are joined by a coupling"
+            what = f"the arbors of the known mesh '{gear.name}' are connected by a coupling"
             place = evidence.place("gears", at)
             yield Problem(
                 what, "a mesh and a coupling of two arbors lock them", "remove the mesh or the coupling", place
@@ -315,8 +315,8 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
             what = f"the coupling of '{link}', which turns on '{bearing}', crosses a carrier"
             why = f"the speed of '{link}' depends on its carrier"
             fix = (
-                f"join the arbors before and after '{bearing}', which have the same mean speed, and remove the arbors "
-                "on it"
+                f"connect the arbors before and after '{bearing}', which have the same mean speed, and remove the "
+                "arbors on it"
             )
             yield Problem(what, why, fix, place)
 
@@ -331,7 +331,7 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
         axes = {frozenset(_coaxial_arbors(problem, link)) - set(links) for link in links}
         if len(places) > 1 or len(axes) > 1:
             said = " and ".join(f"'{link}'" for link in links)
-            what = f"{said} are joined, but are on different axes"
+            what = f"{said} are connected, but are on different axes"
             why = "the arbor of an added wheel would be ambiguous"
             fix = f"remove the axis of '{name}', and list in `apart` the pairs of wheels that do not mesh"
             place = next(loc for pair, loc in _pairs(evidence) if name in pair)

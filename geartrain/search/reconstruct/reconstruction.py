@@ -54,8 +54,8 @@ class ReconstructionRequest(Shown):
     lost: tuple[str, ...] = ()
     """Arbors of the train that are treated as lost."""
     source: str | None = None
-    """Link at which the reconstructed part of the train begins, used with `lost`; by default the first part that
-    contains the lost arbors.
+    """Link at which the reconstructed part of the train begins, used with `lost`; by default the start of the first
+    part that contains the lost arbors.
     """
     seen: bool = False
     """True if the meshes of surviving wheels are known, and no more arbors are added than are lost; used with `lost`.
@@ -183,7 +183,7 @@ class ReconstructionAnswer(Result):
     base: BaseLink | None = None
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
-    """Links that form one arbor because given couplings join them, by the name of the arbor."""
+    """Links that form one arbor because given couplings connect them, by the name of the arbor."""
     drawn: tuple[RankedTrain, ...] = ()
     """Randomly sampled trains. Their field `rank` is the number of the draw."""
     known: tuple[KnownRank, ...] = ()

@@ -474,7 +474,7 @@ def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) 
     """Raise `DeclarationError` if wheels were seen in mesh whose axes are too close or too far apart."""
     for gear in evidence.gears:
         if frozenset(gear.pair) in unreachable:
-            what = f"the known mesh '{gear.name}' is impossible at the distance of its axes"
+            what = f"the known mesh '{gear.name}' is impossible at the distance between its axes"
             why = "the sum of the pitch radii differs from the distance by more than `reach` of `geometry`"
             place = evidence.place("gears", evidence.gears.index(gear))
             raise DeclarationError([Problem(what, why, "correct a position or a size, or widen `reach`", place)])

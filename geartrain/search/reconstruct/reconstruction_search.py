@@ -43,7 +43,7 @@ _NONE: _Wheel = ("", 0)
 
 @dataclass(frozen=True, slots=True)
 class ExplanationCount(Result):
-    """Number of explanations with a given number of added wheels: of trains, and of equivalence classes of trains.
+    """Numbers of explanations (trains, and equivalence classes of trains) with a given number of added wheels.
 
     See Also
     --------

@@ -301,7 +301,7 @@ class _Base:
     """Arbors that turn on the frame or on one carrier: links that form one arbor, and meshes."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Links that couplings join to each link, including the link, in the order of the train."""
+    """Links that couplings connect to each link, including the link, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
     """Meshes of each arbor with other arbors of the base."""
 
@@ -593,7 +593,7 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
         elif arbors.count(arbor) > 1:
             what, why = (
                 f"'{link}' is lost twice",
-                "an arbor is lost together with all links that are joined to it, so it is given only once",
+                "an arbor is lost together with all links that are connected to it, so it is given only once",
             )
         else:
             continue

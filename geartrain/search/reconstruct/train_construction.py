@@ -178,7 +178,7 @@ class TrainConstruction:
         return not wheel.added and self.evidence.wheels[wheel.name][1].internal
 
     def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
-        """Add an arbor, or the links that couplings join to it, with its wheels and pointers."""
+        """Add an arbor, or the links that couplings connect to it, with its wheels and pointers."""
         links = joined_arbors(self.evidence).get(arbor.name, (arbor.name,))
         for link in links:
             self._link(link, arbor.added)

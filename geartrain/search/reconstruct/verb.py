@@ -57,8 +57,8 @@ def run(
         str | None,
         typer.Option(
             "--from",
-            help="With --lost: link at which the part to reconstruct begins; default: the first part that contains "
-            "the lost arbors.",
+            help="With --lost: link at which the part to be reconstructed begins; default: start of the first part "
+            "that contains the lost arbors.",
         ),
     ] = None,
     seen: Annotated[
@@ -99,7 +99,7 @@ def run(
         Literal["solution", "class"],
         typer.Option(
             "--prior",
-            help="Unit of equal prior weight: each train (solution), or each class of equal ratios (class).",
+            help="Assign equal prior weights to trains (solution), or to classes of trains with equal ratios (class).",
         ),
     ] = "solution",
     sample: Annotated[

@@ -60,7 +60,7 @@ class TabledFunction(NamedTuple):
     jump: float
 
     def __call__(self, S: Floats) -> Floats:
-        """Return the function at driver angles S [rad]."""
+        """Return the values of the function at driver angles S [rad]."""
         found: Floats = self.slope * S + self.table(S)
         return found
 
@@ -116,7 +116,7 @@ def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
 
 @kernel
 def value_and_slope(transmissions: PairTables, which: int, S: float) -> tuple[float, float]:
-    """Return the function with index `which` and its derivative at the driver angle S [rad]."""
+    """Return the value and derivative of transmission function number `which` at the driver angle S [rad]."""
     period = transmissions.period[which]
     u = S - floor(S / period) * period
     if not 0.0 <= u < period:  # rounded up to the period, beyond the resolution of floats, or NaN

@@ -119,7 +119,7 @@ def find_separation(
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
     """Return True if `find_separation` has a result: all torques have units, a link that can move has inertia, no
-    coupling moves at once, and one-way clutches drive no link in steps.
+    coupling moves instantaneously, and one-way clutches do not drive any link in steps.
     """
     declared, case = train.declaration, train.kinematics.case(state)
     if any(each.transmission.at_once for each in train.couplings) or case.stepped is not None:

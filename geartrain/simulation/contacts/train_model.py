@@ -402,7 +402,9 @@ def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
     """Raise `QuestionError` if a coupling moves its driven link at once."""
     if transmission.at_once:
         fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
-        raise QuestionError(Problem(f"the dynamics of {label} cannot be simulated", "a step at once has no force", fix))
+        raise QuestionError(
+            Problem(f"the dynamics of {label} cannot be simulated", "an instantaneous step has no defined force", fix)
+        )
 
 
 def _sparse(form: Floats) -> dict[int, float]:

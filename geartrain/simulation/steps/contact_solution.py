@@ -150,7 +150,7 @@ class StepRules(NamedTuple):
     """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""
     slack: float
     rounds: int
-    """Maximum number of contact states tried in a step."""
+    """Maximum number of combinations of contact states that are tried in a time step."""
 
 
 @kernel

@@ -107,7 +107,7 @@ class ContactPlace(Result):
     force: float
     """Normal force of one tooth pair [N]."""
     pressure: float
-    """Maximum pressure in the contact [MPa]; infinite if a flank has no radius of curvature."""
+    """Maximum pressure in the contact [MPa]; infinite if the radius of curvature of a flank is 0."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,7 +189,7 @@ class ContactLoad:
 
     @property
     def has_cusp(self) -> bool:
-        """True if the flanks have no radius of curvature at the pitch point, as cycloids do."""
+        """True if the relative curvature of the flanks is not finite at the pitch point, as for cycloids."""
         approach, recess = self.path.arcs
         return -approach <= 0 <= recess and not isfinite(float(self.path.at(np.zeros(1)).kr[0]))
 

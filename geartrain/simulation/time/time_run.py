@@ -196,7 +196,7 @@ class ContactInTime(Result):
     power: float
     """Mean power lost in impacts [W]."""
     hardest: float
-    """Maximum closing speed of the impacts, as an angular speed of the driven side [rad/s]."""
+    """Maximum closing speed over all impacts, referred to the driven side [rad/s]."""
     torque: float
     """Mean torque on the driven side, positive in its direction of motion [N m]."""
     rubbed: float
@@ -217,7 +217,7 @@ class ImpactList(Result):
 
     See Also
     --------
-    TimeRun.impacts : Such an object.
+    TimeRun.impacts : Field of this type.
     """
 
     KEYS = ("total",)
@@ -242,7 +242,7 @@ class EnergyAccount(Result):
 
     See Also
     --------
-    TimeRun.energy : Such an object.
+    TimeRun.energy : Field of this type.
     """
 
     KEYS = (

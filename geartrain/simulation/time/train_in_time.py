@@ -123,8 +123,8 @@ def model_in_time(
     if case.one_way:
         names = ", ".join(each.name for each in case.one_way)
         what = f"the simulation in time does not include the one-way clutches {names}"
-        why = "a one-way clutch takes hold and lets go during the motion"
-        fix = "withdraw them by `free` in a state, or declare clutches that hold both ways"
+        why = "a one-way clutch engages and disengages during the motion"
+        fix = "disable them with `free` in a state, or declare clutches that hold both ways"
         raise QuestionError(Problem(what, why, fix, declared.place("clutches")))
     if rate is not None:
         # a given rate is positive; the sense follows from the declared inputs

@@ -87,7 +87,7 @@ class PitchSurfaces:
         return 2 * pi * self.reach / self.z1
 
     def S(self, d: ArrayLike) -> Floats:
-        """Return S(d): d on cylinders, sin d on cones; d is the distance from the pitch point."""
+        """Return the function S(d) of the distance d from the pitch point: S = d on cylinders, S = sin d on cones."""
         # with S instead of d, docs/shapes.md (2) to (5) hold for spur and bevel gears
         found: Floats = np.sin(d) if self.bevel else np.asarray(d, dtype=float)
         return found

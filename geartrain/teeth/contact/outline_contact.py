@@ -331,7 +331,7 @@ def contact(
 
     See Also
     --------
-    solve : Both sides.
+    solve : Contact on both flanks.
 
     Examples
     --------

@@ -71,13 +71,16 @@ class Belt(Coupling):
     HOLDS = True
     UNKNOWN = "slip, creep and stretch"
 
-    kind: Literal["belt"] = Field(description="Belt, chain or cable: all pulleys have one circumferential speed")
+    kind: Literal["belt"] = Field(description="Belt, chain or cable: all pulleys have the same circumferential speed")
     around: Pulleys = Field(
-        description="Links with the pitch diameters of their pulleys, or a list of wheels, by their teeth; the speeds "
-        "of the others follow from the first"
+        description="Links with the pitch diameters of their pulleys, or a list of wheels, "
+        "whose tooth counts are used; the first determines the speeds of the "
+        "others"
     )
     reversed: tuple[str, ...] = Field(
-        (), description="Pulleys that turn in the opposite sense: of a crossed belt, or touched by the back of the belt"
+        (),
+        description="Pulleys that turn in the opposite sense: a pulley of a crossed belt, "
+        "or pulleys that the back of the belt touches",
     )
 
     @model_validator(mode="after")
@@ -110,7 +113,7 @@ class Belt(Coupling):
         return ", ".join(map("".join, zip(self.ends, sizes, marks, strict=True)))
 
     def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
-        """Yield what is wrong with the pulleys: two on one link, or a wheel that a belt cannot go around."""
+        """Yield the faults of the pulleys: two pulleys on one link, or a wheel that a belt cannot go around."""
         yield from super().problems(wheels)
         for name in self.ends if self.by_teeth else ():
             wheel = wheels[name][1]

@@ -137,15 +137,17 @@ class EllipticalPair(_LobedPair):
     """
 
     kind: Literal["elliptical"] = Field(
-        description="Elliptical or lobed wheels about their foci: mean ratio minus the ratio of their lobes"
+        description="Elliptical or lobed wheels that turn about their foci: the mean ratio "
+        "is negative, with the ratio of the numbers of lobes as its magnitude"
     )
     eccentricity: Figure = Field(description="Eccentricity e of the driver's pitch curve, 0 to below 1")
     centre_distance: Annotated[Length, above_zero("give a length such as 60 mm")] | None = Field(
-        None, description="Distance between the axes, which gives the size of the wheels"
+        None, description="Distance between the axes, which determines the size of the wheels"
     )
     phase: Angle | None = Field(
         None,
-        description="Angle of the driver at the start, from the position with a long radius on the line of centres; "
+        description="Angle of the driver at the start, measured from the position with a "
+        "maximum radius on the line of centres; "
         "default 0",
     )
 
@@ -193,7 +195,8 @@ class PitchCurvePair(_LobedPair):
     """
 
     kind: Literal["pitch_curve"] = Field(
-        description="Non-circular wheels by the radii of the driver: mean ratio minus the ratio of their lobes"
+        description="Non-circular wheels given by the radii of the driver: the mean ratio "
+        "is negative, with the ratio of the numbers of lobes as its magnitude"
     )
     radii: tuple[Length, ...] = Field(
         description="Radii of the driver's pitch curve at equal angles over one lobe, 4 or more; the first is not "
@@ -201,7 +204,8 @@ class PitchCurvePair(_LobedPair):
     )
     phase: Angle | None = Field(
         None,
-        description="Angle of the driver at the start, from the position with the first radius on the line of centres; "
+        description="Angle of the driver at the start, measured from the position with the "
+        "first radius on the line of centres; "
         "default 0",
     )
 
@@ -252,7 +256,7 @@ Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
 
 
 class TabledLaw(_VaryingPair):
-    """Coupling with the driven angle q = mean S + unit d(S), d by harmonics or by a table.
+    """Coupling with the driven angle q = mean S + unit d(S), with d given by harmonics or by a table.
 
     A mean of 0 is a cam with an oscillating arm.
     """
@@ -263,24 +267,29 @@ class TabledLaw(_VaryingPair):
 
     model_config = ConfigDict(populate_by_name=True)
 
-    kind: Literal["law"] = Field(description="Driven angle by a mean ratio and a periodic deviation from it")
-    mean_ratio: Figure = Field(alias="mean", description="Exact mean speed of the driven link over that of the driver")
+    kind: Literal["law"] = Field(description="Driven angle given by a mean ratio and a periodic deviation")
+    mean_ratio: Figure = Field(
+        alias="mean", description="Exact mean speed of the driven link divided by that of the driver"
+    )
     unit: Angle = Field(description="Angle of the driven link for a deviation of 1")
     harmonics: Annotated[dict[int, Harmonic], AfterValidator(FrozenDict)] | None = Field(
         None,
-        description="Deviation by harmonics: order k in `per` turns -> amplitude A, or [A, angle], for a term "
+        description="Deviation given by harmonics: order k in `per` turns -> amplitude A, or [A, angle], for a term "
         "A sin(k S + angle)",
     )
     table: tuple[Figure, ...] | None = Field(
-        None, description="Deviation at equal angles of the driver over `per` turns; the first is not repeated"
+        None, description="Deviation given at equal angles of the driver over `per` turns; the first is not repeated"
     )
     per: Annotated[Figure, above_zero("give the turns of the driver in one period, such as 1")] = Field(
         Figure.parse(1), description="Turns of the driver in one period of the deviation"
     )
     between: Literal["smooth", "straight", "steps"] = Field(
-        "smooth", description="Between the points of a table: cubic spline, straight lines, or constant values"
+        "smooth",
+        description="Interpolation between the points of a table: cubic spline, straight lines, or constant values",
     )
-    phase: Angle | None = Field(None, description="Angle of the driver at the start in the deviation; default 0")
+    phase: Angle | None = Field(
+        None, description="Phase of the deviation at the start, as an angle of the driver; default 0"
+    )
 
     @model_validator(mode="after")
     def _has_one_form(self) -> TabledLaw:

@@ -188,7 +188,7 @@ class SlotToPinTransmission(PinTransmission):
         if pin_radius < offset:
             raise RangeError(
                 Problem(
-                    f"a follower cannot drive a pin of radius {pin_radius:g} at an offset of {offset:g}",
+                    f"a follower cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}",
                     "a follower oscillates, and is at rest at its dead points while the pin moves on",
                     "let the pin drive",
                     "driver",

@@ -161,7 +161,7 @@ class Parallel(_ParallelCoupling):
     SIDES = ("1", "1")
 
     kind: Literal["parallel"] = Field(
-        description="Parallel cranks, an Oldham cross or the like: ratio 1 at every instant"
+        description="Parallel cranks, an Oldham coupling or a similar mechanism: ratio 1 at every instant"
     )
 
     @model_validator(mode="after")

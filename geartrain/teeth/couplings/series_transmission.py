@@ -72,7 +72,9 @@ class SeriesTransmission(LosslessTransmission):
         self.rest, self.phase, self.period = 1 - rho if rest is None else rest, phase, 2 * pi / order
 
     def mirrored(self) -> SeriesTransmission:
-        """Return the function for a driver whose forward sense is reversed; epsilon is odd, so the phase is negated."""
+        """Return the transmission function for a driver with reversed forward sense: the phase is negated, as epsilon
+        is odd.
+        """
         if not self.phase:
             return self
         return SeriesTransmission(self.ratio, self.factor, self.order, self.rho, self.rest, -self.phase)

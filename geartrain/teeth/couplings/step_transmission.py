@@ -58,7 +58,7 @@ class GenevaTransmission(TableTransmission):
         super().__init__(Fraction(pins, slots), deviation)
 
     def mirrored(self) -> GenevaTransmission:
-        """Return the function itself, because its deviation is odd."""
+        """Return this transmission function itself, because its deviation is odd."""
         return self
 
 
@@ -89,7 +89,7 @@ class _GenevaDeviation(PeriodicFunction):
 
 
 class StepTransmission(TableTransmission):
-    """Transmission function of engagements that move whole teeth, at once or evenly over an angle of the driver.
+    """Transmission function of engagements that move whole teeth, instantaneously or evenly over a driver angle.
 
     The first engagement begins at S = 0. The driven angle counts from its position before this engagement.
 
@@ -129,5 +129,5 @@ class StepTransmission(TableTransmission):
         self.dwell = 1 - over * times * Fraction(sum(1 for each in moves if each), len(moves))
 
     def mirrored(self) -> StepTransmission:
-        """Return the function itself: an engagement begins at S = 0 in either sense of the driver."""
+        """Return this transmission function itself: an engagement begins at S = 0 in either sense of the driver."""
         return self

@@ -42,13 +42,13 @@ _Moves = Annotated[
 
 
 class SteppingCoupling(Coupling):
-    """Coupling that moves its driven link by steps, base class of all kinds."""
+    """Coupling that moves its driven link in steps, base class of all kinds."""
 
     # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
     LOCKS_BACK = HOLDS = True
     UNKNOWN = "friction of pin, finger and lock; impacts where the lock stops the driven link"
 
-    pair: tuple[str, str] = Field(description="Driving link, and the link that moves by steps")
+    pair: tuple[str, str] = Field(description="Driving link, and the link that moves in steps")
     internal: Boolean = Field(
         False, description="True if both links turn in the same sense; by default they turn in opposite senses"
     )
@@ -128,7 +128,8 @@ class Step(SteppingCoupling):
         1, ge=1, le=10_000, description="Number of engagements in one revolution of the driver, evenly spaced"
     )
     over: Annotated[Angle, not_below_zero("give an angle of 0 or more")] | None = Field(
-        None, description="Angle of the driver during which an engagement moves the teeth evenly; default 0, at once"
+        None,
+        description="Angle of the driver during which an engagement moves the teeth evenly; default 0 (instantaneous)",
     )
     loss: Annotated[Energy, not_below_zero("give an energy of 0 or more")] | None = Field(
         None, description="Energy lost for every tooth that passes the jumper or click spring; default 0"
@@ -149,7 +150,7 @@ class Step(SteppingCoupling):
 
     @property
     def moving_angle(self) -> Fraction:
-        """Angle of the driver during which an engagement moves the teeth [turn]; 0 for steps at once."""
+        """Angle of the driver during which an engagement moves the teeth [turn]; 0 for instantaneous steps."""
         return Fraction(0) if self.over is None else self.over.base
 
     @property
@@ -159,7 +160,7 @@ class Step(SteppingCoupling):
 
     @property
     def remark(self) -> str:
-        """Number of steps at once, or the fraction of the time during which the driven link moves, in words."""
+        """Number of instantaneous steps, or the fraction of the time during which the driven link moves, in words."""
         if self.moving_angle:
             return super().remark
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))

@@ -127,7 +127,7 @@ class DeviationTransmission(TransmissionFunction):
         return self.deviation.breakpoints
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous."""
+        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous."""
         at = self._breakpoints
         driver = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
         found: list[float] = driver.tolist()
@@ -141,7 +141,7 @@ class DeviationTransmission(TransmissionFunction):
 
     @cached_property
     def at_once(self) -> bool:  # type: ignore[override]
-        """True if the driven side moves at once, so that the transmission error is discontinuous."""
+        """True if the driven side jumps, so that the transmission error is discontinuous."""
         return bool(self._jumps(0).any())
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
@@ -164,5 +164,5 @@ class TableTransmission(DeviationTransmission, LosslessTransmission):
     """Transmission function of a coupling with a periodic deviation from uniform motion."""
 
     def mirrored(self) -> TableTransmission:
-        """Return the function for a driver whose forward sense is reversed."""
+        """Return the transmission function for a driver whose forward sense is reversed."""
         return TableTransmission(self.ratio, self.deviation, self.phase, -self.way)

@@ -69,7 +69,7 @@ class Screw(TravelCoupling):
     )
     hand: Literal["right", "left"] = Field("right", description="Hand of the thread")
     friction: DeclaredCoulombFriction | None = Field(
-        None, description="Coefficient of friction of the thread; needs `diameter`; default without loss"
+        None, description="Coefficient of friction of the thread; requires `diameter`; default no loss"
     )
     diameter: Annotated[MeasuredLength, above_zero("give a diameter such as 18 mm")] | None = Field(
         None, description="Mean diameter of the thread"

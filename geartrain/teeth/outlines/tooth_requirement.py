@@ -259,7 +259,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
             return found, radians(degree)
     raise QuestionError(
         Problem(
-            f"no root of gear {deepest.gear} lets the mate's tips pass",
+            f"no root profile of gear {deepest.gear} clears the mate's tips",
             "the tips would cut the flanks below their active part, or touch teeth outside the path of contact",
             "shorten the arcs, or use more teeth, backlash or clearance",
             "--profile",

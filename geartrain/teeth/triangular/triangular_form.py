@@ -74,7 +74,8 @@ class Triangular(ToothForm):
     )
     centre_distance: Length | None = Field(None, description="Centre distance of the pair")
     window: Figure | None = Field(
-        None, description="Position of the clearance between jamming (0) and loss of contact (1)"
+        None,
+        description="Position in the clearance window, from jamming (0) to loss of contact (1)",
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,

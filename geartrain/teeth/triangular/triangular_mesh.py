@@ -1,4 +1,4 @@
-"""Mesh of a gear pair with triangular teeth: clearance window, causes of a pair that does not turn, results."""
+"""Mesh of a gear pair with triangular teeth: clearance window, reasons why a pair cannot turn, results."""
 
 from __future__ import annotations
 
@@ -252,7 +252,7 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Return cause and remedy for a pair that does not turn: the clearance window, and the bound that is violated."""
+    """Return cause and remedy for a pair that cannot turn: the clearance window, and the bound that is violated."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor

@@ -111,7 +111,7 @@ class RatioDrift(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerBudget(Result):
-    """Error budget of one pointer, which lists the size of each cause of its error.
+    """Error budget of one pointer, which lists the contribution of each cause to its error.
 
     Examples
     --------
@@ -151,23 +151,23 @@ class PointerBudget(Result):
 
     @property
     def ranked(self) -> tuple[BudgetCause, ...]:
-        """Causes whose size is known, in descending order of size."""
+        """Causes whose contribution is known, in descending order of contribution."""
         known = [cause for cause in self.causes if cause.degrees is not None]
         return tuple(sorted(known, key=lambda cause: -(cause.degrees or 0.0)))
 
     @property
     def ranking(self) -> tuple[str, ...]:
-        """Names of the causes whose size is known, in descending order of size."""
+        """Names of the causes whose contribution is known, in descending order of contribution."""
         return tuple(cause.name for cause in self.ranked)
 
     @property
     def undeclared(self) -> tuple[BudgetCause, ...]:
-        """Causes whose size is unknown."""
+        """Causes whose contribution is unknown."""
         return tuple(cause for cause in self.causes if cause.degrees is None)
 
     @property
     def total(self) -> float:
-        """Sum of the sizes of all known causes [deg], without any cancellation between causes."""
+        """Sum of all known contributions [deg], without any cancellation between them."""
         return sum(cause.degrees or 0.0 for cause in self.ranked)
 
     @property

@@ -49,7 +49,7 @@ def run(
     samples: Annotated[
         int,
         typer.Option(
-            "--samples", min=2, max=MOST_COUNT, help="Number of input positions over the revolutions of --turns."
+            "--samples", min=2, max=MOST_COUNT, help="Number of input positions over the revolutions given by --turns."
         ),
     ] = 20_000,
     cutting: Annotated[

@@ -251,7 +251,7 @@ class _Reader:
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} times {of}"
                 pitch = self.scales["pitch_deviation"] or 0
                 why = (
-                    f"the factor must be below {MOST[kind]:g}, or the tooth vanishes; the angular pitch is "
+                    f"the factor must be below {MOST[kind]:g}, otherwise the tooth vanishes; the angular pitch is "
                     f"{degrees(pitch):.3g} deg"
                 )
                 raise RangeError(Problem(what, why, f"give a smaller error, such as {kind}='2 %'", self.place))

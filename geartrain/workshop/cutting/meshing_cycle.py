@@ -55,7 +55,7 @@ class MeshingVerdicts:
     It is negative if front and back flanks overlap (jam), and inf if no teeth touch.
     """
     clash: Bools
-    """Mask of clashes: a tooth enters with its tip against or ahead of the mate's tip while the driven wheel drags.
+    """Mask of clashes: a tooth enters with its tip against or ahead of the mate's tip while the driven wheel lags.
 
     The pair then locks or, rarely, skips a tooth; turning the driven wheel by hand within its backlash may free it.
     """
@@ -72,7 +72,7 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that jam or clash, and so cannot turn through their cycle with a dragging driven wheel."""
+        """Mask of pairs that jam or clash, so that they cannot turn through their cycle while the driven wheel lags."""
         return self.jams | self.clash
 
     @classmethod
@@ -151,9 +151,9 @@ def minimum_backlash_sum(
     """Return the minimum backlash of a front (drive-flank) and a back (coast-flank) tooth pair, each in one phase, and
     the driver angle there [rad].
 
-    The backlash is the sum of their contact functions; it is inf if the pairs never touch at once. The algorithm is
-    Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves the value only, by a
-    parabola.
+    The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time. The
+    algorithm is Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves the value
+    only, by a parabola.
     """
     low, high = common(front, back, delta)
     minimum, most = low, high
@@ -188,7 +188,7 @@ def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
     """Return the minimum of f(x) + f'(delta - x) over the driver angles x at which both tooth pairs can touch [rad].
 
     Here f and f' are the contact functions of the front (drive-flank) pair and of the mirrored back (coast-flank) pair.
-    The result is inf if the pairs never touch at once.
+    The result is inf if the pairs never touch at the same time.
     """
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
@@ -227,7 +227,7 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum number of pitches between tooth pairs that can touch at once; -1 if no pair can touch."""
+    """Return the maximum number of pitches between tooth pairs in simultaneous contact; -1 if no pair can touch."""
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)

@@ -99,7 +99,7 @@ def mean_ratios(work: SolidModel) -> Iterator[Problem]:
 def _bodies(work: SolidModel) -> Sequence[SceneBody]:
     """Return the links as bodies. Raises `GearTrainError` if one slides, because only joints that turn are written."""
     for link in sorted(work.train.declaration.sliding):
-        why = "only joints that turn are written, and its travel is a length for each turn"
+        why = "only revolute joints are written, and the travel of the link is a length per turn"
         raise GearTrainError(Problem(f"link '{link}' slides", why, "choose another format, such as .glb", "-o"))
     return work.scene.bodies
 

@@ -99,14 +99,15 @@ def run(
         str | None,
         typer.Option(
             "--rate",
-            help="Input speed of the FMU, in turns per second or with a unit such as '30 rpm'; default: as declared.",
+            help="Input speed of the FMU, in turns per second or with a unit such as '30 rpm'; "
+            "default: the declared speed.",
         ),
     ] = None,
     restitution: Annotated[
         str | None,
         typer.Option(
             "--restitution",
-            help="Coefficient of restitution of every impact in the FMU, 0 to 1; default: as declared, or 0.",
+            help="Coefficient of restitution of every impact in the FMU, 0 to 1; default: the declared value, or 0.",
         ),
     ] = None,
     step: Annotated[

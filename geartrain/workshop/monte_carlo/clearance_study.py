@@ -67,7 +67,7 @@ def read_clearances(text: str) -> list[float]:
             f"with a count of at most {_MOST}"
         )
         fix = "for example, give --vary clearance_factor=1.005:1.04:8"
-        raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, fix, "--vary"))
+        raise QuestionError(Problem(f"'{text}' is not a sweep of clearance factors", why, fix, "--vary"))
     return [float(each) for each in np.linspace(low, high, count)]
 
 

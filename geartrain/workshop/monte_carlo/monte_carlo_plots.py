@@ -123,7 +123,7 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
         return share_figure(indices, f"error of '{found.output}' by {found.by}: {found.trials:,} base samples")
     if picture == "pairs":
         first = trials.pointers[0]
-        why = f"variance shares need two trials that turn, and errors of '{first.name}' that differ"
+        why = f"variance shares need two trials in which the train turns, and errors of '{first.name}' that differ"
         _require(first.shares, why, "give more --trials, smaller errors (--cutting), or another output (--of)")
         shares = {name: (IntervalEstimate(value, value, value),) for name, value in first.shares.items()}
         return share_figure(shares, f"error of '{first.name}' by pair")
@@ -238,7 +238,7 @@ def _bands_key() -> list[Patch]:
 
 
 def _no_errors(why: str) -> QuestionError:
-    return QuestionError(Problem("the errors cannot be drawn", why, "give trials that turn, and at least one pointer"))
+    return QuestionError(Problem("the errors cannot be drawn", why, "give trials in which a pointer turns"))
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities
@@ -282,7 +282,7 @@ def _arcsine(probability: Any) -> Any:
 
 
 def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
-    """Draw a chart with the first-order and the total share of each cause, with their intervals as lines.
+    """Draw a chart with the first-order and the total share of each cause, with confidence intervals as lines.
 
     Only the `MOST_ROWS` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
     `QuestionError` without a cause.

@@ -79,7 +79,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Return a probability in percent with its interval as a string, such as `1.2 % (0.9..1.6)`; "-" without trials."""
+    """Return a probability with its confidence interval as a string, such as `1.2 % (0.9..1.6)`; "-" without trials."""
     if not each.of:
         return "-"
     low, high = each.interval
@@ -93,13 +93,13 @@ def _percent(value: float) -> str:
 
 
 def angle_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return an angle [rad] converted to degrees, with its interval, as a string such as `2.04 (1.9..2.2)`."""
+    """Return an angle [rad] in degrees, with its confidence interval, as a string such as `2.04 (1.9..2.2)`."""
     value, low, high = (f"{degrees(each):.{digits}g}" for each in (figure.value, figure.low, figure.high))
     return f"{value} ({low}..{high})"
 
 
 def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return a number with its interval as a string, such as `12.4 (11.8..13)`."""
+    """Return a number with its confidence interval as a string, such as `12.4 (11.8..13)`."""
     return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
 
 

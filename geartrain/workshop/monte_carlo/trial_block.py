@@ -122,7 +122,7 @@ def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, ro
 JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
 """Event flags of a pair in one trial, combined as a bit mask."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
-"""Bit masks of pairs that stop with a dragging driven wheel, and of pairs that are excluded from averages."""
+"""Bit masks of pairs that jam or clash, and of pairs that are excluded from averages."""
 
 
 @dataclass(frozen=True)
@@ -234,8 +234,8 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the first-order approximation of `errors` [rad]: each pair at its mean angle, each pin at its mean
-        ratio.
+        """Return the first-order approximation of `errors` [rad]: the error of each pair is evaluated at its driver's
+        mean angle and multiplied by the mean ratios of the following pairs and pins.
         """
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)

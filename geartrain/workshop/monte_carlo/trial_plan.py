@@ -199,7 +199,7 @@ class TriangularTrialPair(TrialPair):
         window = find_window(self.sizes)
         if not window:
             what = f"pair '{self.name}' has no clearance window"
-            why = "its perfect teeth jam or lose contact at every clearance"
+            why = "its perfect teeth jam or lose contact at every clearance factor"
             raise RangeError(Problem(what, why, "give clearance factors above 1: --vary clearance_factor=1.005:1.04:8"))
         return replace(self, sizes=self.sizes.at(window.at(clearance)))
 

@@ -415,7 +415,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error over all trials in which teeth touch, with its interval [rad]."""
+        """Standard deviation of the pointer error in all trials with touching teeth, with confidence interval [rad]."""
         return deviation_of(self.all)
 
     @property

@@ -71,12 +71,12 @@ def run(
         typer.Option(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
-            help="Repeat the trials at COUNT values of the clearance factor, such as clearance_factor=1.005:1.04:8, or "
-            "of its position between the limits of each pair, 0 to 1, such as window=0.1:0.9:9.",
+            help="Repeat the trials at COUNT values of the clearance factor (clearance_factor=1.005:1.04:8), or of its "
+            "position in the clearance window of each pair, from 0 to 1 (window=0.1:0.9:9).",
         ),
     ] = None,
     sobol: Annotated[
-        bool, typer.Option("--sobol", help="Compute Sobol indices by wheel and by kind of error.")
+        bool, typer.Option("--sobol", help="Compute Sobol indices for each wheel and for each kind of error.")
     ] = False,
     workers: Workers = None,
     resume: Resume = False,

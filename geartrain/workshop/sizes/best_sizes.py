@@ -70,10 +70,9 @@ class BestToothSizes(Tabular, Pictured, Result):
     outlines: OutlineAgreement
     """Comparison of the best design's results with the results that its drawn outlines give."""
     equal_depth: ToothSizes | None
-    """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it does not turn.
-    """
+    """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it cannot turn."""
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, otherwise as `start`; None if it does not turn."""
+    """Design with tip radii in the ratio of the tooth numbers, otherwise as `start`; None if it cannot turn."""
     front: tuple[ToothSizes, ...]
     """Pareto front from the best design for the first objective to that for the second; empty for one objective."""
     evaluations: int
@@ -81,7 +80,7 @@ class BestToothSizes(Tabular, Pictured, Result):
     stops: float | None
     """Probability that the best design jams or clashes, 0 to 1; None if this probability was not limited."""
     tried: tuple[ToothSizes, ...]
-    """Evaluated designs that turn and satisfy all limits."""
+    """Evaluated designs that can turn and satisfy all limits."""
 
     def _summary(self) -> str:
         aim = self.aims[0]
@@ -91,7 +90,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table of the best design, the rule-based designs that turn, and the Pareto front; angles are in rad."""
+        """Table of the best design, the rule-based designs that can turn, and the Pareto front; angles are in rad."""
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -137,7 +136,7 @@ def find_tooth_sizes(
     limits : sequence of SizeLimit
         Limits that the design must satisfy.
     probability : ProbabilityLimit, optional
-        Limit on the probability that the pair with cutting errors stops; only with one objective.
+        Limit on the probability that the pair with cutting errors jams or clashes; only with one objective.
     on_design : callable
         Progress function, called after each evaluated design.
 
@@ -149,12 +148,12 @@ def find_tooth_sizes(
     Raises
     ------
     QuestionError
-        If an objective, parameter or range is invalid, or if no design turns and satisfies the limits.
+        If an objective, parameter or range is invalid, or if no design can turn and satisfies the limits.
 
     Notes
     -----
-    The search uses DIRECT (Jones, Perttunen, Stuckman 1993), then Brent's bounded method or the Nelder-Mead method;
-    docs/teeth.md, section on the best sizes.
+    The search uses the DIRECT algorithm (Jones, Perttunen, Stuckman 1993), followed by Brent's bounded method or the
+    Nelder-Mead method. See docs/teeth.md, section on the best sizes.
 
     Examples
     --------
@@ -170,7 +169,7 @@ def find_tooth_sizes(
     # the rule-based designs are starts, so that the result is never worse than they are
     best = search.minimum(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
     if probability is not None and len(aims) == 2:
-        what = "a Pareto front cannot have a limit on the probability of stopping"
+        what = "a Pareto front cannot have a limit on the probability that a design jams or clashes"
         raise QuestionError(Problem(what, "trials of all its designs would take too long", "give one objective"))
     best, stops = (best, None) if probability is None else best_within(search, aims[0], probability)
     front = search.front(*aims) if len(aims) == 2 else ()
@@ -207,7 +206,8 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Comparison of a design's properties by its transmission function and by the contact of its drawn outlines.
+    """Comparison of the properties of a design computed from its transmission function with the properties computed
+    from the contact of its drawn outlines.
 
     See Also
     --------
@@ -217,13 +217,13 @@ class OutlineAgreement(Result):
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")
 
     loss: tuple[float, float]
-    """Loss from the transmission function and from the outlines [1]."""
+    """Loss computed from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Peak-to-peak transmission error of the transmission function and of the outlines [rad of the driven wheel]."""
+    """Peak-to-peak error computed from the transmission function and from the outlines [rad of the driven wheel]."""
     impact: tuple[float, float]
-    """Impact loss from the transmission function and from the outlines [1], as in `ToothSizes`."""
+    """Impact loss computed from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]
-    """Backlash from the transmission function and from the outlines [rad of the driven wheel]."""
+    """Backlash computed from the transmission function and from the outlines [rad of the driven wheel]."""
     turns: bool
     """True if the drawn outlines turn without a jam and without a loss of contact."""
 

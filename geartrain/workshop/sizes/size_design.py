@@ -68,7 +68,7 @@ class ToothSizes(Result):
     radii: float
     """Ratio of the tip radii R2/R1, divided by the ratio of the tooth numbers z2/z1 [1]; 1 for pitch-true radii."""
     window: float
-    """Position of the clearance within the clearance window [1]: 0 where the pair jams, 1 where it loses contact."""
+    """Position of the clearance factor in the clearance window [1]: 0 where the pair jams, 1 where it loses contact."""
     half_angles: tuple[float, float]
     """Half aperture angles of the teeth of both wheels [rad]."""
     friction: float
@@ -129,7 +129,7 @@ class ToothSizes(Result):
 
     @cached_property
     def transmission(self) -> TriangularTransmission | None:
-        """Transmission function of the pair; None if the pair does not turn at any clearance."""
+        """Transmission function of the pair; None if the pair cannot turn at any clearance factor."""
         if self.limits is None or not self.limits:
             return None
         sizes = self._unplaced.at(self.limits.at(self.window))
@@ -146,7 +146,7 @@ class ToothSizes(Result):
 
     @property
     def sizes(self) -> TriangularSizes:
-        """Radii and centre distance of a pair that turns, with the driver first."""
+        """Radii and centre distance of a pair that can turn, with the driver first."""
         assert self.transmission is not None
         return self.transmission.sizes
 
@@ -208,7 +208,7 @@ class ToothSizes(Result):
         return phases_of(self.transmission)
 
     def merit(self, aim: str) -> float:
-        """Return the value of an objective to be minimised; infinite if it is undefined or the pair does not turn.
+        """Return the value of an objective to be minimised; infinite if it is undefined or the pair cannot turn.
 
         Parameters
         ----------
@@ -227,7 +227,7 @@ _FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash
 
 
 def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
-    """Return table columns with a row for each design that turns: sizes and properties by name; angles in rad."""
+    """Return table columns with a row for each design that can turn: sizes and properties by name; angles in rad."""
     names = ("radii", "window", "clearance_factor", *_FIGURES)
     angles = {f"half_angle_{at + 1}": [each.half_angles[at] for each in designs] for at in (0, 1)}
     return angles | {name: [getattr(each, name) for each in designs] for name in names}
@@ -254,7 +254,7 @@ class SizeLimit(Result):
         check_choice("limit", self.figure, self.FIGURES)
 
     def excess(self, sizes: ToothSizes) -> float:
-        """Return the amount by which a design that turns exceeds the limit; 0 or less if the limit is satisfied.
+        """Return the amount by which a design that can turn exceeds the limit; 0 or less if the limit is satisfied.
 
         Parameters
         ----------

@@ -32,7 +32,7 @@ USUAL_RANGES: Mapping[str, Range] = {
 """Default bounds of the free parameters; angles in rad."""
 
 _BEYOND = 1e3  # value above every figure, for designs that turn but violate a limit
-_NOTHING = 1e6  # value of designs that do not turn
+_NOTHING = 1e6  # value of designs that cannot turn
 _FRONT = 9  # number of bounds on the second objective
 _WORTH = 0.005  # minimum distance of designs on a front, as a fraction of its range in the second objective
 _CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance")  # other keys of a declared clearance
@@ -97,7 +97,7 @@ class SizeSearch:
             return best
         turns = any(design.runs for design in self.designs.values())
         names = ", ".join(self.free)
-        why = "every design that turns violates a limit" if turns else "no design in the ranges turns"
+        why = "every design that can turn violates a limit" if turns else "no design in the ranges can turn"
         z1, z2 = self.start.teeth
         what = f"no values of {names} in the given ranges are feasible for a pair of {z1} and {z2} teeth"
         fix = "widen the ranges (--free NAME=LOW:HIGH), free more parameters, or relax the limits (--within)"
@@ -180,7 +180,7 @@ class ProbabilityLimit:
     bound: float
     """Maximum probability that the pair jams or clashes, 0 to 1."""
     probability: Callable[[ToothSizes], float]
-    """Function that returns the probability that a design stops, such as `PairTrials.stops`."""
+    """Function that returns the probability that a design jams or clashes, such as `PairTrials.stops`."""
 
 
 @dataclass(frozen=True)
@@ -248,7 +248,7 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
         if (probability := limit.probability(search.design(at))) <= limit.bound:
             return _bisect_to_limit(search, aim, limit, at, probability, refused)
         refused.append(at)
-    what = f"all of the {len(refused)} best designs stop with a probability above {limit.bound:g}"
+    what = f"all of the {len(refused)} best designs jam or clash with a probability above {limit.bound:g}"
     why = "the cutting errors are too large for the clearances of these designs"
     raise QuestionError(
         Problem(what, why, "raise the limit, such as --within stops=10%, or give smaller errors (--cutting)")

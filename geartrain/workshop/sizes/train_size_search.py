@@ -148,7 +148,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train in which the clearance of every pair is in the middle of its clearance window, if it has one."""
+        """Train in which the clearance factor of every pair with a clearance window is in the middle of it."""
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
@@ -391,7 +391,7 @@ class PairSizes(Result):
 
     @property
     def declared(self) -> ToothSizes | None:
-        """Declared sizes of the pair; None if the pair does not turn with them."""
+        """Declared sizes of the pair; None if the pair cannot turn with them."""
         return self.before if self.runs else None
 
 

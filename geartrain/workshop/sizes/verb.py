@@ -193,7 +193,7 @@ def _start(pair: PairRequest) -> ToothSizes:
     friction = read_pair_friction(pair.friction).number("--objective")
     for name in pair.own:
         if name in CLEARANCES and name != "window":
-            why = "the clearance window depends on the radii, so a fixed clearance could lie outside it"
+            why = "the clearance window depends on the radii, so a fixed clearance could be outside it"
             what = f"{name} cannot be combined with --objective"
             raise GearTrainError(Problem(what, why, "give -p window=0.5", f"-p {name}"))
     shape = {name: text for name, text in pair.own.items() if name != "window"}

@@ -161,7 +161,7 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
 
 def test_shares_of_pairs_need_trials_that_turn(train_file: Write, here: Path) -> None:
     refused = ask(train_file(PAIR), "--trials", 1, "--plot", here / "x.svg", "--picture", "pairs")
-    assert "variance shares need two trials that turn" in str(refused.exception)
+    assert "variance shares need two trials in which the train turns" in str(refused.exception)
 
 
 def test_trains_that_cannot_be_cut_are_refused_without_a_journal(train_file: Write, here: Path) -> None:

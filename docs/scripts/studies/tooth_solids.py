@@ -82,7 +82,7 @@ def _sections(points: Floats) -> list[Floats]:
     """
     quads = points[: len(points) // 4 * 4].reshape(-1, 4, 3)
     joined = np.isclose(quads[:-1, 1:3], quads[1:, [0, 3]]).all((1, 2))
-    pieces = 1 + int(np.argmin([*joined, False]))
+    pieces = 1 + int(np.argmin(np.append(joined, False)))
     flanks, rest = points[: 4 * pieces].reshape(-1, 4, 3), points[4 * pieces :]
     if len(rest) == 2 * pieces:
         return [flanks[:, 0], flanks[:, 3]]

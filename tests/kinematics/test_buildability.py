@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import re
+import zlib
+from base64 import b64decode
 from math import atan, cos, pi, radians, tan
 from pathlib import Path
 
 import pytest
 from commands import call, imported_by
+from html_reader import Read
 from shipped import every_train
 
 from geartrain import load
@@ -417,8 +420,8 @@ def test_check_report_and_pictures_use_the_same_words(text: str, code: int, tmp_
     assert len(data["build_findings"]) == len(findings)
     page = tmp_path / "t.html"
     assert call("view", path, "-o", page).exit_code == 0
-    drawn = page.read_text(encoding="utf-8")
-    assert all(json.dumps(finding.problem.what)[1:-1] in drawn for finding in findings)
+    scenes = zlib.decompress(b64decode(Read(page.read_text(encoding="utf-8")).scripts[0])).decode()
+    assert all(json.dumps(finding.problem.what, ensure_ascii=False)[1:-1] in scenes for finding in findings)
 
 
 @pytest.mark.parametrize("name", every_train())

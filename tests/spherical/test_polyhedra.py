@@ -493,7 +493,7 @@ def test_a_set_with_one_kind_of_mesh_is_exact_where_it_stands() -> None:
 )
 def test_where_no_place_gives_one_pitch_it_is_refused(name: str, gears: str, teeth: dict[str, int]) -> None:
     answer = refusal(name, gears, teeth=teeth, exact=True)
-    assert "no axes with one pitch" in answer
+    assert "no axes with the same pitch for all meshes" in answer
     assert "free parameters of the axes" in answer
 
 

@@ -209,7 +209,9 @@ def test_one_pitch_is_given_where_the_teeth_allow_it() -> None:
     )
     with pytest.raises(GearTrainError, match=r"6-1-3-\d+ requires .* mismatch") as refused:
         one_pitch(from_polyhedron("6-antiprism", teeth={"6": 18, "3": 7}))
-    assert "each kind of mesh determines its pitch" in str(refused.value), "no theorem is against it"
+    assert "the pitch of each kind of mesh is determined by its own axes" in str(refused.value), (
+        "no theorem is against it"
+    )
 
 
 # compromises ---------------------------------------------------------------------------------------------------------

@@ -224,3 +224,16 @@ def test_sizes_of_a_line_need_a_weight(keys: dict[str, str]) -> None:
 
 def test_circular_error_is_the_ratio_of_elliptic_integrals() -> None:
     assert circular_error(2.0) == pytest.approx(float(pi / 2 / ellipk(sin(1.0) ** 2)) - 1, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"loads": {"escape": "-1 N mm"}, "solve_for": None},  # what the escape wheel receives is then unknown
+        {"loads": {"great": "1 N mm"}},  # a load that resists
+        {"loads": {"great": -0.7}, "drive": None},
+        {"loads": None, "drive": {"torque": 0.7}},
+    ],
+)
+def test_a_torque_at_the_escape_wheel_without_a_known_drive_is_not_computed(changes: dict[str, Any]) -> None:
+    assert figures(load("longcase-clock-loaded").with_changes(changes)) is None

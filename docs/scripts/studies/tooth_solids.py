@@ -77,7 +77,7 @@ class BentTeeth:
 def _sections(points: Floats) -> list[Floats]:
     """Return the outlines of both faces, corner by corner, from the corners of the drawn triangles.
 
-    The corners are four of each piece of the flanks, then those of either face, and at last those of the wall of a rim.
+    The corners are four of each piece of the flanks, then the corners of either face, and of the wall of a rim.
     The outline of a face begins with its base, and a pin has none.
     """
     quads = points[: len(points) // 4 * 4].reshape(-1, 4, 3)

@@ -546,7 +546,7 @@ class Motion(Shown):
         return motion
 
     def without_anomaly(self) -> Motion:
-        """Return the motion whose errors are those of the teeth: the errors of the same couplings with ideal teeth, at
+        """Return the motion whose errors are caused by the teeth: the errors of the same couplings with ideal teeth, at
         the same positions of the input, are subtracted.
 
         Returns

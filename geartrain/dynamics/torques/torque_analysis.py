@@ -397,25 +397,33 @@ class EscapementTorques(NamedTuple):
 
 def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
     """Return the torque at the escape wheel of a clock under its only load, or else under its drive; None if neither
-    has a known torque [N m], or no balance exists.
+    drives the train with a known torque [N m], or no balance exists.
     """
     escapement, case = setting.train.escapement, setting.case
     (source, torque), *more = case.loads.items() or [(power_inputs(setting)[0], None)]
     speed = setting.speeds.get(source)
-    pull = None if case.drive is None else case.drive.steady_torque
-    if more or escapement is None or not speed or (pull is None if torque is None else torque.unit is None):
+    if more or escapement is None or not speed or source == escapement.link:
         return None
     way = 1 if speed > 0 else -1
-    known = Fraction(pull or 0) * way if torque is None else torque.base
+    if torque is not None:
+        known = torque.base if torque.unit is not None else Fraction(0)
+    elif case.drive is None or any(each.unit is None for each in case.drive.torques):
+        return None
+    else:
+        known = Fraction(case.drive.steady_torque or 0) * way
+    # a load that resists is no drive
+    if known * way <= 0:
+        return None
     question = TorqueQuestion({source: known}, (escapement.link,), len(case.inputs) == 1 and not setting.forms)
+    # the pallets may turn, too
+    ahead = setting.relative(escapement.link, setting.reacts_on(escapement.link)) or 0
+    sense = setting.sense(escapement.link) * (1 if ahead > 0 else -1)
     found = []
     for bearings in (True, False):
-        balanced = _balanced(setting, question, bearings, flows_only=True)
-        resisting = balanced.external.get(escapement.link)
+        resisting = _balanced(setting, question, bearings, flows_only=True).external.get(escapement.link)
         if resisting is None:
             return None
-        at_escape = setting.speeds[escapement.link]
-        found.append(float(-resisting * (1 if at_escape > 0 else -1)))
+        found.append(float(-resisting * sense))
     return EscapementTorques(source, float(known * way), *found)
 
 

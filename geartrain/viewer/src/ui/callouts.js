@@ -1,4 +1,4 @@
-// Names of parts beside the picture, with lines to the parts; those of hands in the colours of the hands.
+// Names of parts beside the picture, with lines to the parts; names of hands have the colours of the hands.
 import { NEEDLES } from "../colours.js";
 import { labelsOf } from "../aim.js";
 import { svg } from "./element.js";

@@ -1,7 +1,7 @@
 // Announcements for screen readers: turns, and readings of the pointers once the train is at rest.
 import { el } from "./element.js";
 import { turns } from "./number.js";
-import { Reading, told } from "./reading.js";
+import { Reading, textOf } from "./reading.js";
 
 const MOST = 8;
 
@@ -32,7 +32,7 @@ export class Live {
     this.waiting = setTimeout(() => {
       if (drive.playing) return;
       const pointers = this.readings.map(
-        ({ reading, label }) => `${label}${reading.pointer.output} ${told(reading.now)}`,
+        ({ reading, label }) => `${label}${reading.pointer.output} ${textOf(reading.now)}`,
       );
       this.node.textContent = [drive.run ? `${drive.time.toPrecision(4)} seconds` : `${turns(drive.at)} turns`, ...pointers].join("; ");
     }, 500);

@@ -70,7 +70,7 @@ const ratio = (text) => {
 };
 
 /** Text of the reading. */
-export function told(reading) {
+export function textOf(reading) {
   if (!reading) return "not determined";
   if (reading.travel !== undefined) return `${reading.travel.toFixed(2)} mm`;
   if (reading.cell === null) return degrees(reading.degrees);

@@ -6,7 +6,7 @@ import { copyable } from "./copying.js";
 import { Dial } from "./dial.js";
 import { el, more } from "./element.js";
 import { shown } from "./number.js";
-import { Reading, told } from "./reading.js";
+import { Reading, textOf } from "./reading.js";
 import { Sky, hasTargets } from "./sky.js";
 
 const MANY = 4; // number of names from which a dial is as wide as possible
@@ -189,7 +189,7 @@ export class Readings {
   set(words) {
     if (!this.node.offsetParent) return;
     for (const dial of this.dials) dial.set();
-    if (words) for (const { reading, angle } of this.angles) angle.textContent = told(reading.now);
+    if (words) for (const { reading, angle } of this.angles) angle.textContent = textOf(reading.now);
     if (this.sky) this.sky.set(words);
   }
 }

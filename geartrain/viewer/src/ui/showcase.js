@@ -12,7 +12,7 @@ import { Drive } from "./drive.js";
 import { el, icon } from "./element.js";
 import { decimal } from "./number.js";
 import { paceOf } from "./playhead.js";
-import { Reading, told } from "./reading.js";
+import { Reading, textOf } from "./reading.js";
 import { Theme } from "./theme.js";
 import { Tour } from "./tour.js";
 
@@ -169,7 +169,7 @@ export class Showcase {
     const lead = scene.bodies[scene.driving_link]?.id ?? "the input";
     this.turns.textContent = drive.run ? `${drive.time.toFixed(2)} s` : `${decimal(drive.at, 2)} turns of ${lead}`;
     if (this.epoch) this.date.textContent = inWords(this.epoch.dateAt(Fraction.of(drive.at)));
-    this.read?.forEach(({ hand, value }) => (value.textContent = told(hand.now)));
+    this.read?.forEach(({ hand, value }) => (value.textContent = textOf(hand.now)));
     if (this.shown === drive.playing) return;
     this.shown = drive.playing;
     this.#name(this.playing, drive.playing ? "Stop" : "Turn");

@@ -411,7 +411,7 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
         return None
     else:
         known = Fraction(case.drive.steady_torque or 0) * way
-    # a load that resists is no drive
+    # a load that resists does not drive the clock
     if known * way <= 0:
         return None
     question = TorqueQuestion({source: known}, (escapement.link,), len(case.inputs) == 1 and not setting.forms)

@@ -213,6 +213,13 @@ def test_columns_of_a_link_that_slides_are_in_millimetres_as_their_cells() -> No
         True
     ] * 2
     assert np.diff(spans_of(figure, 1)[0][0]) == pytest.approx(carriage.peak_to_peak)
+
+
+def test_frames_of_a_link_that_slides_are_in_millimetres() -> None:
+    pytest.importorskip("pandas")
+    train = load_text(LATHE)
+    run = train.motion().run(turns=2, samples=501)
+    carriage = next(tally for tally in run.statistics if tally.name == "carriage")
     frame = run.to_frame().set_index("output")
     assert frame["error p-p (mm)"]["carriage"] == carriage.peak_to_peak
     assert np.isnan(frame["error p-p (rad)"]["carriage"])

@@ -17,7 +17,6 @@ from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
-from marching import Pair, Slot, Train, declared
 from sorge import APPROACH, Segment, mp
 from sorge import Pair as Couple
 
@@ -39,12 +38,71 @@ class Wheels:
     z2: int
     teeth: str = ""
     external = True
-    mean = property(lambda self: self.z1 / self.z2)
 
     @property
     def form(self) -> str:
         """Text of the tooth form in the declaration of a pair."""
         return f", {self.teeth}" if self.teeth else ""
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A pin at radius r in a slot whose axis is at the offset e, within the pin's circle."""
+
+    r: float
+    e: float
+    external = False
+
+    @property
+    def form(self) -> str:
+        """Text of the coupling in a declaration."""
+        return f", pin_radius: {self.r}, offset: {self.e}"
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Driver, driven link, carrier and their connection."""
+
+    driver: str
+    driven: str
+    carrier: str
+    by: Wheels | Slot
+
+
+@dataclass(frozen=True)
+class Train:
+    """Links with the link that bears them and their axis, pairs, and the input speeds; `frame` is at rest."""
+
+    bases: dict[str, tuple[str, str]]
+    pairs: tuple[Pair, ...]
+    inputs: dict[str, float]
+
+    @cached_property
+    def at(self) -> dict[str, int]:
+        """Numbers of the links; the frame is last."""
+        return {link: number for number, link in enumerate([*self.bases, "frame"])}
+
+
+def declared(train: Train) -> str:
+    """Return the train as a declaration: two separate wheels for each pair, or a pin and a slot."""
+    wheels: dict[str, list[str]] = {link: [] for link in train.bases}
+    gears, slots = [], []
+    for at, pair in enumerate(train.pairs):
+        if pair.by.external:
+            wheels[pair.driver].append(f"d{at}: {pair.by.z1}")
+            wheels[pair.driven].append(f"f{at}: {pair.by.z2}")
+            gears.append(f"  - {{pair: [d{at}, f{at}], driver: d{at}{pair.by.form}}}")
+        else:
+            slots.append(f"  - {{kind: pin_and_slot, pin: {pair.driver}, slot: {pair.driven}{pair.by.form}}}")
+    lines = ["links:", "  frame: {}"]
+    lines += [f"  {link}: {{wheels: {{{', '.join(each)}}}}}" for link, each in wheels.items()]
+    lines += ["revolutes:"]
+    lines += [f"  - {{pair: [{base}, {link}], axis: {axis}}}" for link, (base, axis) in train.bases.items()]
+    lines += ["gears:", *gears] if gears else []
+    lines += ["couplings:", *slots] if slots else []
+    inputs = ", ".join(f"{link}: {Fraction(speed).limit_denominator(10**6)}" for link, speed in train.inputs.items())
+    lines += [f"inputs: {{{inputs}}}", f"outputs: {{{', '.join(f'{link}: {{}}' for link in train.bases)}}}"]
+    return "\n".join(lines)
 
 
 def triangular(window: float | str = 0.5, half_angle: float = 30, radii: str = "equal_depth") -> str:

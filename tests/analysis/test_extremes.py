@@ -12,21 +12,25 @@ from extremes import (
     CASES,
     CIRCULATING,
     EPS,
+    SETS,
     Case,
     Exactly,
     Measured,
+    Pair,
     Pinned,
     Toothed,
+    Train,
+    Wheels,
     amplified,
     balanced,
     chain,
     circulating,
     composed,
+    declared,
     run,
     suns,
     triangular,
 )
-from marching import declared
 from sorge import mp
 
 from geartrain import GearTrainError, load
@@ -62,6 +66,22 @@ def test_the_speed_of_a_transmission_is_the_derivative_of_its_angle() -> None:
     for transmission in (Toothed(mesh.transmission.sizes), Pinned(9.6, 1.1)):
         for S in (0.013, 0.031, 0.047):
             assert abs(mp.diff(transmission.angle, S) - transmission.speed(mp.mpf(S))) < mp.mpf(10) ** -20
+
+
+@pytest.mark.parametrize(
+    ("speeds", "more"),
+    [({"left": 1.0, ARM: -0.5}, 0), ({"left": 1.0, ARM: 1 / 3}, 3), ({"left": 1.0, "right": 0.0}, 6)],
+)
+def test_angles_of_planets_that_mesh_solve_all_transmissions(speeds: dict[str, float], more: int) -> None:
+    links = SETS | {"other": (ARM, "Q")}
+    pairs = (
+        Pair("left", "planet", ARM, Wheels(36 + more, 24, triangular())),
+        Pair("planet", "other", ARM, Wheels(30, 25 + more, triangular())),
+        Pair("other", "right", ARM, Wheels(20, 45, triangular())),
+    )
+    found = run(Train(links, pairs, speeds), 3.7, 997, 9)
+    assert max(found.off.values()) < 1e-13
+    assert max(found.speed_off.values()) < 1e-12
 
 
 # ------------------------------------------------------------------------------------------------------------ speeds

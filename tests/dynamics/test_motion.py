@@ -36,7 +36,7 @@ gears:
     [
         (True, 20, 400_001, 5.968, 1.238, 0.634, 1.763),
         pytest.param(True, 95, 4_000_001, 6.058, 1.2385, 0.630, 1.771, marks=pytest.mark.long),
-        # teeth on the line of centres: flanks brought to touch one pair after the other, `marching.Teeth.touching`
+        # teeth on the line of centres: flanks brought to touch one pair after the other
         (False, 20, 400_001, 5.980, 1.2398, 0.637, 1.768),
         pytest.param(False, 95, 4_000_001, 6.097, 1.2385, 0.629, 1.768, marks=pytest.mark.long),
     ],
@@ -253,7 +253,7 @@ def test_estimates_and_spectrum_are_those_of_the_table_and_of_a_fourier_sum() ->
     found = run.estimates["moon"].to_dict()
     assert degrees(found["bound"]["peak_to_peak"]) == pytest.approx(6.46, abs=5e-3)
     assert degrees(found["independent"]["rms"]) == pytest.approx(1.2385, abs=5e-5)
-    # the same sums from angles at which flanks are brought to touch, `marching.Teeth.touching`
+    # the same sums from angles at which flanks are brought to touch
     for how, maximum, rms in (("superposed", 0.9538, 0.19181), ("superposed_with_lag", 0.7162, 0.11933)):
         assert degrees(found[how]["difference"]["maximum"]) == pytest.approx(maximum, abs=1e-4)
         assert degrees(found[how]["difference"]["rms"]) == pytest.approx(rms, abs=1e-5)

@@ -55,12 +55,6 @@ def test_a_cubic_table_is_the_periodic_spline(values: list[float]) -> None:
         assert float(table.derivative(float(at) + 5)) == pytest.approx(float(slope), abs=1e-11)
 
 
-def test_twelve_points_have_extremes_between_them() -> None:
-    table = PeriodicTable([k / 12 for k in range(12)], TWELVE, 1.0, "cubic")
-    assert table.extremes() == pytest.approx((-14.508061186, 16.443871908), abs=5e-10)
-    assert float(table.derivative(0.87)) == pytest.approx(-55.586296615, abs=5e-10)
-
-
 def test_pchip_stays_within_its_points_and_steps_keep_them() -> None:
     places = [0, 0.1, 0.15, 0.4, 0.5, 0.6, 0.8, 0.97]
     for interpolation in ("pchip", "linear", "steps"):

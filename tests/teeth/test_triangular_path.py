@@ -9,7 +9,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from mechanics import overlap
+from polygons import Judge
 from sorge import (
     Pair,
     Segment,
@@ -180,7 +180,7 @@ def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
         y = np.where(positions.random(100) < 0.5, np.maximum(y, upper - 0.02 * sizes.p2), y)
         shifted = y + np.floor((upper - y) / sizes.p2) * sizes.p2
         sure = np.minimum(np.abs(shifted - lower), upper - shifted) > 1e-9 * sizes.p2
-        assert (overlap(sizes, t, y) != (shifted >= lower))[sure].all(), sizes
+        assert (Judge.of(sizes).overlap(t, y) != (shifted >= lower))[sure].all(), sizes
 
 
 # ------------------------------------------------------------------------------------------------------------ verdicts

@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 import pytest
-from polygons import Judge, Outline
+from polygons import Judge
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.drawing.tooth_contact import tooth_pair_pose
@@ -182,14 +182,6 @@ def test_a_rack_has_the_reference_figures(name: str) -> None:
 # Outlines ------------------------------------------------------------------------------------------------------------
 
 
-def outlines(sizes: TriangularSizes) -> Judge:
-    wheels = [
-        Outline(np.arange(z) * 2 * pi / z, np.full(z, R), np.full(z, beta), np.full(z, beta), sign < 0)
-        for z, R, beta, sign in zip((sizes.z1, sizes.z2), sizes.radii, sizes.half_angles, sizes.signs, strict=True)
-    ]
-    return Judge(*wheels, sizes.D)
-
-
 def random_pairs() -> list[TriangularSizes]:
     """Ten pairs of 8 to 40 teeth in rings of 1 to 60 more, unlike half angles and radii, within their windows."""
     rng, found = np.random.default_rng(43), []
@@ -216,7 +208,7 @@ def test_polygons_touch_where_the_transmission_function_says(driver: str) -> Non
         S = rng.uniform(0, 2 * pi, 6)
         upper = -transmission.error(S) - sizes.ratio * S
         lower = transmission.error(-S) - sizes.ratio * S - sizes.p2
-        low, high = outlines(sizes).free(-S, (upper + lower) / 2, 0.75 * sizes.p2, 100)
+        low, high = Judge.of(sizes).free(-S, (upper + lower) / 2, 0.75 * sizes.p2, 100)
         assert transmission.verdict.kind == "runs", sizes
         assert np.abs(high - upper).max() < 1e-10, sizes
         assert np.abs(low - lower).max() < 1e-10, sizes

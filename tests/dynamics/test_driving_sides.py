@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import degrees
@@ -408,12 +407,3 @@ def test_each_state_has_its_own_driver() -> None:
     ways = shipped.train("bevel-differential-involute").mechanics.driven_ways["pinion~c41"]
     assert {mesh.driver for mesh, _ in ways} == {"pinion", "c41"}
     assert sorted(state for _, states in ways for state in states).count("one wheel held") == 1
-
-
-def test_the_trials_of_a_looped_train_run_without_a_warning() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        arguments = ("--trials", 64, "--cutting", "pitch_deviation=0.1 deg", "--of", "moon", "--of", "17", "--json")
-        found = call("montecarlo", "pennestri-2002-teeth", *arguments)
-    assert found.exit_code in (0, 1)
-    assert json.loads(found.stdout)["outputs"]

@@ -139,29 +139,6 @@ def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
     assert (found["moon"].speed == found["moon"].mean).all()
 
 
-def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
-    arguments = ("motion", "moon-triangular", "--turns", 2, "--samples", 2001, "--of", "moon")
-    data = json.loads(call(*arguments, "--json").stdout)
-    assert set(data["outputs"]) == {"moon"}
-    assert set(data["outputs"]["moon"]) == {
-        *("transmission_error", "speed", "ratio", "searched", "unit", "sensitivity", "setting"),
-        *("phases", "estimates", "spectrum"),
-    }
-    assert set(data["outputs"]["moon"]["transmission_error"]) == {"peak_to_peak", "rms"}
-    assert data["outputs"]["moon"]["speed"]["mean"] == pytest.approx(254 / 19 / 5, rel=1e-15)
-    assert "transmission error" in call(*arguments).stdout
-    out, picture = tmp_path / "m.csv", tmp_path / "m.png"
-    assert call(*arguments, "-o", out, "--plot", picture).exit_code == 0
-    rows = out.read_text(encoding="utf-8").splitlines()
-    assert rows[0] == "turns,moon angle (rad),moon error (rad),moon speed"
-    assert len(rows) == 2002
-    last = [float(value) for value in rows[-1].split(",")]
-    assert last[1] - last[2] == pytest.approx(254 / 19 / 5 * 2 * 2 * pi, rel=1e-14)
-    assert call(*arguments, "-o", "-.csv").stdout == out.read_text(encoding="utf-8")
-    assert picture.read_bytes().startswith(b"\x89PNG")
-    assert call("motion", "moon-triangular", "--of", "mooon").exit_code != 0
-
-
 PAIR = """
 links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {w: 36, v: 20}}, c: {wheels: {u: 30}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
@@ -440,15 +417,6 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
     starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)
     # 133 arcs, the first cut in two by the ends of the run; those that pass 0 on the dial are broken there
     assert 134 <= len(starts) < 150
-
-
-def test_a_report_has_motion_only_where_teeth_or_pins_are_real() -> None:
-    page = call("report", "moon-triangular", "-o", "-").stdout
-    assert "## Motion" in page
-    data = json.loads(call("report", "moon-triangular", "--json").stdout)[0]["motion"]
-    assert data[0]["outputs"]["moon"]["transmission_error"]["peak_to_peak"] > 0.1
-    assert "## Motion" not in call("report", "pennestri-2002", "-o", "-").stdout
-    assert json.loads(call("report", "pennestri-2002", "--json").stdout)[0]["motion"] == []
 
 
 REVERSED_PIN = """

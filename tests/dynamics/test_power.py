@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 from math import pi
-from pathlib import Path
 from typing import Any
 
 import pytest
 import shipped as catalogue
-from commands import call, without
 from hypothesis import given
 from hypothesis import strategies as st
 from models import torque_figures
@@ -23,11 +19,8 @@ from models import torque_figures
 from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
 from geartrain.report import (
-    Document,
-    collect_report,
     collect_torque_report,
     describe_torques,
-    describe_train,
     to_markdown,
 )
 from geartrain.train import Train
@@ -427,14 +420,6 @@ def test_the_torque_needed_at_the_crank_is_said_where_bearings_rub() -> None:
     assert "Torque needed" not in page(load(RING))
 
 
-def test_powers_are_in_watts_on_a_page_where_they_are_real() -> None:
-    text = page(load(RING + "rate: 10 turn/s\n"))
-    assert "Power in 183.4 W, lost 3.904 W" in text
-    assert rows(text, "where")[-1] == ["total", "3.904 W", "2.129 %", "100 %"]
-    assert rows(text, "link")[1][-1] == "-179.5 W"
-    assert " W" not in page(load(RING))
-
-
 def test_the_loop_is_named_with_what_circulates() -> None:
     text = page(load("norton-compound"))
     assert "3543.3 circulates, 258.8 times the power in: through pairs a82~b84, c86~d82, e82~f84 and shafts " in text
@@ -453,39 +438,6 @@ def test_collisions_stand_beside_sliding() -> None:
     assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)
     assert {loss["name"] for loss in data} == {"a~b", "c~d"}
     assert table[-1][4] == f"{1e6 * sum(loss['impact'] for loss in data):.4g} µW"
-
-
-def test_a_train_that_loses_nothing_in_no_loop_has_no_more_to_say() -> None:
-    train = load("extends: planetary-24-18-60\nloads: {carrier: -1}\n")
-    assert titles(describe_torques(collect_torque_report(train, [train.torques()]))) == ["Torques"]
-
-
-def titles(document: Document) -> list[str]:
-    return [section.title for section in document.sections]
-
-
-def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
-    train = load(SPLIT)
-    found = [title for title in titles(describe_train(collect_report(train))) if "torques" in title or "power" in title]
-    assert found == [f"State {s}: {what}" for s in ("cruising", "boost") for what in ("torques", "power flow")]
-    assert [each["state"] for each in collect_report(train).to_dict()["torques"]] == ["cruising", "boost"]
-    bare = load("prius-power-split")
-    assert not [title for title in titles(describe_train(collect_report(bare))) if "orque" in title]
-    assert collect_report(bare).to_dict()["torques"] == []
-    only_rubbing = load("extends: planetary-24-18-60\nlinks: {carrier: {bearing: 1 N m}}\n")
-    assert "Torques" in titles(describe_train(collect_report(only_rubbing)))
-
-
-def test_a_report_on_a_train_that_locks_itself_is_still_sound(tmp_path: Path) -> None:
-    path = tmp_path / "t.yaml"
-    path.write_text("extends: norton-compound\ninputs: {arm: -1}\nloads: {F: -1764}\n", encoding="utf-8")
-    assert call("torques", path).exit_code == 0
-    path.write_text("extends: norton-compound\ninputs: {F: 1}\nloads: {arm: -1}\noutputs: {F: {expect: null}, "
-                    "P1: {expect: null}, P2: {expect: null}}\n", encoding="utf-8")  # fmt: skip
-    assert call("torques", path).exit_code == 1
-    done = call("report", path)
-    assert done.exit_code == 0
-    assert "self-locking" in done.output
 
 
 # ------------------------------------------------------------------------------------------------------------- pictures
@@ -527,21 +479,6 @@ def test_a_picture_names_every_shaft_pair_and_loss(name: str, state: str | None)
 
 
 @pytest.mark.parametrize(("name", "state"), PICTURES)
-def test_everything_is_inside_and_large_enough(name: str, state: str | None) -> None:
-    _, figure = drawn(name, state)
-    from matplotlib.text import Text
-
-    figure.draw_without_rendering()
-    inside = figure.get_tightbbox()
-    assert min(inside.x0, inside.y0) > -0.01
-    assert inside.x1 < figure.get_figwidth() + 0.01
-    assert inside.y1 < figure.get_figheight() + 0.01
-    words = figure.findobj(lambda each: isinstance(each, Text) and each.get_text() and each.get_visible())
-    assert words
-    assert all(word.get_fontsize() >= 10 for word in words)
-
-
-@pytest.mark.parametrize(("name", "state"), PICTURES)
 def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state: str | None) -> None:
     pytest.importorskip("matplotlib")
     from geartrain.drawing.sankey import lay_out_sankey
@@ -572,72 +509,7 @@ def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state
     assert all(b - a > 0 for a, b in pairwise(placed.x))
 
 
-def test_the_same_flow_is_the_same_picture() -> None:
-    from geartrain.drawing import render
-
-    assert len({render(drawn("reverse", "R")[1], ".svg") for _ in range(2)}) == 1
-
-
-def test_the_command_draws_one_state(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
-    path, picture = tmp_path / "t.yaml", tmp_path / "t.svg"
-    path.write_text(SPLIT, encoding="utf-8")
-    done = call("torques", path, "--plot", picture)
-    assert done.exit_code == 2
-    assert "--state" in done.stderr
-    assert not picture.exists()
-    assert call("torques", path, "--state", "boost", "--plot", picture).exit_code == 0
-    assert "efficiency 98.89 %; 1.111 % is lost in teeth" in picture.read_text(encoding="utf-8")
-    # a single loaded state needs no name
-    path.write_text(REVERSE, encoding="utf-8")
-    assert call("torques", path, "--plot", tmp_path / "r.png").exit_code == 0
-    assert call("torques", path, "--plot", tmp_path / "r.gif").exit_code == 2
-
-
-def test_without_loads_a_unit_of_power_is_drawn(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
-    picture = tmp_path / "t.svg"
-    assert call("torques", "zf-8hp70", "--state", "R", "--plot", picture).exit_code == 0
-    assert "while a unit of power leaves at" in picture.read_text(encoding="utf-8")
-
-
-def test_where_no_power_flows_nothing_is_drawn(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
-    path, picture = tmp_path / "t.yaml", tmp_path / "t.svg"
-    path.write_text(SHARED, encoding="utf-8")
-    done = call("torques", path, "--plot", picture)
-    assert isinstance(done.exception, GearTrainError)
-    assert "no power flows through the train" in str(done.exception)
-    assert done.stdout == ""
-    assert not picture.exists()
-
-
 # -------------------------------------------------------------------------------------------------------------- imports
-
-LARGE = ("numpy", "scipy", "matplotlib", "networkx", "jinja2")
-
-
-def test_a_report_without_loads_imports_nothing_of_torques() -> None:
-    code = """
-import sys, geartrain
-from geartrain.report import collect_report, describe_train
-train = geartrain.load(sys.argv[1])
-describe_train(collect_report(train)), collect_report(train).to_dict()
-print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)
-"""
-    for name, said in (("planetary", "False False"), ("norton-compound", "True False")):
-        done = subprocess.run([sys.executable, "-c", code, name], capture_output=True, text=True, check=True)
-        assert done.stdout.strip() == said
-
-
-def test_torques_and_their_flow_need_no_large_library_and_a_picture_names_its_extra(tmp_path: Path) -> None:
-    done = without(*LARGE, arguments=["torques", "norton-compound"])
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "circulates" in done.stdout
-    done = without(*LARGE, arguments=["torques", "norton-compound", "--plot", tmp_path / "t.svg"])
-    assert (done.returncode, done.stdout) == (2, "")
-    assert "pip install 'matplotlib>=3.8'" in done.stderr
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_gearbox_in_neutral_with_bearing_friction_loses_power_only_in_bearings_of_known_speed() -> None:

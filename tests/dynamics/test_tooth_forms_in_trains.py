@@ -323,17 +323,6 @@ def test_rigid_teeth_in_a_redundant_loop_contradict_nothing_and_triangular_ones_
         load(text + ring + f"tooth_form: {RIPPLING}\n").motion()
 
 
-def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    def forbidden(*_: object) -> None:
-        raise AssertionError("a motion is followed")
-
-    monkeypatch.setattr("geartrain.dynamics.motion.motion_run.MotionRun", forbidden)
-    train = load("longcase-clock-cycloidal")
-    page = to_markdown([describe_train(collect_report(train))])
-    assert "contribute no transmission error: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page
-    assert collect_report(train).to_dict()["motion"] == []
-
-
 def test_the_motion_of_a_train_where_nothing_ripples_can_be_requested_for_everything() -> None:
     words = ("--samples", "50", "--spectrum", "--estimates", "--phases", "1", "--json")
     result = call("motion", "planetary-24-18-60-involute", *words)
@@ -505,18 +494,3 @@ def test_the_mill_turns_as_its_counts_say_with_its_wheels_at_right_angles() -> N
     speeds = load("lantern-mill").solve().speeds
     assert abs(speeds["stone"]) == Fraction(72, 18) * Fraction(60, 15)
     assert abs(speeds["second"]) == Fraction(72, 18) * Fraction(60, 20)
-
-
-def test_a_mixed_train_shows_each_family_in_its_own_table() -> None:
-    train = load(CHAIN.format(first=INVOLUTE, second=RIPPLING) + "friction: 0.1\n")
-    page = to_markdown([describe_train(collect_report(train))])
-    assert "Triangular teeth, each pair" in page
-    assert "Conjugate teeth have a constant speed ratio" in page
-    conjugate, triangular = collect_report(train).to_dict()["teeth"]
-    assert (conjugate["form"], triangular["form"]) == ("involute", "triangular")
-    assert conjugate["transmission_error"]["peak_to_peak"] == 0
-    reach = sum(sqrt((R + 1) ** 2 - (R * cos(ALPHA)) ** 2) - R * sin(ALPHA) for R in (10, 30))
-    assert conjugate["contact_ratio"] == pytest.approx(reach / (pi * cos(ALPHA)), rel=1e-12)
-    assert conjugate["efficiency"]["mean"] == pytest.approx(1 - mean_loss(20, 60, 0.1), abs=2e-6)
-    assert set(triangular) - set(conjugate) == {"clearance_factor", "window", "sizes", "intervals", "jumps", "impacts"}
-    assert "Pairs that keep their ratio" in call("motion", "longcase-clock-cycloidal", "--samples", "10").output

@@ -293,14 +293,6 @@ def test_efficiencies_there_and_back_name_the_bearings_they_leave_out() -> None:
     assert data["drives"]["forward"]["neglected"][0]["where"] == ["carrier"]
 
 
-@pytest.mark.needs("matplotlib")
-def test_the_captions_of_pictures_name_what_is_left_out(tmp_path: Path) -> None:
-    path, picture = tmp_path / "pin.yaml", tmp_path / "pin.svg"
-    path.write_text(PIN.replace(", pin_radius: 10 mm, offset: 8 mm", ""), encoding="utf-8")
-    call("torques", path, "--plot", picture)
-    assert "not included: friction of pins (P), variation within a turn" in picture.read_text(encoding="utf-8")
-
-
 def test_the_means_of_teeth_are_worked_out_once_whatever_is_loaded(monkeypatch: pytest.MonkeyPatch) -> None:
     requested: list[object] = []
     transmission = type(load(MOON).meshes[0].transmission)

@@ -18,7 +18,6 @@ from geartrain.report import collect_report, collect_torque_report
 from geartrain.report.answers import answer_text
 from geartrain.report.train_report import describe_train
 from geartrain.teeth.couplings.belt import belt_length
-from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
 F = Fraction
 TWO = """
@@ -169,24 +168,6 @@ def test_a_belt_is_equal_in_its_long_form_and_under_a_parents_rules(tmp_path: Pa
     assert not load(tmp_path / "removed.yaml").circuits
 
 
-@pytest.mark.parametrize(
-    "text", [SERPENTINE, TWO + "belts: [p ~ q]", SET, SET.replace("-75/50", "{value: -1.5, tolerance: 0.1}")]
-)
-def test_belts_and_ratios_survive_a_change_of_the_train(text: str) -> None:
-    train = load(text)
-    assert train.with_changes({"note": "changed"}).declaration.couplings == train.declaration.couplings
-
-
-def test_format_rewrites_belts_and_keeps_their_comments() -> None:
-    short = TWO.lstrip() + "belts: [p ~ q]\n"
-    long = with_long_forms(short)
-    assert "couplings:\n  - {kind: belt, around: [p, q]}\n" in long
-    assert load(long).declaration.couplings == load(short).declaration.couplings
-    assert with_short_forms(long).endswith("belts: [p ~ q]\n")
-    both = short + "couplings:\n  - {pair: [a, b], ratio: 2}  # a reducer\n"
-    assert with_short_forms(with_long_forms(both)) == with_short_forms(both)
-
-
 def test_one_tooth_more_on_a_wheel_of_a_belt_changes_the_speed() -> None:
     train = load(TWO.replace("p: 20", "p: {teeth: {value: 20, range: [20, 21]}}") + "belts: [p ~ q]\noutputs: {b: {}}")
     assert train.with_teeth({"p": 21}).solve()["b"] == F(21, 30)
@@ -240,22 +221,6 @@ def test_r2_a_reducer_in_a_turning_housing(joints: str) -> None:
 def test_r3_a_set_by_its_basic_ratio_with_the_ring_held_and_with_a_closed_clutch() -> None:
     assert speeds(SET + "fixed: [ring]")["arm"] == F(2, 5)
     assert speeds(SET + "locks: [[sun, ring]]")["arm"] == 1
-
-
-def test_r3_teeth_of_the_same_ratio_give_the_same_speeds() -> None:
-    teeth = """
-    links:
-      frame: {}
-      sun: {wheels: {s: 50}}
-      ring: {wheels: {r: {teeth: 75, internal: true}}}
-      arm: {}
-      planet: {wheels: {p: 12}}
-    revolutes: {main: [frame, sun, ring, arm], P: [arm, planet]}
-    gears: [s ~ p, p ~ r]
-    inputs: {sun: 7, arm: 3}
-    """
-    found = speeds(SET.replace("inputs: {sun: 1}", "inputs: {sun: 7, arm: 3}"))
-    assert found["ring"] == speeds(teeth)["ring"]
 
 
 def test_r4_a_set_on_a_moving_arm() -> None:
@@ -331,9 +296,6 @@ def test_speeds_that_depend_on_an_approximate_ratio_have_its_tolerance_and_a_mar
 
 
 # ---------------------------------------------------------------------------------------------------------- refusals
-
-
-BELT = "couplings: [{kind: belt, %s}]"
 
 
 @pytest.mark.parametrize(

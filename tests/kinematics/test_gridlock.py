@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import random
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
@@ -426,18 +425,6 @@ def test_check_and_report_say_what_to_disengage(train_file: Callable[..., Path])
     done = call("report", path)
     assert done.exit_code == 1
     assert "disengage one of a20~b30, b30~c40, c40~a20" in done.stdout
-
-
-def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) -> None:
-    data = json.loads(call("report", train_file(THREE), "--json").stdout)[0]["gridlock"]
-    assert set(data) == {"moves", "jams", "held", "release"}
-    assert data["moves"] is False
-    assert set(data["jams"][0]) == {"carrier", "loop", "links", "meshes", "by", "release"}
-    assert data["release"] == data["jams"][0]["release"]
-    assert set(data["release"]) == {"meshes", "method", "minimum", "at_least", "choices", "proofs"}
-    assert data["release"]["choices"] == ["a20~b30", "b30~c40", "c40~a20"]
-    moving = json.loads(call("report", "planetary", "--json").stdout)[0]["gridlock"]
-    assert moving == {"moves": True, "jams": [], "held": [], "release": None}
 
 
 @pytest.mark.parametrize("source", ["'pennestri-2002'", "'freeth-2021'", repr(THREE)])

@@ -110,9 +110,6 @@ def triangular(window: float | str = 0.5, half_angle: float = 30, radii: str = "
     return f"tooth_form: {{form: triangular, half_angle: {half_angle} deg, window: {window}, radii: {radii}}}"
 
 
-# ----------------------------------------------------------------------------------------------------- laws, 50 digits
-
-
 def contact(tooth_pair: Couple, S: Any) -> tuple[Segment, Any]:
     """Return the tooth pair that drives at the forward angle S, and its alpha_1."""
     for segment in tooth_pair.path:
@@ -194,9 +191,6 @@ class Set:
     def speed(self, S: Any) -> Any:
         """Return the speed ratio."""
         return self.transmission.speed(S - self.S)
-
-
-# ---------------------------------------------------------------------------------------------------- trains, 50 digits
 
 
 class Exactly:
@@ -342,9 +336,6 @@ def composed(transmissions: Sequence[Any], turns: float) -> tuple[Any, Any, Any]
     return S - mean * 2 * mp.pi * mp.mpf(turns), gain, summed
 
 
-# ------------------------------------------------------------------------------------------------------------ measuring
-
-
 @dataclass(frozen=True)
 class Run:
     """Floating-point results of a train and their reference at some positions; angles in rad, speeds relative to the
@@ -438,9 +429,6 @@ def timed(work: Callable[[], Any]) -> tuple[Any, float]:
     return found, perf_counter() - since
 
 
-# --------------------------------------------------------------------------------------------------- epicyclic trains
-
-
 def suns(counts: tuple[int, int, int, int], inputs: dict[str, float], form: str = "") -> Train:
     """Return two suns and a planet with two wheels on an arm: pairs (left, planet) and (planet, right)."""
     left, p, q, right = counts
@@ -486,9 +474,6 @@ def hanging(window: float, last: tuple[int, int]) -> Measured:
     )
     found = run(Train(SETS | {"lay": (FRAME, "B")}, pairs, {"left": 1}), 30.0, 20_001, 25)
     return Measured(found.misfit, found.seconds)
-
-
-# ------------------------------------------------------------------------------------------------------ plain trains
 
 
 def chain(kinds: Sequence[tuple[int, int]], pairs: int, form: str) -> Train:
@@ -544,8 +529,6 @@ def at_the_edge(window: float) -> Measured:
     return Measured(found.off["moon"], found.seconds)
 
 
-# ------------------------------------------------------------------------------------------------------ teeth and pins
-
 DRAWN = [0.013, 0.29, 0.41, 0.67, 0.83, 0.999]  # of a pitch
 
 
@@ -596,8 +579,6 @@ def pin_near_offset(more: float, turns: float) -> Measured:
     found = run(train, turns * (1 + 1e-7), round(turns) + 1, 31)
     return Measured(found.off["slot"], found.seconds)
 
-
-# ------------------------------------------------------------------------------------------------ circulating power
 
 CIRCULATING = (50, 45, 40, 44)  # basic ratio 100/99: the right sun makes 1/99 turn back for a turn of the arm
 
@@ -655,8 +636,6 @@ def amplified(turns: float) -> Measured:
     found = run(train, turns, 997, 9)
     return Measured(found.off[ARM] / float(np.abs(found.found[ARM].error).max()), found.seconds)
 
-
-# ---------------------------------------------------------------------------------------------------------- every case
 
 RADIANS, SHARE, PITCHES = "rad of the output", "relative", "driven pitches"
 

@@ -48,9 +48,6 @@ def test_floats_give_what_they_can(case: Case) -> None:
     assert measured.error < case.bound
 
 
-# ----------------------------------------------------------------------------------------------------- the reference
-
-
 def test_the_solution_of_all_transmissions_is_their_composition_one_in_the_other() -> None:
     train = chain([(60, 48), (50, 75)], 4, triangular())
     exactly = Exactly(train, load(declared(train)))
@@ -84,9 +81,6 @@ def test_angles_of_planets_that_mesh_solve_all_transmissions(speeds: dict[str, f
     assert max(found.speed_off.values()) < 1e-12
 
 
-# ------------------------------------------------------------------------------------------------------------ speeds
-
-
 @pytest.mark.parametrize(
     ("counts", "inputs", "bound"),
     [((32, 33, 32, 31), {ARM: 1, "left": 0}, 1e-13), ((1000, 1001, 1000, 999), {ARM: 1, "left": 0}, 1e-12)],
@@ -102,18 +96,12 @@ def test_speeds_of_a_train_that_makes_them_a_million_million_times_slower() -> N
     assert max(found.speed_off.values()) < 200 * EPS
 
 
-# ------------------------------------------------------------------------------------------ what cannot be followed
-
-
 @pytest.mark.parametrize("teeth", [32, 1000, 31_623])
 def test_a_differential_near_locking_cannot_be_driven_from_its_slow_side(teeth: int) -> None:
     """The product of both ratios ripples by more than it differs from 1: past a dead centre the arm turns back."""
     train = suns((teeth, teeth + 1, teeth, teeth - 1), {"right": 1, "left": 0})
     with pytest.raises(GearTrainError, match="coupled pairs"):
         load(declared(train)).motion().transmission_errors(1.0, 101)
-
-
-# ------------------------------------------------------------------------------------------------ circulating power
 
 
 @pytest.mark.parametrize("eta", [Fraction(9, 10), Fraction(99, 100), Fraction(999, 1000), 1 - Fraction(1, 10**12)])
@@ -141,9 +129,6 @@ def test_an_error_is_enlarged_as_the_power_circulates() -> None:
     assert amplified(1e3).error < 8 * EPS
 
 
-# ------------------------------------------------------------------------------------------------------------- memory
-
-
 def test_a_long_run_of_a_long_chain_keeps_few_numbers() -> None:
     """Errors and speeds of 100 pairs at 60 000 positions would be 96 MB."""
     train = chain([(100, 101), (101, 100)], 100, triangular())
@@ -154,9 +139,6 @@ def test_a_long_run_of_a_long_chain_keeps_few_numbers() -> None:
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert most < 60e6
-
-
-# -------------------------------------------------------------------------------------------- one pin, at 50 digits
 
 
 @pytest.mark.parametrize("more", [1e-1, 1e-3, 1e-6, 1e-9])

@@ -63,9 +63,6 @@ def in_dials(train: GearTrain) -> set[str]:
     return {name for name, output in train.declaration.outputs.items() if output.dial}
 
 
-# -------------------------------------------------------------------------------------------------------------- motion
-
-
 def test_the_intervals_of_a_motion_are_the_figures_of_its_table() -> None:
     figure = drawn(load("moon-triangular"))
     table = json.loads(call("motion", "moon-triangular", "--turns", "0.5", "--samples", 501, "--json").output)[
@@ -132,9 +129,6 @@ def test_any_number_of_pointers_fits_on_a_screen() -> None:
     assert all(side <= most for side, most in zip(figure.get_size_inches(), SCREEN, strict=True))
 
 
-# ------------------------------------------------------------------------------------------- budget, trials and torques
-
-
 def test_the_marks_of_a_budget_are_the_figures_of_its_table() -> None:
     budget = find_budget(load("freeth-2021-teeth"), BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT))
     figure = budget_figure(budget)
@@ -185,8 +179,6 @@ def test_a_torque_fills_its_axis_and_the_dots_are_the_mean_losses() -> None:
         power = found.losses.values[found.losses.labels[0].index(name)]
         assert (low, high) == pytest.approx((1000 * power.min(), 1000 * power.max()))
 
-
-# -------------------------------------------------------------------------------------------------------------- slides
 
 LATHE = """
 extends: lathe-thread

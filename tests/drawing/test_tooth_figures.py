@@ -49,9 +49,6 @@ def from_line(point: Points, one: Points, other: Points) -> float:
     return float(hypot(*(point - one - share * along)))
 
 
-# --------------------------------------------------------------------------------------------------------------- teeth
-
-
 @pytest.mark.parametrize("direction", [1, -1])
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_contact_drawn_is_an_apex_on_the_other_flank(pair: tuple[int, int, float], direction: int) -> None:
@@ -150,9 +147,6 @@ def test_a_dwell_has_no_contact_to_mark() -> None:
     assert "dwell" in figure.axes[0].get_title(loc="left")
 
 
-# ----------------------------------------------------------------------------------------------------------------- law
-
-
 @cache
 def drawn_transmission(pair: tuple[int, int, float]) -> Figure:
     return triangular_figure(transmission(*pair))
@@ -223,9 +217,6 @@ def test_every_jump_is_annotated() -> None:
     assert sorted(said) == ["jump 0.0682", "matching 0.0316"]
 
 
-# --------------------------------------------------------------------------------------------------------------- sweep
-
-
 def columns(*shape: int) -> dict[str, np.ndarray]:
     whole = np.linspace(0.9, 1.0, int(np.prod(shape))).reshape(shape)
     return {"efficiency_mean": whole, "error_pp_deg": 1 - whole, "tau_min": whole - 0.1, "tau_max": whole, "x": whole}
@@ -273,9 +264,6 @@ def test_arrays_that_are_no_sweep_are_refused() -> None:
             sweep_figure(parameters, {"efficiency_mean": x}, verdicts.astype(str))
     with pytest.raises(QuestionError, match="cannot draw a sweep"):
         sweep_figure({"a": x}, {}, x.astype(str))
-
-
-# ----------------------------------------------------------------------------------------------------------- all plots
 
 
 @pytest.mark.parametrize(("suffix", "start"), [(".svg", b"<?xml"), (".PNG", b"\x89PNG"), (".pdf", b"%PDF")])

@@ -225,9 +225,6 @@ def test_two_planetaries_in_any_arrangement_balance(z: list[int], eta: list[int]
         require_balance(found, find_power_flow(found))
 
 
-# -------------------------------------------------------------------------------------------------------- known answers
-
-
 def power(flow: PowerFlow, source: tuple[str, str], target: tuple[str, str]) -> Fraction:
     (found,) = [stream.power for stream in flow.streams if (stream.source, stream.target) == (source, target)]
     return found
@@ -314,9 +311,6 @@ def test_what_is_shared_in_no_certain_way_has_no_flow() -> None:
     assert find_power_flow(found).streams == ()
 
 
-# -------------------------------------------------------------------------------------------------------------- amounts
-
-
 def test_a_bearing_that_turns_at_no_certain_speed_takes_no_part_in_the_flow() -> None:
     train = load(
         """
@@ -353,9 +347,6 @@ def test_powers_are_watts_where_torques_and_speeds_are_real(more: str, watts: fl
     assert torque_figures(load(RING.replace(" N m", "") + more)).watts_per_unit is None
     found = torque_figures(train).watts_per_unit
     assert found == (None if watts is None else pytest.approx(watts, rel=1e-14))
-
-
-# --------------------------------------------------------------------------------------------------------------- report
 
 
 def test_a_friction_torque_is_not_negative() -> None:
@@ -440,9 +431,6 @@ def test_collisions_stand_beside_sliding() -> None:
     assert table[-1][4] == f"{1e6 * sum(loss['impact'] for loss in data):.4g} µW"
 
 
-# ------------------------------------------------------------------------------------------------------------- pictures
-
-
 @cache
 def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
     pytest.importorskip("matplotlib")
@@ -507,9 +495,6 @@ def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state
         for upper, lower in pairwise(spots):
             assert upper.top + upper.height + upper.below <= lower.top - lower.above + 1e-6
     assert all(b - a > 0 for a, b in pairwise(placed.x))
-
-
-# -------------------------------------------------------------------------------------------------------------- imports
 
 
 def test_a_gearbox_in_neutral_with_bearing_friction_loses_power_only_in_bearings_of_known_speed() -> None:

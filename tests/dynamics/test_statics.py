@@ -67,9 +67,6 @@ gears: [{pair: [s, p]}, {pair: [p, r]}]
     return load(text + rest)
 
 
-# --------------------------------------------------------------------------------------------------- open differentials
-
-
 def test_an_open_differential_with_equal_loads_is_determined_though_its_wheels_are_free() -> None:
     train = axle("case: 1", "left: -10 N m, right: -10 N m")
     assert train.solve().verdict.kind == "free"
@@ -183,9 +180,6 @@ loads: {arm: 0}
     assert load(text.replace("locks: [[a, arm]]\n", "")).torques().pairs["G"].rolling is None
 
 
-# ------------------------------------------------------------------------------------------------------------ any train
-
-
 def columns(data: Data) -> dict[str, dict[str, Fraction]]:
     """By constraint the torque that a unit of it exerts on each link: its row, by the principle of virtual work."""
     rows, _ = willis_rows(data)
@@ -287,8 +281,6 @@ def test_loads_that_do_work_in_some_free_motion_are_unbalanced(
     for link in answer.verdict.candidates:
         assert any(link in motion for motion in motions)
 
-
-# ---------------------------------------------------------------------------------------------------- locks and brakes
 
 CLUTCHED = """
 links: {frame: {}, a: {}, b: {}, c: {}}

@@ -44,9 +44,6 @@ def said(train: GearTrain) -> str:
     return str(caught.value)
 
 
-# what a pair may be ---------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("form", FORMS)
 def test_every_form_gives_an_external_pair_its_exact_ratio(form: str) -> None:
     mesh = only(pair(f"{{form: {form}}}"))
@@ -170,9 +167,6 @@ def test_lengths_with_a_unit_are_compared_with_the_modules_of_the_wheels() -> No
     assert mesh.backlash == pytest.approx(0.1 / (2 * pi), rel=1e-12)
 
 
-# faults ---------------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("form", "teeth", "kinds"),
     [
@@ -221,8 +215,6 @@ def test_an_unknown_form_or_key_is_told_with_those_there_are() -> None:
     (problem,) = caught.value.problems
     assert (problem.why, problem.fix) == ("`tooth_form` has no such key", "did you mean 'pressure_angle'?")
 
-
-# motion ---------------------------------------------------------------------------------------------------------------
 
 CHAIN = """
 links: {{frame: {{}}, a: {{wheels: {{a20: 20}}}}, b: {{wheels: {{b60: 60, b24: 24}}}}, c: {{wheels: {{c36: 36}}}}}}
@@ -330,9 +322,6 @@ def test_the_motion_of_a_train_where_nothing_ripples_can_be_requested_for_everyt
     data = json.loads(result.output)
     assert data["rigid"] == ["s~p", "p~ring"]
     assert data["drivers"] == {}
-
-
-# losses ---------------------------------------------------------------------------------------------------------------
 
 
 def mean_loss(
@@ -472,9 +461,6 @@ def test_a_declared_efficiency_stands_before_that_of_the_teeth() -> None:
     text = PAIR.format(rest=f"tooth_form: {INVOLUTE}\nfriction: 0.1\ninputs: {{a: 1}}")
     train = load(text.replace("pair: [p, w]", "pair: [p, w], efficiency: 0.9"))
     assert train.driven("b", "a").efficiency == Fraction(9, 10)
-
-
-# pages, data and shipped trains ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", SHIPPED)

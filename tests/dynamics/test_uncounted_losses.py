@@ -38,9 +38,6 @@ def names(found: Any) -> dict[str, tuple[str, ...]]:
     return {each.what: each.where for each in found.neglected}
 
 
-# ---------------------------------------------------------------------------------------------------------------- pins
-
-
 def pin_torques(r: float, e: float, f: float, load_torque: float, count: int, backward: bool = False) -> np.ndarray:
     """Driver's torque at equal steps of its angle: forces and arms of one pin in a radial slot, complex plane.
 
@@ -171,9 +168,6 @@ def test_friction_on_teeth_without_a_form_is_named() -> None:
     assert names(half) == {"friction of teeth": ("p~ring",)}
 
 
-# --------------------------------------------------------------------------------------------------------------- teeth
-
-
 def test_a_train_of_real_teeth_asks_the_crank_for_the_mean_of_its_positions() -> None:
     """moon-triangular with 1 N mm on the Moon, four pairs stepped together: no two have teeth in step for long."""
     train = load(MOON)
@@ -253,9 +247,6 @@ def test_pairs_of_which_neither_torque_is_constant_are_named() -> None:
     base = "extends: planetary-24-18-60-involute\nname: p\nloads: {{{}}}\n"
     assert names(load(base.format("carrier: -1")).torques())["mean efficiency"] == ("s~p", "p~ring")
     assert "mean efficiency" not in names(load(base.format("sun: 1") + "solve_for: carrier\n").torques())
-
-
-# ------------------------------------------------------------------------------------------------------------ bearings
 
 
 def test_bearings_of_a_train_with_retrograde_pointers_are_named_and_motion_prints_the_extremes_of_their_speeds() -> (

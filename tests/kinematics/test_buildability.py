@@ -323,8 +323,6 @@ def test_a_clutch_is_told_once_for_all_states_with_its_place() -> None:
     assert finding.problem.place.startswith("text:")
 
 
-# ------------------------------------------------------------------------------------------------------------------- K5
-
 SPIDER = """
 frame: case
 axes: {axle: {direction: [1, 0, 0]}, spider: {direction: [0, 1, 0]}}
@@ -361,9 +359,6 @@ def test_bevels_of_one_axis_need_opposite_sides_whichever_way_it_points(way: int
     assert found(text) == ([("K5", "error")] if left == right else [])
 
 
-# ------------------------------------------------------------------------------------------------------------------- W3
-
-
 @pytest.mark.parametrize(
     ("counts", "first", "second", "how"),
     [
@@ -387,9 +382,6 @@ def test_a_wheel_has_teeth_of_one_shape(counts: tuple[int, int], first: str, sec
     if how:
         assert "wheel 'b' is not cut: its pairs 'a~b' and 'b~c' require different teeth; they require" in words(text)
         assert how in words(text)
-
-
-# ------------------------------------------------------------------------------------------------------- the same words
 
 
 @pytest.mark.parametrize("name", every_train())

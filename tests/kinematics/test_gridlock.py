@@ -26,9 +26,6 @@ from geartrain.spherical.polyhedron_gears import SURVEYED
 Data = dict[str, Any]
 
 
-# gears on all faces of a polyhedron -----------------------------------------------------------------------------------
-
-
 def ordinary(teeth: Sequence[int], meshes: Iterable[tuple[int, int]], rings: Iterable[int] = ()) -> Data:
     """Gears on fixed axes, one wheel each."""
     count = len(teeth)
@@ -93,9 +90,6 @@ def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> N
     assert sum(mesh in told.replace(",", " ").replace(";", " ").split() for mesh in release.meshes) == 12
 
 
-# trains of the collection ---------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("case", [KINEMATIC["K45"], REJECT["R13"]], ids=["K45", "R13"])
 def test_of_three_wheels_in_a_ring_any_one_mesh_frees(case: Data) -> None:
     data = declaration(case)
@@ -151,9 +145,6 @@ def test_each_diagonal_of_a_lattice_costs_one_mesh() -> None:
     assert proved(found.release) == 4
     assert set(found.release.meshes) == {gear["id"] for gear in data["gears"][-4:]}
     assert found.release.method == "loops"
-
-
-# rings, pins, carriers, brakes ----------------------------------------------------------------------------------------
 
 
 def test_a_ring_in_a_loop_of_three_lets_it_turn_and_in_a_loop_of_four_locks_it() -> None:
@@ -282,9 +273,6 @@ def test_a_greedy_set_says_that_a_smaller_one_may_do() -> None:
     assert all("a, b, c" in str(each) for each in (good, minimum))
 
 
-# whole trains, against dense elimination ------------------------------------------------------------------------------
-
-
 def _frees(data: Data, gone: Iterable[str]) -> bool:
     """Every loop about each carrier closes, and no link stands still both with these ratios and with others."""
     rest = less(data, gone)
@@ -396,8 +384,6 @@ def test_a_loop_that_locks_what_is_held_already_does_not_upset_the_mobility() ->
     assert train.mobility.shared == ()
     assert set(train.kinematics.gridlock.release.meshes) == {"ab", "fc"}
 
-
-# what is printed, and what it costs -----------------------------------------------------------------------------------
 
 THREE = """
 links:

@@ -43,9 +43,6 @@ def a_second(answer: geartrain.Answer) -> dict[str, Fraction | float]:
     return {link: speed * scale for link, speed in answer.speeds.items()}
 
 
-# the door, by hand ----------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     "inputs",
     [
@@ -116,9 +113,6 @@ def test_radians_that_cancel_are_no_contradiction() -> None:
     assert not pair("inputs: {a: 3 rad/s, b: -10 rpm}").solve().verdict
 
 
-# who else reads a speed -----------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("speed", ["60 rpm", "1 turn/s", "360 deg/s", "3600 turn/h", "6.283185307179586 rad/s"])
 @pytest.mark.parametrize("torque", ["-3 N m", "-3000 N mm"])
 def test_watts_are_the_same_in_every_unit(speed: str, torque: str) -> None:
@@ -160,9 +154,6 @@ def test_a_picture_steps_by_the_turns_of_one_unit_of_time(rest: str, turns: floa
     assert float(Fraction(make_scene(pair(f"inputs: {{a: {rest}}}")).step)) == pytest.approx(turns, rel=1e-15)
 
 
-# what is refused ------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("rest", "said"),
     [
@@ -190,9 +181,6 @@ def test_a_zero_needs_no_unit() -> None:
     train = load(text)
     assert train.declaration.links["a"].angle is not None
     assert train.torques().external["b"] == Fraction(-1, 200)
-
-
-# the law --------------------------------------------------------------------------------------------------------------
 
 
 def spoken(draw: st.DrawFn, speed: Fraction, units: list[str]) -> str:

@@ -191,9 +191,6 @@ def test_a_target_is_met_within_its_tolerance(tolerance: str, met: bool) -> None
     assert result.met is met
 
 
-# what one tooth changes ----------------------------------------------------------------------------------------------
-
-
 def test_one_tooth_less_or_more_is_what_the_changed_train_shows() -> None:
     train = lunar("{period: 27.32 d}", teeth="{value: 127, range: [125, 129]}")
     answer = train.solve()

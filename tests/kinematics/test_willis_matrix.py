@@ -147,9 +147,6 @@ def test_a_speed_beyond_floats_is_refused_in_words() -> None:
         WillisSystem(("frame", "a"), rows).matrix()
 
 
-# ------------------------------------------------------------------------------------------------- solved by the train
-
-
 @pytest.mark.parametrize("name", ["pennestri-2002", "three-planets", "four-gear-loop", "humpage"])
 def test_the_sparse_method_factorises_exactly_this_matrix(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     train, factorised = shipped.train(name), []

@@ -87,9 +87,6 @@ def executor(request: pytest.FixtureRequest) -> Iterator[Executor | None]:
         yield request.getfixturevalue(request.param)
 
 
-# --- results --------------------------------------------------------------------------------------------------------
-
-
 def test_results_come_in_the_order_of_the_tasks_and_are_the_same_whoever_works(executor: Executor | None) -> None:
     wanted = [
         {"n": n, "third": n / 3, "huge": n**40, "pair": [n, None], "text": "Zähne\n", "no": []} for n in range(40)
@@ -163,9 +160,6 @@ def test_progress_is_told_at_most_ten_times_a_second_and_to_the_end(monkeypatch:
     assert told[-1][:2] == (7, 0)
 
 
-# --- workers that die -----------------------------------------------------------------------------------------------
-
-
 def test_a_worker_killed_in_the_middle_costs_nothing_but_time(
     crew: Executor, processes: Executor, tmp_path: Path
 ) -> None:
@@ -235,9 +229,6 @@ def test_tasks_cancelled_just_before_a_worker_dies_upset_nothing(tmp_path: Path)
         for future in futures[:5]:
             with pytest.raises(BrokenExecutor):
                 future.result(timeout=PATIENCE)
-
-
-# --- the journal ----------------------------------------------------------------------------------------------------
 
 
 def kept(path: Path, question: Any, results: list[Any]) -> bytes:
@@ -398,8 +389,6 @@ def a_full_disk(size: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-# --- runs that are cut ----------------------------------------------------------------------------------------------
-
 SCRIPT = """
 import json, sys
 sys.path.insert(0, {tests!r})
@@ -449,9 +438,6 @@ def test_an_iterator_that_is_left_keeps_what_was_finished_meanwhile(processes: E
             until(lambda: len(begun(tmp_path)) >= 8, "the tasks in flight")
             until(lambda: processes.submit(abs, 1).result(timeout=PATIENCE), "all before this one")
         assert len(journal) >= 7
-
-
-# --- whom to ask ----------------------------------------------------------------------------------------------------
 
 
 def test_one_worker_is_this_process_and_brings_no_pool() -> None:

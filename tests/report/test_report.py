@@ -16,8 +16,7 @@ from pathlib import Path
 
 import pytest
 import shipped
-from answer_schemas import holds
-from commands import TWENTY, call, ended
+from commands import call, ended
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
@@ -37,14 +36,6 @@ Write = Callable[..., Path]
 Rows = list[list[str]]
 SCRIPT = (ROOT / "geartrain" / "report" / "page.js").read_text(encoding="utf-8")
 VOID = {"meta", "link", "br", "hr", "img", "input", "base", "col", "wbr"}
-
-# teeth of pennestri-2002: Tables 1 to 3 and the Maple listing, where they are (z18 = 60)
-TEETH = {
-    "Z2": 45, "Z3": 225, "Za2": 45, "Z4": 225, "Za4": 64, "Z10": 38, "Z6": 36, "Zb4": 32, "Z15": 32, "Za5": 32,
-    "Za11": 127, "Z12": 32, "Za6": 54, "Z7": 96, "Za7": 16, "Z8": 64, "Z9": 32, "Za10": 48, "Z11": 24, "Za12": 32,
-    "Z13": 64, "Z14": 32, "Z16": 48, "Za20": 192, "Za14": 48, "Za15": 48, "Za16": 30, "Z17": 60, "Za17": 20,
-    "Z18": 60, "Za18": 15, "Z19": 60,
-}  # fmt: skip
 
 
 class Page(HTMLParser):
@@ -149,9 +140,6 @@ def paper() -> str:
     return call("report", "pennestri-2002", "--all", "-o", "-").output
 
 
-# ---------------------------------------------------------------------------------------------- the paper's own tables
-
-
 def test_the_adjacency_matrix_of_the_report_is_table_7_cell_by_cell(paper: str) -> None:
     cells = {pair: f"R({axis})" for pair, axis in TURNING_PAIRS.items()}
     for line in TABLES_1_TO_3.strip().splitlines():
@@ -183,31 +171,6 @@ def test_a_section_is_printed_on_request_and_an_unknown_one_is_refused() -> None
     assert "Fundamental circuits" in refused.stderr
 
 
-def test_the_circuits_of_the_report_are_tables_1_to_3_with_their_teeth(paper: str) -> None:
-    found = {}
-    for table in section(paper, "Fundamental circuits"):
-        for at, name in enumerate(table[0][1:], start=1):
-            found[name] = [row[at] for row in table[1:]]
-    expected = {}
-    for line in TABLES_1_TO_3.strip().splitlines():
-        name, i, j, k, z_i, z_j = line.split()
-        tau = Fraction(-TEETH[z_j], TEETH[z_i])
-        expected[name] = [i, j, k, f"{z_i} {TEETH[z_i]}", f"{z_j} {TEETH[z_j]}", str(tau)]
-    assert found == expected
-
-
-def test_the_speeds_of_the_report_are_the_twenty_fractions_and_their_decimals(paper: str) -> None:
-    (table,) = section(paper, "Speeds")
-    assert column(table, "link") == [str(link) for link in range(1, 21)]
-    assert column(table, "speed") == list(TWENTY)
-    for text, right in zip(column(table, "decimal"), TWENTY, strict=True):
-        assert abs(Fraction(text) - Fraction(right)) <= abs(Fraction(right)) / 10**7
-    for text, right in zip(column(table, "output : input"), TWENTY, strict=True):
-        if right != "0":
-            out, into = (Fraction(part) for part in text.split(" : "))
-            assert abs(out / into * 5 / Fraction(right) - 1) <= Fraction(1, 10**6)
-
-
 def test_the_report_carries_every_erratum_of_the_declaration_with_what_is_right(paper: str) -> None:
     (table,) = section(paper, "Errata of the sources")
     printed = dict(zip(column(table, "printed"), column(table, "right"), strict=True))
@@ -215,14 +178,6 @@ def test_the_report_carries_every_erratum_of_the_declaration_with_what_is_right(
     assert "235/19" in next(right for text, right in printed.items() if "236/19" in text)
     assert "27.32166" in next(right for text, right in printed.items() if "27.3229" in text)
     assert all(column(table, "why"))
-
-
-def test_the_mobility_of_the_report_is_nineteen_less_eighteen(paper: str) -> None:
-    assert "19 turning pairs - 18 gear pairs = 1" in paper
-    assert "20 links - 1 - rank 18 = 1" in paper
-
-
-# ------------------------------------------------------------------------------------------------- three forms, one say
 
 
 @pytest.mark.parametrize("name", shipped.every_train())
@@ -248,16 +203,6 @@ def test_what_is_wider_than_paper_is_printed_in_strips_with_every_cell_once() ->
     assert [[cell for part in rows for cell in part[1:]] for rows in zip(*parts, strict=True)] == [
         row[1:] for row in matrix
     ]
-
-
-@pytest.mark.parametrize("name", shipped.every_train())
-def test_json_of_every_shipped_train_has_the_shapes_of_the_schema(name: str) -> None:
-    train, report = shipped.train(name), json.loads(call("report", name, "--json").stdout)
-    holds("report", report)
-    holds("solve", json.loads(call("solve", name, "--json").stdout))
-    holds("torques", json.loads(call("torques", name, "--json").stdout))
-    (entry,) = report
-    assert [each["state"] for each in entry["states"]] == list(train.states or (None,))
 
 
 def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(train_file: Write) -> None:
@@ -344,9 +289,6 @@ def test_several_trains_stand_in_one_report_in_the_order_requested(suffix: str, 
         assert text.rstrip() == call("report", *names, "-o", "-").output.rstrip()
 
 
-# -------------------------------------------------------------------------------------------------------- whole or not
-
-
 def test_a_disk_that_fills_up_leaves_the_old_file_and_no_scraps(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -361,9 +303,6 @@ def test_a_disk_that_fills_up_leaves_the_old_file_and_no_scraps(
     assert "No space left on device" in str(result.exception)
     assert old.read_text(encoding="utf-8") == "before"
     assert list(tmp_path.iterdir()) == [old]
-
-
-# ------------------------------------------------------------------------------------------- comparisons, gears, dials
 
 
 def test_alternatives_stand_side_by_side_with_exact_numbers() -> None:
@@ -456,9 +395,6 @@ def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name:
     assert "a turn in 3.8 years," in read["metonic"]
     assert "5 turns in 19 years," in read["metonic"]
     assert f"one month in {19 / 235 * 365.2421897:.6g} d"  # tropical years of J2000 in read["metonic"]
-
-
-# ----------------------------------------------------------------------------------------------------------- terminals
 
 
 def terminal(name: str, width: int) -> str:

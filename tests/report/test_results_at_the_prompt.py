@@ -330,20 +330,6 @@ def closed(page: str) -> str:
     return page
 
 
-@pytest.mark.needs("pandas")
-@pytest.mark.parametrize("name", [name for name in RESULTS if name not in ("train",)])
-def test_a_table_has_meanings_and_units(name: str) -> None:
-    result = made(name)
-    if not hasattr(result, "to_frame"):
-        pytest.skip("not tabular")
-    frame = result.to_frame()
-    assert len(frame) > 0
-    assert [column for column in frame.columns if not frame.attrs["meanings"].get(column)] == []
-    numbers = [column for column in frame.columns if frame[column].dtype.kind == "f"]
-    counts = ("teeth", "events", "mode", "* angle")
-    assert [column for column in numbers if column not in frame.attrs["units"] and column not in counts] == []
-
-
 @cache
 def public_classes() -> frozenset[type]:
     rooms = (import_module(f"geartrain.{name}") for name in SHOWING if name != "errors")

@@ -274,8 +274,6 @@ def test_slots_are_found_in_a_row_longer_than_calls_may_be_deep() -> None:
     assert slots[near].high < slots[far].low or slots[far].high < slots[near].low
 
 
-# groups of equal planets ----------------------------------------------------------------------------------------------
-
 RAVIGNEAUX = """
 name: planets on planets
 links:

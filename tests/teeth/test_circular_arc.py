@@ -65,9 +65,6 @@ def test_leaves_are_thinner_than_half_a_pitch(leaves: int, thickness: float, add
     assert leaf.dedendum == pytest.approx(wheel.addendum + 0.4, rel=1e-12)
 
 
-# the same pair by another way: an epicycloid rolled point by point, polygons that shapely brings to touch ------------
-
-
 def rolled_addendum(leaves: int, ratio: float) -> float:
     """Where an epicycloid that starts at a tooth's edge on the pitch circle reaches the middle of the tooth."""
     rho, R = leaves / 4, ratio * leaves / 2
@@ -136,9 +133,6 @@ def test_polygons_touch_where_the_transmission_says(z1: int, z2: int) -> None:
             else:
                 free = middle
         assert free == pytest.approx(expected, abs=2e-6)
-
-
-# the law -----------------------------------------------------------------------------------------------------------
 
 
 def test_the_ratio_holds_in_the_mean_and_the_other_flanks_are_the_mirror_image() -> None:
@@ -234,9 +228,6 @@ def test_axles_too_near_jam_and_too_far_part() -> None:
         assert kind in {fault.kind for fault in form.transmission(60, 8).verdict.faults}
 
 
-# a train -------------------------------------------------------------------------------------------------------------
-
-
 @pytest.fixture(scope="module")
 def clock() -> GearTrain:
     return shipped.train("longcase-clock-bs978")
@@ -257,9 +248,6 @@ def test_what_is_cut_has_the_standards_tips(clock: GearTrain) -> None:
     assert great[0].tip_radius / great[1] == pytest.approx(48 + 1.488, abs=0.006)
     assert leaf[0].tip_radius / leaf[1] == pytest.approx(4.67, rel=1e-12)
     assert Polygon(great[0].contours[0].flattened(1e-4)).is_valid
-
-
-# without a line for it anywhere else ---------------------------------------------------------------------------------
 
 
 def test_the_command_of_the_form_tells_what_its_law_does() -> None:

@@ -147,9 +147,6 @@ def test_points_of_the_profiles_are_those_of_the_table(row: list[str]) -> None:
         assert text == "-" or close(float(value), text, 2)
 
 
-# what no table is needed for -----------------------------------------------------------------------------------------
-
-
 @given(
     st.integers(8, 200),
     st.integers(8, 200),
@@ -289,9 +286,6 @@ def test_uniform_stress_is_uniform_and_never_undercuts_from_five_teeth_to_a_hund
         assert c.H[30] == pytest.approx(expected, rel=1e-12)
 
 
-# faults against textbook formulas of the involute --------------------------------------------------------------------
-
-
 @given(st.integers(8, 150), st.integers(8, 150), st.floats(12, 30), st.floats(0.2, 0.9), st.floats(0.2, 0.9))
 @settings(max_examples=60, deadline=None)
 def test_an_involute_is_undercut_from_where_its_line_touches_the_base_circle(
@@ -321,13 +315,6 @@ def test_the_tip_of_an_involute_is_as_wide_as_the_textbook_says(
         half = pi / (2 * z) + (tan(alpha) - alpha) - (tan(tip) - tip)
         assert tip_thickness(pair.path, gear, pair.halves) == pytest.approx(2 * half, abs=1e-12)
         assert any(fault.kind == "pointed" and fault.gear == gear for fault in pair.faults) == (half < 0)
-
-
-def test_a_bevel_pair_of_small_cones_has_the_tips_of_the_spur_pair() -> None:
-    pairs = [involute_pair((24, 36, angle), 20, (0.5, 0.6)) for angle in (None, 3e-3)]
-    for gear in (1, 2):
-        flat, cones = (tip_thickness(pair.path, gear, pair.halves) for pair in pairs)
-        assert cones == pytest.approx(flat, abs=1e-6)
 
 
 def test_a_contact_ratio_below_one_is_named() -> None:

@@ -52,9 +52,6 @@ def pressures(pair: PairStrength) -> dict[str, float]:
     return {place.where: place.pressure for place in pair.contact}
 
 
-# ------------------------------------------------------------------------------------------------------------- Hertz
-
-
 @pytest.mark.parametrize(
     ("first", "second", "printed"),
     [(STEEL, STEEL, 189.81), (STEEL, BRASS, 155.33), (BRASS, BRASS, 134.67), (ACRYLIC, ACRYLIC, 24.09)],
@@ -93,8 +90,6 @@ def test_cycloids_have_no_bound_at_the_pitch_point() -> None:
     assert isinf(pressures(strength((8, 60), 10, (1, 2), form="cycloidal"))["pitch point"])
 
 
-# ------------------------------------------------------------------------------------------------------------- Lewis
-
 LEWIS = {30: 0.359, 38: 0.384, 43: 0.397, 50: 0.409, 60: 0.422, 75: 0.435, 100: 0.447, 150: 0.460}
 """Lewis's Y for 20 degrees, full depth, load at the tip: Shigley's, 9th ed., table 14-2."""
 
@@ -116,8 +111,6 @@ def test_the_form_factor_of_40_teeth_worked_out_by_hand() -> None:
     # with the force along the normal of the last chord of an outline of 0.001 modules it would be 0.389
     assert by_hand == pytest.approx(0.3890, rel=0.01)
 
-
-# ---------------------------------------------------------------------------------------------------------- ISO 6336
 
 A = ((17, 51), 0.0, (2, 20), 20_000, (STEEL, STEEL))
 B = ((12, 60), 0.4, (1, 3), 100, (STEEL, BRASS))
@@ -183,9 +176,6 @@ def test_a_contact_ratio_beyond_the_standard_has_no_stress_of_the_standard() -> 
     pair = strength((60, 60), addendum="1.35", dedendum="1.6")
     assert pair.iso is None
     assert pair.wheels[0].tip_stress
-
-
-# -------------------------------------------------------------------------------------------------------------- wear
 
 
 def test_the_loss_of_sharp_triangles_is_that_of_their_polygons() -> None:

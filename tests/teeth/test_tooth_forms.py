@@ -68,8 +68,6 @@ def bisected(f: Any, low: float, high: float) -> float:
     return low
 
 
-# the involute's sizes ------------------------------------------------------------------------------------------------
-
 TEETH = st.integers(18, 120)
 
 
@@ -159,9 +157,6 @@ def test_declared_lengths_with_a_unit_are_measured_in_the_module_of_the_wheels()
     assert real.path.contact_ratio == pytest.approx(plain.path.contact_ratio, rel=1e-12)
 
 
-# rings ---------------------------------------------------------------------------------------------------------------
-
-
 def test_flanks_of_a_ring_and_its_pinion_are_drawn_involutes() -> None:
     z1, z2, alpha = 20, 55, radians(20)
     path = shape("involute").path(z1, z2, internal=True)
@@ -185,9 +180,6 @@ def test_tips_of_a_ring_clear_those_of_its_pinion_by_the_textbook(z1: int, z2: i
     gap = theta1 * z1 / z2 + inv(alpha) - inv(second) - theta2
     assert (("interference", 0) in kinds(transmission)) == (gap < 0)
     assert tip_gap(transmission.path) == pytest.approx(gap, abs=1e-13)
-
-
-# undercut, interference, points, jams --------------------------------------------------------------------------------
 
 
 def kink_cuts(z: int, x: float) -> float:
@@ -270,9 +262,6 @@ def test_a_misfit_of_involute_wheels_has_a_name_and_a_remedy(given: dict[str, st
     assert bool(verdict) == (kind == "runs")
     assert words in " ".join(fault.fix for fault in verdict.faults)
     assert verdict.to_dict()["kind"] == kind
-
-
-# cycloids, tips, the literal extremal --------------------------------------------------------------------------------
 
 
 def test_radial_flanks_come_from_rolling_circles_of_half_the_pitch_circle() -> None:
@@ -394,9 +383,6 @@ def test_teeth_that_backlash_leaves_no_thickness_are_told_to_have_less_of_it() -
     assert all("less backlash" in fault.fix for fault in found)
 
 
-# the optimal forms against the tables --------------------------------------------------------------------------------
-
-
 def test_uniform_temperature_has_the_depth_it_is_requested_for() -> None:
     for reading in "abc":
         for wheels in ({}, {"internal": True}, {"shaft_angle": RIGHT}):
@@ -418,9 +404,6 @@ def test_what_is_to_be_uniform_is(wheels: dict[str, Any]) -> None:
     np.testing.assert_allclose(first.Q1, first.Q1[0], rtol=1e-10)
     hotter = contact(shape("uniform_temperature", heat="0.5"))
     np.testing.assert_allclose(np.maximum(hotter.Q1, hotter.Q2), 0.5, rtol=1e-10)
-
-
-# friction ------------------------------------------------------------------------------------------------------------
 
 
 def torque_balance(path: PathOfContact, X: float, friction: float, driver: int) -> float:
@@ -593,9 +576,6 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
     assert transmission.efficiency_mean() == pytest.approx(np.nanmean(found), abs=1e-5)
 
 
-# bad input -----------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("given", "words"),
     [
@@ -678,9 +658,6 @@ def test_wheels_that_a_form_does_not_fit_are_refused_with_a_reason(
 
 def test_a_declared_design_distance_is_no_misplacement() -> None:
     assert shape("uniform_stress", centre_distance="45").transmission(30, 60).verdict
-
-
-# the contact of drawn outlines ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("wheels", [{}, {"internal": True}])

@@ -137,8 +137,6 @@ def test_figures_of_pairs_that_do_not_run() -> None:
     assert (degrees(stands.idle), degrees(stands.lost)) == pytest.approx((0.4204070996, 0.1528032784), abs=6e-11)
 
 
-# A rack is the limit of a ring and of an outer wheel, from either side: 10^9 teeth, the mean of both ------------------
-
 # driver; distance of the axis from the tips; tau over its mean; error peak to peak; error at 0, 1/4, 1/2, 3/4 of a
 # pitch; mean efficiencies; jump; play. Errors and play in pitches of the rack, where the rack drives in deg
 RACKS: dict[str, tuple[Any, ...]] = {
@@ -177,9 +175,6 @@ def test_a_rack_has_the_reference_figures(name: str) -> None:
 
     flat = np.hstack([np.ravel(each) for each in expected])
     assert (figures(0) + figures(2)) / 2 == pytest.approx(flat, abs=2e-10)
-
-
-# Outlines ------------------------------------------------------------------------------------------------------------
 
 
 def random_pairs() -> list[TriangularSizes]:
@@ -265,9 +260,6 @@ def test_the_force_between_the_axes_is_that_of_the_drawn_normal() -> None:
         assert mesh.separation == pytest.approx(float(np.mean(found)), rel=1e-4)
 
 
-# Planetary sets ------------------------------------------------------------------------------------------------------
-
-
 def planetary(counts: tuple[int, int, int], beyond: float, distance: float, held: str, driver: str) -> GearTrain:
     """Module 1, half angle 30 degrees, tips `beyond` their pitch circles, friction 0.2."""
     (zs, zp, zr), tips = counts, [z / 2 + side * beyond for z, side in zip(counts, (1, 1, -1), strict=True)]
@@ -334,9 +326,6 @@ def test_a_planetary_set_has_the_reference_motion_and_efficiency(name: str) -> N
         changed = train if loads is None else train.with_changes(**loads)
         cycle = changed.torques(turns=float(motion.period), of=driver if loads is None else out)
         assert cycle.efficiency == pytest.approx(wanted, abs=2e-9)
-
-
-# Refusals ------------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

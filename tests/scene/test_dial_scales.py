@@ -18,15 +18,27 @@ from geartrain import GearTrain
 from geartrain.scene import make_scene
 from geartrain.scene.dial_scale import engrave
 from geartrain.scene.stroke_letters import curved_text, letter_strokes
+from geartrain.train import Dial
+
+BASE = GearTrain.declare(
+    {
+        "links": {"frame": {}, "a": {}},
+        "revolutes": {"A": ["frame", "a"]},
+        "inputs": {"a": 1},
+        "dials": {"d": {}},
+        "outputs": {"a": {"dial": "d"}},
+    }
+)
+
+
+def shown(dial: Dial) -> Any:
+    """Return the scale of a dial in the scene of a train."""
+    (found,) = make_scene(GearTrain(BASE.declaration.model_copy(update={"dials": {"d": dial}}))).dials
+    return found.scale
 
 
 def scale_of(**dial: Any) -> Any:
-    """Return the scale of a dial in the scene of a train."""
-    links = {"frame": {}, "a": {}}
-    outputs = {"a": {"dial": "d"}}
-    data = {"links": links, "revolutes": {"A": ["frame", "a"]}, "inputs": {"a": 1}, "outputs": outputs}
-    (found,) = make_scene(GearTrain.declare(data | {"dials": {"d": dial}})).dials
-    return found.scale
+    return shown(Dial(**dial))
 
 
 METONIC = scale_of(turns=5, divisions=235, cell="month")
@@ -39,7 +51,7 @@ def scales() -> Iterator[tuple[str, Any]]:
     for name in shipped.trains():
         for key, dial in shipped.train(name).declaration.dials.items():
             if dial.look == "scale":
-                yield f"{name} {key}", next(each.scale for each in shipped.scene(name).dials if each.id == key)
+                yield f"{name} {key}", shown(dial)
 
 
 @given(st.integers(1, 7), st.integers(1, 400), st.data())

@@ -186,17 +186,6 @@ def test_every_path_obeys_the_fundamental_law_and_euler_savary(
         np.testing.assert_allclose(moved, np.abs(speed), rtol=1e-5)
 
 
-@given(st.integers(6, 300), st.integers(6, 300), st.floats(5, 40), st.floats(0.1, 0.6))
-@settings(max_examples=40, deadline=None)
-def test_the_loss_of_an_involute_has_its_closed_form(z1: int, z2: int, psi: float, arc: float) -> None:
-    """loss = (A + B) J / X of either side."""
-    for angle in (None, pi / 2):
-        found = involute((z1, z2, angle), psi, (arc, arc))
-        pitch, X, tilted = found.pitch, arc * found.pitch.p, radians(psi)
-        J = X**2 / 2 if angle is None else 2 * sin(X * cos(tilted) / 2) ** 2 / cos(tilted) ** 2
-        assert loss(found) == pytest.approx((pitch.A + pitch.B) * J / X, rel=1e-12)
-
-
 WINDOWS = [
     (0, 20, 0.969836881841), (14.5, 20, 0.985303326879), (14.5, 30, 0.947207237017), (0, 30, 0.932904989785),
     (0, 45, 0.852306532505), (0, 60, 0.742625584831),

@@ -7,12 +7,14 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+import yaml
 from commands import call
 
 from geartrain import load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
-from geartrain.search.train.train_search import search_train
+from geartrain.search import search_train
+from geartrain.train import declare
 
 PAIR = """
 name: printed
@@ -155,7 +157,7 @@ def test_a_failure_by_the_sign_only_names_the_remedy(tmp_path: Path) -> None:
 def test_a_search_satisfies_what_is_printed(value: str, holds: Callable[[int, int], bool]) -> None:
     text = pair("1 d", 19, 235, f"{{published: {{value: {value}}}}}", speed="1")
     text = text.replace("a: 19", "a: {teeth: {search: [18, 22]}}").replace("b: 235", "b: {teeth: {search: [230, 240]}}")
-    found = search_train(load(text).declaration, best=1000)
+    found = search_train(declare(yaml.safe_load(text)), best=1000)
     # by enumeration
     counts = [(a, b) for a in range(18, 23) for b in range(230, 241) if holds(a, b)]
     assert sorted((each.teeth["a"], each.teeth["b"]) for each in found.solutions) == counts
@@ -167,7 +169,7 @@ def test_a_ratio_to_several_inputs_is_refused_with_its_reason() -> None:
     text = text.replace("a: 19", "a: {teeth: {search: [18, 22]}}").replace("links: {", "links: {c: {}, ")
     text = text.replace("A: [frame, a]", "A: [frame, a], C: [frame, c]").replace("inputs: {", "inputs: {c: 2, ")
     with pytest.raises(QuestionError) as refused:
-        search_train(load(text).declaration)
+        search_train(declare(yaml.safe_load(text)))
     (problem,) = refused.value.problems
     assert problem.why == "a ratio needs exactly one input that turns, and 2 turn"
 

@@ -20,7 +20,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from geartrain.drawing import render, sweep_figure, teeth_figure, triangular_figure
-from geartrain.drawing.tooth_contact import DRIVEN, DRIVER, tooth_pair_pose
+from geartrain.drawing.tooth_contact import tooth_pair_pose
 
 PAIRS = [(48, 96, 0.01), (96, 72, 0.025), (96, 96, 0.01), (15, 60, 0.02), (45, 225, 0.017), (12, 18, 0.03)]
 STANDS = (45, 225, 0.017)
@@ -83,7 +83,7 @@ def test_the_wheels_touch_and_do_not_overlap(pair: tuple[int, int, float], direc
     for interval in pair_transmission.intervals:
         for share in (0.01, 0.5, 0.99):
             here = tooth_pair_pose(pair_transmission, interval.start - share * interval.width)
-            one, two = (geometry.Polygon(here.outline(which)) for which in (DRIVER, DRIVEN))
+            one, two = (geometry.Polygon(here.outline(which)) for which in (1, 2))
             assert one.is_valid
             assert two.is_valid
             assert one.intersection(two).area < 1e-12
@@ -102,7 +102,7 @@ def test_the_few_teeth_drawn_are_all_that_are_in_view(pair: tuple[int, int, floa
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     view = geometry.box(left, bottom, right, top)
     assert axes.get_aspect() == 1.0
-    for which, name in ((DRIVER, "driver"), (DRIVEN, "driven")):
+    for which, name in ((1, "driver"), (2, "driven")):
         (few,) = drawn(figure, name)
         whole = geometry.Polygon(tooth_pair_pose(pair_transmission).outline(which)).intersection(view)
         assert geometry.Polygon(few).intersection(view).symmetric_difference(whole).area < 1e-12 * view.area

@@ -14,8 +14,7 @@ from sampling import few_or_many
 from scipy.optimize import linprog
 
 from geartrain.numerics import decimal
-from geartrain.numerics.elimination import TooDenseError, add_into, eliminate, feasible
-from geartrain.numerics.exact import watts_text
+from geartrain.numerics.elimination import TooDenseError, eliminate, feasible
 
 SAMPLE = few_or_many(30, 60)  # systems of each law; `--slow` draws new ones, and twice as many
 coefficients = st.fractions(min_value=-5, max_value=5, max_denominator=4)
@@ -58,7 +57,9 @@ def test_forms_are_free_of_pivots_and_satisfy_every_row(rows: list[dict[int, Fra
     for row in rows:
         put_in: dict[int, Fraction] = {}
         for column, value in row.items():
-            add_into(put_in, forms.get(column, {column: Fraction(1)}), value)
+            for other, factor in forms.get(column, {column: Fraction(1)}).items():
+                put_in[other] = put_in.get(other, Fraction(0)) + value * factor
+        put_in = {column: value for column, value in put_in.items() if value}
         assert all(column < 0 for column in put_in), "what is left is a condition on symbols"
         assert len(echelon([*conditions, *dense([put_in], [-1, -2])], 2)) == rank, "and follows from the conditions"
 
@@ -98,11 +99,3 @@ def test_forms_can_all_be_kept_above_zero_where_linear_programming_says_so(rows:
     # the constant stands in the column -1; in floats: is there an x with matrix x >= -constant
     truth = linprog(np.zeros(3), A_ub=-matrix[:, 1:], b_ub=matrix[:, 0], bounds=(None, None), method="highs")
     assert feasible(forms) == (truth.status == 0)
-
-
-@pytest.mark.parametrize(
-    ("amount", "text"),
-    [(0.0, "0 W"), (2.5e-3, "2.5 mW"), (183.42, "183.4 W"), (-26419.9, "-26.42 kW"), (3e7, "30 MW"), (4e-9, "4 nW")],
-)
-def test_watts_have_prefixes(amount: float, text: str) -> None:
-    assert watts_text(amount) == text

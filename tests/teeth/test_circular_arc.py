@@ -18,7 +18,6 @@ from shapely.geometry import Polygon
 
 import geartrain
 from geartrain import GearTrain, load
-from geartrain.dynamics.motion.pair_impacts import PairOperation, find_pair_impacts
 from geartrain.errors import GearTrainError
 from geartrain.report import collect_report, describe_train, to_markdown
 from geartrain.scene import ManufacturingSizes, SolidModel
@@ -163,17 +162,6 @@ def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
     falls = -np.diff(transmission.speed(S)) / np.diff(S)
     assert transmission.steepest_fall() == pytest.approx(falls.max(), rel=1e-3)
     assert transmission.reversed_motion().steepest_fall() == transmission.steepest_fall()
-
-
-def test_collisions_of_any_form_cost_what_inelastic_impacts_do() -> None:
-    transmission, inertia, rate = FORM.transmission(60, 8), 3e-7, 2.0
-    found = find_pair_impacts(transmission, PairOperation(inertia, rate, load=1e-3))
-    (leap,), omega = transmission.speed_leaps(), 2 * pi * rate
-    assert found is not None
-    assert found.dissipated == pytest.approx(inertia * (omega * (leap.after - leap.before)) ** 2 / 2)
-    assert found.handed == pytest.approx(inertia * omega**2 * (leap.after**2 - leap.before**2) / 2)
-    assert inertia * (2 * pi * found.void) ** 2 * transmission.steepest_fall() == pytest.approx(1e-3)
-    assert find_pair_impacts(transmission, PairOperation(rate=rate)) is None
 
 
 def test_friction_costs_and_no_friction_costs_nothing() -> None:

@@ -8,7 +8,6 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from geartrain.errors import RangeError
 from geartrain.numerics.periodic_function import (
     HarmonicSeries,
     PeriodicFunction,
@@ -140,28 +139,3 @@ def test_breakpoints_of_parts_that_coincide_but_for_rounding_are_one() -> None:
     whole = PeriodicSum(parts, 2.1)
     assert len(whole.breakpoints) == 21
     assert whole.extremes()[1] == pytest.approx(2, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("positions", "interpolation", "message"),
-    [
-        ([0, 0.5, 0.4], "pchip", "not above"),
-        ([0, 0.5, 0.5], "pchip", "not above"),
-        ([0, 0.5, 1.0], "linear", "outside the period"),
-        ([-0.1, 0.5, 0.6], "linear", "outside the period"),
-        ([0, 0.3, 0.6], "cubic", "not enough points"),
-        ([0, 0.3, float("nan")], "pchip", "not finite"),
-        ([0, 0.3, 0.6], "quintic", "not an interpolation"),
-    ],
-)
-def test_points_that_define_no_periodic_function_are_refused(
-    positions: list[float], interpolation: str, message: str
-) -> None:
-    with pytest.raises(RangeError, match=message):
-        PeriodicTable(positions, [0.0, 1.0, 0.5], 1.0, interpolation)  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize("n", [0, -1, 1.5])
-def test_orders_that_are_not_whole_numbers_are_refused(n: int) -> None:
-    with pytest.raises(RangeError, match="whole numbers"):
-        HarmonicSeries([(n, 0.1, 0.0)], 1.0)

@@ -216,7 +216,9 @@ class GearTrain:
         >>> [line for line in str(document).splitlines() if line.startswith("| carrier | 2/7")]
         ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
         """
-        return imported_function("report", "describe_train")(imported_function("report", "collect_report")(self))
+        return imported_function("report.train_report", "describe_train")(
+            imported_function("report.train_data", "collect_report")(self)
+        )
 
     def draw(
         self,

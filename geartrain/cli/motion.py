@@ -108,7 +108,7 @@ def run(
         of = train.name, state, partial(separation_rates, train, state, without or ())
         _report(requested, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
     if plot is not None:
-        from geartrain.drawing import motion_figure
+        from geartrain.drawing.output_error_plots import motion_figure
 
         with progress("drawing", samples) as bar:
             title = f"{train.name}: motion over {requested.turns:g} turns of {motion._problem.driving_link}"

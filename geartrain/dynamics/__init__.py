@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.torque_cycle import PlaceInRun as PlaceInRun
     from geartrain.dynamics.turn.torque_cycle import TorqueCycle as TorqueCycle
     from geartrain.dynamics.turn.torque_cycle import TorqueExtreme as TorqueExtreme
-    from geartrain.dynamics.turn.train_turn import find_torque_period as find_torque_period
 
 __getattr__, __all__ = public_names(
     __name__,
@@ -63,6 +62,5 @@ __getattr__, __all__ = public_names(
         "Torques",
         "train_mechanics": "TrainMechanics",
         "turn.torque_cycle": "CycleEnergy PairCycle PlaceInRun TorqueCycle TorqueExtreme",
-        "turn.train_turn": "find_torque_period",
     },
 )

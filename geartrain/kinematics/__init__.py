@@ -35,11 +35,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
     from geartrain.kinematics.circuits.fundamental import WillisEquation as WillisEquation
-    from geartrain.kinematics.graph import adjacency_labels as adjacency_labels
-    from geartrain.kinematics.graph import adjacency_matrix as adjacency_matrix
-    from geartrain.kinematics.graph import to_dot as to_dot
-    from geartrain.kinematics.graph import to_graphml as to_graphml
-    from geartrain.kinematics.graph import to_json as to_json
     from geartrain.kinematics.gridlock.removal import Gridlock as Gridlock
     from geartrain.kinematics.gridlock.removal import LockedSubgraph as LockedSubgraph
     from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
@@ -63,7 +58,6 @@ __getattr__, __all__ = public_names(
     {
         "answer": "Answer Loop Verdict",
         "circuits.fundamental": "Circuit WillisEquation",
-        "graph": "adjacency_labels adjacency_matrix to_dot to_graphml to_json",
         "gridlock.removal": "Gridlock LockedSubgraph MeshRemoval",
         "judged_outputs": "OutputResult Sensitivity TargetResult",
         "levers": "Lever find_levers",

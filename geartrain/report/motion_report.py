@@ -75,10 +75,6 @@ class OutputMotion:
 class MotionFigures(Result):
     """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state;
     angles in rad, and travels of links that slide in mm.
-
-    See Also
-    --------
-    collect_motion : Return the results of a motion run.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -143,36 +139,7 @@ class UnfollowedMotion:
 
 
 def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any = None) -> MotionFigures:
-    """Return the results of a motion run for each output.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run after a call of `run` and, if their results are wanted, of `run_random_phases`, `find_estimates` or
-        `find_spectra`.
-    name : str
-        Name of the train.
-    state : str or None
-        Name of the requested state.
-    separation : geartrain.simulation.SeparationRates, optional
-        Speeds of the input at which teeth first separate.
-
-    Returns
-    -------
-    MotionFigures
-        Results whose `to_dict` is the answer of `geartrain motion --json`.
-
-    Examples
-    --------
-    Teeth change the speed of the moon within a turn of the crank, but never its mean, 254/19 in a year of 5 turns:
-
-    >>> import geartrain
-    >>> from geartrain.dynamics import MotionRun
-    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=1.0, samples=101)
-    >>> run.run()
-    >>> collect_motion(run, "moon-triangular", None).to_dict()["outputs"]["moon"]["ratio"]
-    '254/95'
-    """
+    """Return the results of a motion run for each output."""
     motion = run.motion
     # pairs that drive no output are not reported
     used = {source.id for source in motion._forward.used}
@@ -260,33 +227,7 @@ _ROUNDING = 1e-13  # rad: smaller deviations are rounding errors
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
-    """Return a document on the deviation and speed of each output over a run, with the further requested results.
-
-    Parameters
-    ----------
-    found : MotionFigures
-        Result of `collect_motion`.
-    every_output : bool
-        True to show the contributions of each pair to all outputs, in several tables if necessary. By default they are
-        shown for the first eight outputs that are affected by pairs, and the other outputs are named.
-
-    Returns
-    -------
-    Document
-        Document with deviations in degrees, mean speeds relative to the input speed, and minimum and maximum speeds
-        relative to the mean.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.dynamics import MotionRun
-    >>> from geartrain.report import collect_motion
-    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=1.0, samples=101)
-    >>> run.run()
-    >>> page = describe_motion(collect_motion(run, "moon-triangular", None))
-    >>> [section.title for section in page.sections]
-    ['Outputs', 'Pairs']
-    """
+    """Return a document on the deviation and speed of each output over a run, with the further requested results."""
     run = found.run
     train, period = run.motion._problem, run.motion.period
     summary = [

@@ -20,10 +20,11 @@ from test_words_in_pictures import faults_of
 
 from geartrain import GearTrain
 from geartrain import load as load_text
-from geartrain.drawing import motion_figure, torque_cycle_figure
+from geartrain.drawing.output_error_plots import motion_figure, torque_cycle_figure
 from geartrain.dynamics import MotionRun
 from geartrain.errors import QuestionError
-from geartrain.workshop import BudgetQuestion, budget_figure, find_budget, find_trial_plan, read_error_overrides
+from geartrain.workshop import BudgetQuestion, find_budget, find_trial_plan, read_error_overrides
+from geartrain.workshop.budget.budget_bars import budget_figure
 
 SHORT = {"turns": 0.5, "samples": 501}
 SCREEN = 9.0, 9.0  # inches, 900 pixels

@@ -425,7 +425,7 @@ def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
 
 
 def test_the_picture_shows_where_a_pointer_goes_back() -> None:
-    from geartrain.drawing import motion_figure
+    from geartrain.drawing.output_error_plots import motion_figure
 
     year = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
     labels = [panel.get_ylabel() for panel in year.axes]

@@ -18,7 +18,8 @@ from models import PAIR, PLANETARY
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import MotionRun
-from geartrain.report import collect_report, describe_train, to_markdown
+from geartrain.report import collect_report, to_markdown
+from geartrain.report.train_report import describe_train
 from geartrain.teeth import GearMesh
 from geartrain.teeth.conjugate import ConjugateTransmission
 

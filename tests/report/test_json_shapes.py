@@ -14,7 +14,7 @@ from commands import HEAVY, LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator, SchemaError
 from sampling import all_but
 
-from geartrain.report import answer_schema, describe_answer
+from geartrain.report.json_schema import answer_schema, describe_answer
 
 ANSWERS = answer_schema()["$defs"]
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")

@@ -143,7 +143,8 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
     """As `geartrain draw`, `view` and `report` write them; each picture is drawn once."""
     import geartrain
     from geartrain.drawing import picture, render
-    from geartrain.report import Picture, collect_report, describe_shared_page, to_html
+    from geartrain.report import Picture, collect_report, to_html
+    from geartrain.report.train_report import describe_shared_page
     from geartrain.scene import build_scene
     from geartrain.viewer import page
 

@@ -224,7 +224,7 @@ class MotionRun(Tabular, Pictured):
 
     PAGE = "report.motion_report:motion_document"
 
-    FIGURE = "motion_figure"
+    FIGURE = "drawing.output_error_plots:motion_figure"
 
     motion: Motion
     """Motion that the run evaluates."""

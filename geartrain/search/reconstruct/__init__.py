@@ -40,7 +40,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion as EvidenceQuestion
@@ -57,7 +57,6 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction_problem import SearchedDial as SearchedDial
     from geartrain.search.reconstruct.reconstruction_problem import SurvivingArbor as SurvivingArbor
     from geartrain.search.reconstruct.reconstruction_problem import SurvivingWheel as SurvivingWheel
-    from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction as describe_reconstruction
     from geartrain.search.reconstruct.reconstruction_search import Candidate as Candidate
     from geartrain.search.reconstruct.reconstruction_search import ExplanationCount as ExplanationCount
     from geartrain.search.reconstruct.reconstruction_search import Reconstructions as Reconstructions
@@ -66,48 +65,15 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.train_construction import candidate_train as candidate_train
     from geartrain.train.declaration_files import read_evidence as read_evidence
 
-__all__ = [
-    "Additions",
-    "Arbor",
-    "Candidate",
-    "EvidenceQuestion",
-    "ExplanationCount",
-    "PlacedWheel",
-    "PriorFactors",
-    "RankedTrain",
-    "ReconstructionAnswer",
-    "ReconstructionProblem",
-    "ReconstructionRequest",
-    "Reconstructions",
-    "SearchedDial",
-    "SurvivingArbor",
-    "SurvivingWheel",
-    "candidate_train",
-    "describe_reconstruction",
-    "draw_candidates",
-    "evidence_question",
-    "find_reconstructions",
-    "read_evidence",
-    "reconstruct",
-]
-
-_PLACES = {
-    **dict.fromkeys(("EvidenceQuestion", "evidence_question"), "evidence_translation"),
-    **dict.fromkeys(("RankedTrain", "ReconstructionAnswer", "ReconstructionRequest", "reconstruct"), "reconstruction"),
-    **dict.fromkeys(
-        (
-            *("Additions", "Arbor", "PlacedWheel", "PriorFactors", "ReconstructionProblem", "SearchedDial"),
-            *("SurvivingArbor", "SurvivingWheel"),
-        ),
-        "reconstruction_problem",
-    ),
-    **dict.fromkeys(
-        ("Candidate", "ExplanationCount", "Reconstructions", "draw_candidates", "find_reconstructions"),
-        "reconstruction_search",
-    ),
-    "candidate_train": "train_construction",
-    "describe_reconstruction": "reconstruction_report",
-    "read_evidence": "..train.declaration_files",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "evidence_translation": "EvidenceQuestion evidence_question",
+        "reconstruction": "RankedTrain ReconstructionAnswer ReconstructionRequest reconstruct",
+        "reconstruction_problem": "Additions Arbor PlacedWheel PriorFactors ReconstructionProblem SearchedDial "
+        "SurvivingArbor SurvivingWheel",
+        "reconstruction_search": "Candidate ExplanationCount Reconstructions draw_candidates find_reconstructions",
+        "train_construction": "candidate_train",
+        "..train.declaration_files": "read_evidence",
+    },
+)

@@ -63,27 +63,7 @@ _OF_KNOWN = (
 
 
 def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turning: int = 0) -> Document:
-    """Return the report of a reconstruction as a document.
-
-    Parameters
-    ----------
-    found : ReconstructionAnswer
-        Result of `reconstruct`.
-    viewer : str
-        Complete HTML page that shows animated trains.
-    turning : int
-        Number of best trains that are animated.
-
-    Returns
-    -------
-    Document
-
-    Examples
-    --------
-    >>> from geartrain.search.reconstruct import ReconstructionRequest, read_evidence, reconstruct
-    >>> describe_reconstruction(reconstruct(ReconstructionRequest(read_evidence("metonic-l-m")))).title
-    'Trains that explain metonic-l-m'
-    """
+    """Return the report of a reconstruction as a document."""
     aside = PageExtras(viewer=viewer, notes=[_TURNING] if viewer else [])
     return Document(f"Trains that explain {found.name}", list(_summary(found)), list(_sections(found, turning)), aside)
 

@@ -114,7 +114,7 @@ TRIANGULAR = ("mesh", "20", "30", "--form", "triangular")
 IN_TIME = ("--rate", "1", "--turns", "0.1", "--skip", "0", "--steps", "200", "--no-fast")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--of", "moon")
 REQUESTED: dict[str, list[tuple[str, ...]]] = {
-    "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
+    "motion": [MOTION, (*MOTION, "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
     "dynamics": [
         ("dynamics", "heavy.yaml", *IN_TIME),
         ("dynamics", "heavy.yaml", *IN_TIME, "--restitution", "0.3"),

@@ -17,12 +17,12 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and tables of quotients
 - `path_choice`: backtracking over dials, pruned by bit masks and tables of quotients
 - `path_trees`: recursive enumeration of the topologies that have one given path per dial
-- `added_counts`: choices of added counts by variable elimination and tables of products; their sums and random draws
+- `added_counts`: choices of added counts by variable elimination and tables of products; their sums
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, enumerated
 - `search_tasks`: independent tasks for any number of processes
 - `geometry_likelihood`: likelihood of measured modules, radii and distances of axes
-- `reconstruction_search`: counts, most probable candidates, random samples; equality up to the order of arbors
+- `reconstruction_search`: counts, most probable candidates; equality up to the order of arbors
 
 The answer
 - `train_construction`: a complete declaration of a candidate
@@ -60,7 +60,6 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction_search import Candidate as Candidate
     from geartrain.search.reconstruct.reconstruction_search import ExplanationCount as ExplanationCount
     from geartrain.search.reconstruct.reconstruction_search import Reconstructions as Reconstructions
-    from geartrain.search.reconstruct.reconstruction_search import draw_candidates as draw_candidates
     from geartrain.search.reconstruct.reconstruction_search import find_reconstructions as find_reconstructions
     from geartrain.search.reconstruct.train_construction import candidate_train as candidate_train
     from geartrain.train.declaration_files import read_evidence as read_evidence
@@ -72,7 +71,7 @@ __getattr__, __all__ = public_names(
         "reconstruction": "RankedTrain ReconstructionAnswer ReconstructionRequest reconstruct",
         "reconstruction_problem": "Additions Arbor PlacedWheel PriorFactors ReconstructionProblem SearchedDial "
         "SurvivingArbor SurvivingWheel",
-        "reconstruction_search": "Candidate ExplanationCount Reconstructions draw_candidates find_reconstructions",
+        "reconstruction_search": "Candidate ExplanationCount Reconstructions find_reconstructions",
         "train_construction": "candidate_train",
         "..train.declaration_files": "read_evidence",
     },

@@ -114,8 +114,6 @@ def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
     yield from missing_sections(findings.missing, found.problem.additions.wheels)
     if found.best:
         yield _best(found, turning)
-    if found.drawn:
-        yield _drawn(found)
     yield from family_section(findings.family, turning)
     yield from shared_sections(findings.marginals)
     yield from next_section(findings.next_facts)
@@ -168,12 +166,6 @@ def _best(found: ReconstructionAnswer, turning: int) -> Section:
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
         more.append("Parentheses give the ranks that trains of equal weight share.")
     return Section("Most probable trains", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
-
-
-def _drawn(found: ReconstructionAnswer) -> Section:
-    rows = [(str(one.rank), ranks_text(one.ranks), *_contents(one)) for one in found.drawn]
-    table = filled_table(("draw", "ranks", *_CONTENTS), rows, 4)
-    return Section("Random trains", ["Each train is drawn in proportion to its weight."], [table])
 
 
 _CONTENTS = ("added wheels", "meshes", "uncertain counts")

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import log10
-from random import Random
 from typing import Any, NamedTuple
 
 from geartrain.errors import Problem, QuestionError
@@ -20,11 +19,9 @@ from geartrain.search.reconstruct.path_trees import PathTrees
 from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import (
     Arbor,
-    PlacedWheel,
     ReconstructionProblem,
 )
 from geartrain.search.reconstruct.train_topology import TOPOLOGIES, AddedKind, Topology
-from geartrain.search.weighted_alternatives import draw_index
 
 _QUICK = 2
 """Maximum number of added wheels for which a search is not divided into parts."""
@@ -55,7 +52,7 @@ class OrderPart(NamedTuple):
 
 
 class TopologyTrains:
-    """Sums over the trains of the topologies of a problem, and random draws from them."""
+    """Sums over the trains of the topologies of a problem."""
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         limits = problem.additions
@@ -80,33 +77,6 @@ class TopologyTrains:
         count.
         """
         return CountTokens(topology.added).kinds(arbor, self._facts.rings, self._maximum)
-
-    def draw(self, topology: Topology, probability: Random) -> Arbor:
-        """Draw one of the trains of a topology with equal probability."""
-        parts = self.parts(topology)
-        part = parts[draw_index([part.trains for part in parts], probability)]
-        arbor = probability.choice(part.orders)
-        kinds, requested, counts = self.kinds(topology, arbor), part.open, dict[int, int]()
-        for token in _tokens(arbor):
-            counts[token], requested = self.counts.draw(requested, kinds[token], probability)
-        return _with_counts(arbor, counts)
-
-
-def _tokens(arbor: Arbor) -> Iterator[int]:
-    own = [wheel for wheel, _ in arbor.drives] + ([] if arbor.driven is None else [arbor.driven])
-    yield from (wheel.teeth for wheel in own if wheel.name is None)
-    for _, child in arbor.driven_arbors():
-        yield from _tokens(child)
-
-
-def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
-    def counted(wheel: PlacedWheel) -> PlacedWheel:
-        return wheel if wheel.name is not None else PlacedWheel(None, counts[wheel.teeth])
-
-    drives = ((counted(wheel), tuple(_with_counts(one, counts) for one in below)) for wheel, below in arbor.drives)
-    passes = tuple(_with_counts(one, counts) for one in arbor.passes)
-    driven = None if arbor.driven is None else counted(arbor.driven)
-    return Arbor(arbor.name, driven, arbor.dials, tuple(drives), passes)
 
 
 # All topologies that can explain the dials, with their numbers of choices of added counts. Paths are chosen for all

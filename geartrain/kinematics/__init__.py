@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import OutputResult as OutputResult
     from geartrain.kinematics.judged_outputs import Sensitivity as Sensitivity
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
-    from geartrain.kinematics.levers import Lever as Lever
-    from geartrain.kinematics.levers import find_levers as find_levers
     from geartrain.kinematics.phasing.mesh_phasing import DivisibilityRule as DivisibilityRule
     from geartrain.kinematics.phasing.mesh_phasing import LoopPhase as LoopPhase
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
@@ -60,7 +58,6 @@ __getattr__, __all__ = public_names(
         "circuits.fundamental": "Circuit WillisEquation",
         "gridlock.removal": "Gridlock LockedSubgraph MeshRemoval",
         "judged_outputs": "OutputResult Sensitivity TargetResult",
-        "levers": "Lever find_levers",
         "phasing.mesh_phasing": "DivisibilityRule LoopPhase MeshPhasing find_divisibility_rule",
         "speeds.float_speeds": "FloatSpeeds",
         "speeds.mobility": "Mobility",

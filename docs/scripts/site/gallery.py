@@ -70,7 +70,7 @@ def _frame(name: str) -> str:
     """A train that turns in the page; nothing where its page is not made."""
     if f"view/{name}.html" not in make():
         return ""
-    from geartrain.viewer import frame_of
+    from geartrain.viewer.viewer_page import frame_of
 
     line = frame_of(f"view/{name}.html", f"{name}, turning").replace(".html", ".html#embed", 1)
     return f'<div class="turning-frame">{line}</div>'

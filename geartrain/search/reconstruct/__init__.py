@@ -15,12 +15,12 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `train_topology`: a rooted tree without orders of arbors and counts of added wheels (an equivalence class of trains)
 - `quotient_tables`: sorted tables of quotients of added counts
 - `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and tables of quotients
-- `path_choice`: backtracking over dials, pruned by bit masks and tables of quotients
 - `path_trees`: recursive enumeration of the topologies that have one given path per dial
 - `added_counts`: choices of added counts by variable elimination and tables of products; their sums
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, enumerated
-- `search_tasks`: independent tasks for any number of processes
+- `search_tasks`: backtracking over dials, pruned by bit masks and tables of quotients; independent tasks for any number
+  of processes
 - `geometry_likelihood`: likelihood of measured modules, radii and distances of axes
 - `reconstruction_search`: counts, most probable candidates; equality up to the order of arbors
 

@@ -72,12 +72,12 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
     Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that
     carries its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`,
     `carrier`, `ratio`, `form`, `transmission`, `mesh` and `efficiency` (docs/library.md, 2). Attributes that are not
-    declared are computed when they are read, so that a train without a solution also has a graph.
+    declared are computed on first access, so that a train without a solution also has a graph.
 
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, from `GearTrain.mechanics`.
     state : str, optional
         A declared state; None only if the train has no states.
 

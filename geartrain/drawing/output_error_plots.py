@@ -72,10 +72,10 @@ class _Trace(NamedTuple):
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
     """Return a chart of the errors of outputs over a run, or curves of the motion if there is only one output.
 
-    The chart has a row for each requested output, by default for each output with a dial (for each output with a
-    target, or for all outputs, if there is none). It shows the transmission error of the teeth less its mean, without
-    the anomaly of couplings; if no tooth form with variable ratio is declared, it shows the anomaly. The curves of one
-    output are its angle with any backward motion, the same error, and the speed.
+    The chart has a row for each requested output, by default for each output with a dial; if there is none, for each
+    output with a target; otherwise for all outputs. It shows the transmission error of the teeth minus its mean,
+    without the anomaly of couplings; if no tooth form with variable ratio is declared, it shows the anomaly. The curves
+    of one output are its angle with any backward motion, the same error, and the speed.
 
     Parameters
     ----------
@@ -83,14 +83,14 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
         Run that defines outputs, turns and positions. The motion is computed again, so `run.run` need not have been
         called.
     on_done : callable
-        Called with the number of positions computed since the previous call.
+        Progress function, called with the number of positions computed since the previous call.
     title : str
         Title above the picture.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Errors [deg, or mm for links that slide] of at most `MOST_ROWS` outputs, the largest error at the top, with
+        Errors [deg, or mm for links that slide] of at most `MOST_ROWS` outputs, in descending order from the top, with
         their ranges also in days if the train has a unit of time. Curves are plotted against turns of the input.
 
     Examples
@@ -275,7 +275,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     r"""Return a figure of the requested torque over a run, with its mean and extremes.
 
     A chart below the torque shows the mean and the range of the losses of gear pairs, couplings and bearings, if there
-    are any, the largest at the top.
+    are any, in descending order from the top.
 
     Parameters
     ----------

@@ -119,9 +119,9 @@ def triangular_figure(transmission: TriangularTransmission, friction: PairFricti
     """Draw driven angle, speed ratio, sliding efficiency and moment arms of a pair with triangular teeth against
     the angle of the driver.
 
-    Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11), thick lines the real path of
-    all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position of
-    the instant centre. Moment arms are relative to the pitch radii of the mean ratio; the moment arm of the driven
+    Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11); thick lines show the real path
+    of all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position
+    of the instant centre. Moment arms are relative to the pitch radii of the mean ratio; the moment arm of the driven
     wheel is dashed.
 
     Parameters

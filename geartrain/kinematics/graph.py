@@ -73,7 +73,7 @@ def adjacency_labels(train: Train) -> list[list[str]]:
     Parameters
     ----------
     train : Train
-        `GearTrain.declaration`.
+        Declaration of the train, from `GearTrain.declaration`.
 
     Returns
     -------
@@ -113,7 +113,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
     Parameters
     ----------
     graph : networkx.MultiGraph
-        `GearTrain.graph`.
+        Graph of the train, from `GearTrain.graph`.
     kinds : iterable of str
         Kinds of edges to count: revolute, prismatic, gear, or kinds of couplings; by default all.
 
@@ -144,12 +144,13 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Return the graph as Graphviz text: turning pairs thin, gear pairs thick, couplings dashed, the frame as a box.
+    """Return the graph as Graphviz text. Turning pairs are thin edges, gear pairs thick, couplings dashed; the frame is
+    a box.
 
     Parameters
     ----------
     graph : networkx.MultiGraph
-        `GearTrain.graph`.
+        Graph of the train, from `GearTrain.graph`.
 
     Returns
     -------
@@ -174,13 +175,13 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also name their wheels, couplings
-    their pin and slot.
+    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also contain the names of their
+    wheels, and couplings those of their pin and slot.
 
     Parameters
     ----------
     graph : networkx.MultiGraph
-        `GearTrain.graph`.
+        Graph of the train, from `GearTrain.graph`.
 
     Returns
     -------
@@ -200,13 +201,13 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also name their wheels, couplings
-    their pin and slot.
+    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also contain the names of their
+    wheels, and couplings those of their pin and slot.
 
     Parameters
     ----------
     graph : networkx.MultiGraph
-        `GearTrain.graph`.
+        Graph of the train, from `GearTrain.graph`.
 
     Returns
     -------

@@ -187,8 +187,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """Prescriptions (inputs, brakes and locks) of each state, by name, None for a train without states; locks are
-        expressed joint by joint.
+        """Prescriptions (inputs, brakes and locks) of each state, by name of the state (None for a train without
+        states). Locks are expressed joint by joint.
         """
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
@@ -278,7 +278,7 @@ class TrainKinematics(Shown):
         Parameters
         ----------
         case : StateCase
-            Prescriptions with locks joint by joint, as in `cases`.
+            Prescriptions, with locks given joint by joint, as in `cases`.
         """
         return self._system(self.whole, case)
 

@@ -58,7 +58,7 @@ class VaryingCoupling(Result):
     speed_ratio: tuple[float, float]
     """Minimum and maximum speed ratio, with the sign of the mean ratio taken as positive."""
     at_once: bool
-    """True if the driven link moves in instantaneous steps; its speed ratio is then the ratio between the steps."""
+    """True if the driven link moves in instantaneous steps; its speed ratio is then the value between the steps."""
     formula: str
     """Driven angle q as a function of the driver's angle S; empty without a closed form."""
 

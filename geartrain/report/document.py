@@ -66,7 +66,7 @@ class SceneText(str):
 
 @dataclass(frozen=True, slots=True)
 class Table(Shown):
-    """Table of text cells with a header; the first column names the row.
+    """Table of text cells with a header. The cells of the first column name the rows.
 
     Examples
     --------

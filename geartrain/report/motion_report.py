@@ -120,7 +120,7 @@ class MotionFigures(Result):
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
     advances: Mapping[str, float]
-    """Mean speed of the link that one-way clutches drive in steps, divided by the speed of the input [1], by name."""
+    """Mean speed of each link that one-way clutches drive in steps, per unit speed of the input [1], by link."""
 
 
 @dataclass(frozen=True)
@@ -148,8 +148,8 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
     Parameters
     ----------
     run : MotionRun
-        Run after a call of `run` and, if their results are wanted, of `run_random_phases`, `find_estimates` or
-        `find_spectra`.
+        Run on which `run` was called, and `run_random_phases`, `find_estimates` or `find_spectra` if their results are
+        required.
     name : str
         Name of the train.
     state : str or None
@@ -164,7 +164,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
 
     Examples
     --------
-    Teeth change the speed of the moon within a turn of the crank, but never its mean, 254/19 in a year of 5 turns:
+    Teeth vary the speed of the moon within a turn of the crank, but not its mean, which is 254/19 per year (5 turns):
 
     >>> import geartrain
     >>> from geartrain.dynamics import MotionRun

@@ -154,7 +154,7 @@ def collect_torque_report(
 
     Examples
     --------
-    A wheel of 20 teeth needs half of the torque on its mate of 40 (docs/torques.md, equation 1):
+    The torque on a wheel of 20 teeth is half of the torque on its mate of 40 teeth (docs/torques.md, equation 1):
 
     >>> import geartrain
     >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},

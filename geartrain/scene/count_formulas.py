@@ -18,9 +18,10 @@ class CountFormula(Shown):
     """
 
     wheels: Sequence[int]
-    """Tooth counts of the formula as indices into `SceneFormulas.wheels`, repeated if equal planets share one."""
+    """Indices in `SceneFormulas.wheels` of the counts in the formula, repeated for equal planets that share a count."""
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the numerator: a coefficient as a string, and exponents parallel to `wheels`, all 0 or more."""
+    """Terms of the numerator: each has a coefficient as a string, and the power of each entry of `wheels`, 0 or
+    more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
     """Terms of the denominator, in the same form as the numerator."""
 

@@ -158,7 +158,7 @@ class CircularArc(ToothForm):
         z1, z2 : int
             Numbers of teeth of the first and of the second wheel, 5 to 10000.
         module : float, optional
-            Module [m], for lengths with a unit.
+            Module [m], required for lengths that are declared with a unit.
 
         Returns
         -------
@@ -215,7 +215,7 @@ class CircularArc(ToothForm):
         z1, z2 : int
             Numbers of teeth of both wheels.
         module : float, optional
-            Module [m], for a distance with a unit.
+            Module [m], required for a distance that is declared with a unit.
 
         Returns
         -------
@@ -242,7 +242,7 @@ class CircularArc(ToothForm):
         direction : {1, -1}
             Direction of rotation; with -1 the coast flanks drive.
         module : float, optional
-            Module [m], for lengths with a unit.
+            Module [m], required for lengths that are declared with a unit.
 
         Returns
         -------

@@ -208,16 +208,16 @@ class _OneOrSeveral:
 class GivenError(ToothForm):
     """Given transmission error of a gear pair, from a measurement or a calculation, instead of the shape of its teeth.
 
-    Errors are added. They refer to the angle of the wheel `driver`. If the other wheel drives, its transmission
-    function is the inverse function.
+    All given errors are added. They are functions of the angle of the wheel `driver`. If the other wheel drives, its
+    transmission function is the inverse function.
 
     See Also
     --------
-    geartrain.GearTrain.with_tooth_form : also accepts a transmission function of Python.
+    geartrain.GearTrain.with_tooth_form: also accepts a transmission function written in Python.
 
     Examples
     --------
-    A pinion of 20 teeth with its centre 0.2 modules off its axis drives a wheel of 60.
+    A pinion of 20 teeth, whose centre is 0.2 modules off its axis, drives a wheel of 60 teeth.
 
     >>> from math import degrees
     >>> runout = GivenError(form="table", eccentricity=["0.2", "0"])

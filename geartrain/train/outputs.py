@@ -170,8 +170,8 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a single
-    string instead of a mapping is their style.
+    """Numerals at the lines between the divisions of a dial; the last numeral is at the zero mark. In a declaration, a
+    single string instead of a mapping is their style.
 
     See Also
     --------
@@ -384,7 +384,7 @@ class Dial(Graduation):
 
     @property
     def circle(self) -> tuple[float, float, float] | None:
-        """Centre (right, up) and radius [mm] on its face; None if one of them is not declared."""
+        """Centre (right, up) and radius of the dial on its face [mm]; None if one of these values is not declared."""
         if self.centre is None or self.diameter is None:
             return None
         x, y = (float(millimetres(each)) for each in self.centre)

@@ -55,7 +55,7 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
 
     Examples
     --------
-    Of five counts of a sun one gives the declared speeds:
+    Only one of five counts of a sun gives the declared speeds:
 
     >>> from geartrain.train.declaration_files import read_declaration
     >>> from geartrain.search import infer_counts

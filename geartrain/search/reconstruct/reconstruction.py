@@ -185,7 +185,7 @@ class ReconstructionAnswer(Result):
     joined: Joined = field(default_factory=dict)
     """Links that form one arbor because given couplings connect them, by the name of the arbor."""
     drawn: tuple[RankedTrain, ...] = ()
-    """Randomly sampled trains. Their field `rank` is the number of the draw."""
+    """Randomly sampled trains. The field `rank` of a train is the number of its draw."""
     known: tuple[KnownRank, ...] = ()
     """Ranks of the known trains, or the rules that they break."""
     evidence: Train | None = None

@@ -34,9 +34,9 @@ def budget_figure(found: TrainBudget) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Figure with sizes on a logarithmic axis [deg]; open marks are declared in part, and causes below 0.01 % of the
-        largest have no mark. Confidence intervals of 95 % are lines. The sum of the causes [deg] and its time [d] are
-        next to the rows.
+        Figure with sizes on a logarithmic axis [deg]. An open mark is a cause whose data are only partly declared;
+        causes below 0.01 % of the largest have no mark. Lines are 95 % confidence intervals. The sum of the causes
+        [deg] and its time [d] are next to the rows.
 
     Raises
     ------

@@ -72,12 +72,11 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     findings : MonteCarloResult
         Trials, with the study that the figure shows.
     picture : {"errors", "course", "convergence", "sobol", "pairs", "map"}
-        "errors": median and central ranges of each pointer's error at random positions of the input; by default only
-        of outputs with a dial. "course": bands of the pointer errors along one revolution, for each output that was
-        computed. "convergence": probability of a jam against the
-        number of trials. "sobol": Sobol indices of the first output by wheel, or by kind of error if only these were
-        computed. "pairs": variance shares by pair, from superposition. "map": probability of a jam against clearance
-        and scale of the errors.
+        "errors": median and central ranges of the error of each pointer, by default of each pointer with a dial, at
+        random positions of the input. "course": bands of the pointer errors along one revolution, for each output that
+        was computed. "convergence": probability of a jam against the number of trials. "sobol": Sobol indices of the
+        first output by wheel, or by kind of error if only these were computed. "pairs": variance shares by pair, from
+        superposition. "map": probability of a jam against clearance and scale of the errors.
 
     Returns
     -------
@@ -190,7 +189,8 @@ def _bands(errors: Floats) -> Floats:
 
 
 def error_figure(trials: TrialResults) -> Figure:
-    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error, the widest range at the top.
+    """Draw the median and the central 50 and 95 % ranges of the error of each shown pointer, with the widest range at
+    the top.
 
     Raises `QuestionError` if a pointer has no errors.
     """

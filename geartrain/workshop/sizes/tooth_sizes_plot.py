@@ -93,7 +93,7 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train by the best tooth sizes, the worst declared pair at the top.
+    """Draw the improvement of each pair of a train by the best tooth sizes, beginning with the worst declared pair.
 
     Parameters
     ----------
@@ -103,8 +103,8 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Figure with a line for each pair, from its declared value to the value that is best for the train. The title
-        contains the objective of the train before and after the optimisation.
+        Figure with a line for each pair, from the value with its declared sizes to the value with the best sizes for
+        the train. The title contains the objective of the train before and after the optimisation.
 
     Examples
     --------

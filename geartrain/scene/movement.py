@@ -155,8 +155,8 @@ def tables_and_sources(
     """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
     table.
 
-    way -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, and a
-    scene counts them about declared axes
+    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, and
+          a scene counts them about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     sources = []

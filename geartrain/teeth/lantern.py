@@ -32,7 +32,7 @@ class Lantern(ConjugateToothForm):
 
     See Also
     --------
-    geartrain.teeth.Cycloidal: teeth of the mate in the limit of zero pin diameter.
+    geartrain.teeth.Cycloidal : teeth of the mate in the limit of zero pin diameter.
 
     Examples
     --------

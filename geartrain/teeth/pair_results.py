@@ -127,7 +127,7 @@ class SlidingEfficiency(Result):
 
     See Also
     --------
-    geartrain.teeth.GearMesh.efficiency: the efficiency of a pair of a train, with either wheel as driver.
+    geartrain.teeth.GearMesh.efficiency : the efficiency of a pair of a train, with either wheel as driver.
 
     Examples
     --------

@@ -50,7 +50,7 @@ Position = Annotated[Quantity, Dimension("angle", plain=True)]
 
 
 class PeriodicPoints(BaseModel):
-    """Points of a periodic quantity of a gear pair, base class."""
+    """Base class of periodic quantities of a gear pair that are given by points."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
@@ -161,8 +161,8 @@ class EfficiencyTable(PeriodicPoints):
 
 
 class LiveFunction:
-    """Transmission function of Python in a tooth form. A declaration as plain data contains its name, which can be read
-    only while the object exists.
+    """Transmission function written in Python, as part of a tooth form. A declaration as plain data contains its name,
+    which can be read only while the object exists.
     """
 
     _living: ClassVar[WeakValueDictionary[str, LiveFunction]] = WeakValueDictionary()
@@ -178,7 +178,7 @@ class LiveFunction:
 
     @classmethod
     def read(cls, raw: object) -> LiveFunction:
-        """Return a function given as an object of Python, or by its name in plain data."""
+        """Return a function given as a Python object, or by its name in plain data."""
         from geartrain.teeth.given_transmission import TransmissionProtocol
 
         found = cls._living.get(raw, raw) if isinstance(raw, str) else raw
@@ -213,7 +213,7 @@ class GivenError(ToothForm):
 
     See Also
     --------
-    geartrain.GearTrain.with_tooth_form: also accepts a transmission function written in Python.
+    geartrain.GearTrain.with_tooth_form : also accepts a transmission function written in Python.
 
     Examples
     --------

@@ -21,8 +21,9 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 def taper(cone: float, radius: float, thickness: float) -> float:
     """Return the size of a bevel wheel's teeth at the small end divided by its size at the large end, from 0.55 to 1.
 
-    cone half angle of its pitch cone [rad], above 0; a right angle for a crown wheel radius pitch radius at the large
-    end [mm] thickness face width along the cone [mm]
+    cone        half angle of its pitch cone [rad], above 0; a right angle for a crown wheel
+    radius      pitch radius at the large end [mm]
+    thickness   face width along the cone [mm]
     """
     # the cone distance is radius / sin(cone)
     return 1 - min(_MOST_FACE, thickness * sin(cone) / radius)
@@ -31,8 +32,8 @@ def taper(cone: float, radius: float, thickness: float) -> float:
 def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> float:
     """Return the distance between a point of a tooth and the plane of the pitch circle [mm], positive towards the apex.
 
-    depth height above the pitch cone, along the back cone at the large end [mm] scale 1 at the large end, `taper` at
-    the small end
+    depth   height above the pitch cone, along the back cone at the large end [mm]
+    scale   1 at the large end, `taper` at the small end
     """
     apex = radius / tan(cone)
     return apex + (depth * sin(cone) - apex) * scale

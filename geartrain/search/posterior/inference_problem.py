@@ -92,9 +92,10 @@ def build_inference_problem(
 ) -> InferenceProblem:
     """Build the inference problem of a train in one state, or in all its states at once.
 
-    outputs outputs used as evidence and reported; by default all tolerance relative tolerance of targets that do not
-    declare a tolerance against kinds of observations that are used: "targets", "figures" (`expect` and `published`), or
-    "all" scale factor of every tolerance
+    outputs     outputs used as evidence and reported; by default all
+    tolerance   relative tolerance of targets that do not declare a tolerance
+    against     kinds of observations that are used: "targets", "figures" (`expect` and `published`), or "all"
+    scale       factor of every tolerance
 
     Raise `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if no output that
     depends on uncertain counts has a known speed, and for trains that never turn.

@@ -26,7 +26,7 @@ _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflo
 
 
 class PinTransmission(SeriesTransmission):
-    """Transmission function of a pin in a slot or in a follower, with either side driving.
+    """Transmission function of a coupling by pin and slot, with either side driving.
 
     With the pin driving it is a `SeriesTransmission` with rho = min(r, e) / max(r, e). With the slot driving it is the
     inverse function, which has the same maximum and the same rms of the error.
@@ -101,7 +101,7 @@ class PinToSlotTransmission(PinTransmission):
 
     See Also
     --------
-    geartrain.teeth.SlotToPinTransmission: the same coupling, driven by the slot.
+    geartrain.teeth.SlotToPinTransmission : the same coupling, driven by the slot.
 
     Examples
     --------
@@ -173,7 +173,7 @@ class SlotToPinTransmission(PinTransmission):
 
     See Also
     --------
-    geartrain.teeth.PinToSlotTransmission: the same coupling, driven by the pin.
+    geartrain.teeth.PinToSlotTransmission : the same coupling, driven by the pin.
 
     Examples
     --------

@@ -143,7 +143,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     Returns
     -------
     WheelOutline
-        Outline at scale 1:1.
+        Outline at full scale (1:1).
 
     Raises
     ------

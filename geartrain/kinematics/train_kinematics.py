@@ -543,8 +543,8 @@ class TrainKinematics(Shown):
         )
 
     def _seen(self, relative: Relative) -> Relative:
-        """Return the function for relative speeds with the comparable motion of the second link: a turning link turns
-        relative to a sliding one as it does relative to what carries that.
+        """Return the function for relative speeds in which the second link is replaced by the nearest link with a
+        comparable motion (`Tree.reference`): for a turning link, the nearest link that turns.
         """
         return lambda of, base: relative(of, self.tree.reference(of, base))
 

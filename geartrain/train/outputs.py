@@ -326,7 +326,8 @@ DEPTH = 0.26
 """Depth of the engraving of a circle, relative to the radius of the dial."""
 
 Place = tuple[MeasuredLength, MeasuredLength]
-"""Point of a face as seen by its reader: to the right and upwards from the origin of the axis positions."""
+"""Position of a point on a face, as its reader sees it: distances to the right and upwards from the origin of the axis
+positions."""
 
 
 class FacePlate(Declared):

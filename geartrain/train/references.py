@@ -126,7 +126,8 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
 
 
 def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem if a printed period needs a unit of time, or the length of its years, that the train has not."""
+    """Yield a problem if a printed period needs a unit of time, or the length of its years, that the train does not
+    have."""
     printed = published.value
     if not isinstance(printed, PrintedPeriod):
         return
@@ -154,7 +155,8 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
 
 
 def set_outputs(train: Train) -> Iterator[Problem]:
-    """Yield problems of links that outputs set twice at the epoch, or after an output that is relative to them."""
+    """Yield problems of links whose position at the epoch is set by two outputs, or by an output after one that is
+    relative to them."""
     used: dict[str, str] = {}  # links that are set or referred to, with the output
     for name, output in train.outputs.items():
         of, base = output.links(name, train.frame)
@@ -507,7 +509,7 @@ def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Ite
 
 
 def _dials(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each two dials of a face whose engravings overlap; a dial may be inside another scale."""
+    """Yield a problem for each pair of dials of a face whose engravings overlap; a dial may be inside another scale."""
     for (name, dial), (other, mate) in combinations(train.dials.items(), 2):
         one, two = dial.circle, mate.circle
         if one is None or two is None or (dial.face == "back") != (mate.face == "back"):

@@ -216,7 +216,8 @@ class Motion(Shown):
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns against the declared sense, with the coast flanks driving."""
+        """Composition of the errors while the input turns against the declared sense, with the coast flanks in
+        contact."""
         return self._composed(-1)
 
     @cached_property
@@ -354,7 +355,7 @@ class Motion(Shown):
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
         """Yield the errors at equally spaced positions from 0 to `turns`, both included, in chunks that fit in memory.
 
-        turns   revolutions of the input; negative against the declared sense, with the coast flanks driving
+        turns   revolutions of the input; if negative, it turns against its declared sense, on the coast flanks
         first   index of the first position
         """
         sampler = self._sampler(turns)
@@ -365,7 +366,7 @@ class Motion(Shown):
             yield sampler.at(turns * (at / (samples - 1)))
 
     def _composition(self, turns: float) -> ErrorComposition:
-        """Return the error composition of a run, with the coast flanks driving if `turns` is negative."""
+        """Return the error composition of a run, with the coast flanks in contact if `turns` is negative."""
         return self._forward if turns >= 0 else self._backward
 
     def _sampler(self, turns: float) -> ErrorSampler:

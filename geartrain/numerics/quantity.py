@@ -491,7 +491,7 @@ def millimetres(length: Quantity) -> Fraction:
 
 
 TRAVEL_ARM = 1 / (2000 * PI)
-"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is calculated as a link that turns once for each
+"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is treated as a link that turns once for each
 millimetre of its travel, with its forces at this arm."""
 
 

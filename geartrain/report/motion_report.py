@@ -484,7 +484,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
-    """Yield a section on the couplings that move by steps; nothing if there are none."""
+    """Yield a section on the couplings that move in steps; nothing if there are none."""
     rows = []
     for source in motion._forward.used:
         transmission = source.transmission

@@ -174,7 +174,7 @@ class ProbabilityLimit:
 
     See Also
     --------
-    find_tooth_sizes : Evaluates the limit for a few designs, beginning with the best.
+    find_tooth_sizes : Evaluate the limit for a few designs, beginning with the best.
     """
 
     bound: float

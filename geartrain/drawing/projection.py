@@ -431,7 +431,7 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw the side view of a train from its left: as high as the plan, layers side by side, with the reader on the
+    """Draw a train from its left side, as high as the plan, with its layers side by side and the reader on the
     right."""
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}

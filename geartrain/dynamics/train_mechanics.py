@@ -84,8 +84,7 @@ class TrainMechanics(Shown):
 
     @property
     def planets_as_one(self) -> TrainMechanics:
-        """Train in which one planet of each set has the total inertia and stiffness of the set; self without repeated
-        planets."""
+        """Train in which one planet has the inertia and stiffness of all its copies; self if there are no copies."""
         return self._as_one if has_copies(self.declaration) else self
 
     @cached_property

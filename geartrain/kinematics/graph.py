@@ -144,8 +144,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Return the graph as Graphviz text. Turning pairs are thin edges, gear pairs thick, couplings dashed; the frame is
-    a box.
+    """Return the graph as Graphviz text: turning pairs thin, gear pairs thick, couplings dashed; the frame is a box.
 
     Parameters
     ----------

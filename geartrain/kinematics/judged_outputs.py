@@ -62,8 +62,7 @@ class TargetResult(Result):
 
     Examples
     --------
-    The Moon pointer of the Antikythera mechanism makes 254 revolutions in 19 years; the Moon makes 13.36826 in one
-    year:
+    The Moon pointer of the Antikythera mechanism makes 254 revolutions in 19 years, and the Moon 13.36826 per year:
 
     >>> import geartrain
     >>> target = geartrain.load("freeth-2008").solve().outputs["moon"].targets[0]

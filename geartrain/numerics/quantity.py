@@ -418,8 +418,7 @@ class Quantity:
             A quantity such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
             Required dimension: length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure,
-            torsional stiffness, stiffness, torsional damping, damping or fraction; a string such as "time or length"
-            allows two.
+            torsional stiffness, stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
             True to allow a number without a unit; 0 is always allowed.
 

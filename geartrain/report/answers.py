@@ -137,8 +137,7 @@ def _is_clock(declared: Train) -> bool:
 
 
 def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, str, str]:
-    """Return a target as a string, the error in ppm, and the error in days per century (for clocks, in seconds per
-    day)."""
+    """Return a target as a string, the error in ppm, and the error in days per century (in s/day for clocks)."""
     if target is None:
         return "", "", ""
     wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)

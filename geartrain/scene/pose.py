@@ -49,8 +49,7 @@ class ScenePose:
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the exact turns of a body at a relative speed (None counts as 0) after `turns` turns of the driving
-    link."""
+    """Return the exact turns of a body at a relative speed (None counts as 0) after `turns` of the driving link."""
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 

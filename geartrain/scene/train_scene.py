@@ -288,8 +288,7 @@ class Scene(Shown):
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link, and for a
-    simulated run.
+    """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
     """
     tour: Sequence[TourStop] = ()
     """Tour of the train, as declared."""

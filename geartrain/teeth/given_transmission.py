@@ -311,8 +311,7 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
 
 
 def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
-    """Return the efficiency of a transmission function written in Python, equal for both driving wheels; None without
-    losses.
+    """Return the efficiency of a transmission function given in Python, for both driving wheels; None without losses.
 
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """

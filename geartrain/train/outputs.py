@@ -326,8 +326,7 @@ DEPTH = 0.26
 """Depth of the engraving of a circle, relative to the radius of the dial."""
 
 Place = tuple[MeasuredLength, MeasuredLength]
-"""Position of a point on a face, as its reader sees it: distances to the right and upwards from the origin of the axis
-positions."""
+"""Position of a point on a face, to the right and upwards for its reader, from the origin of the axis positions."""
 
 
 class FacePlate(Declared):

@@ -126,8 +126,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
 
 
 def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem if a printed period needs a unit of time, or the length of its years, that the train does not
-    have."""
+    """Yield a problem if a printed period needs a unit of time, or a length of its years, that the train lacks."""
     printed = published.value
     if not isinstance(printed, PrintedPeriod):
         return
@@ -155,8 +154,7 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
 
 
 def set_outputs(train: Train) -> Iterator[Problem]:
-    """Yield problems of links whose position at the epoch is set by two outputs, or by an output after one that is
-    relative to them."""
+    """Yield problems of links that outputs set twice at the epoch, or after an output that is relative to them."""
     used: dict[str, str] = {}  # links that are set or referred to, with the output
     for name, output in train.outputs.items():
         of, base = output.links(name, train.frame)

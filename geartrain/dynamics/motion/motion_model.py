@@ -216,8 +216,7 @@ class Motion(Shown):
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns against the declared sense, with the coast flanks in
-        contact."""
+        """Composition of the errors if the input turns against the declared sense, with the coast flanks in contact."""
         return self._composed(-1)
 
     @cached_property

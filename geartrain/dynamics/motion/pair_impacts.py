@@ -41,8 +41,7 @@ class ToothImpact(Shown):
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""
     rate: float
-    """Number of periods of the transmission function per second [1/s]; one period is one pitch, except for a given
-    error."""
+    """Periods of the transmission function per second [1/s]; one period is one pitch, except for a given error."""
     jumps: tuple[float, ...]
     """Increases of the driven wheel's speed at the impacts within one period [rad/s]."""
 

@@ -64,8 +64,7 @@ class MeshRemoval(Result):
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """Pairs of which the removal of any single one is sufficient, including the pair in `meshes`; empty if there are
-    none."""
+    """Pairs of which the removal of any one is sufficient, including the pair in `meshes`; empty if there are none."""
     proofs: tuple[RemovalBound, ...] = ()
     """Loops that prove the lower bound; empty if only the method proves it."""
 

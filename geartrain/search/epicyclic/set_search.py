@@ -104,8 +104,7 @@ def find_sets(
     modes : str or iterable of str or EpicyclicMode
         "all", or modes as `input:output:held`, such as "sun:carrier:ring".
     counts : sequence of int, or mapping of str to sequence of int
-        Admissible tooth counts from 1 to 10^5, either one sequence for all wheels, including rings, or one for each
-        wheel.
+        Admissible tooth counts from 1 to 10^5, for all wheels including rings, or for each wheel.
     planets : int
         Number of equal planets, 1 or more.
     tolerance : Fraction, optional

@@ -141,8 +141,7 @@ def infer_counts(
 
     Examples
     --------
-    A pinion of 20 teeth drives a wheel of 60 to 62 teeth at 1/3 of its speed, within 2 %. Counts of 60 and 61 satisfy
-    this; 62 is 3.2 % too slow.
+    A pinion of 20 teeth drives a wheel of 60 to 62 at 1/3 of its speed, to 2 %: 60 and 61 fit, 62 is 3.2 % too slow.
 
     >>> from fractions import Fraction
     >>> from geartrain.train import declare

@@ -216,8 +216,7 @@ class ExplainedFacts:
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
     """Yield all facts of a candidate with their answers, each fact once.
 
-    Tooth counts of surviving wheels are facts only for wheels in `doubtful`; pointers are facts only for dials in
-    `lost`.
+    Tooth counts of surviving wheels are facts only for wheels in `doubtful`; pointers only for dials in `lost`.
     """
     yield from _order_facts(train, doubtful, lost)
     added = _added_wheels(train)

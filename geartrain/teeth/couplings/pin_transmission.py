@@ -143,8 +143,7 @@ class PinToSlotTransmission(PinTransmission):
         """Return the minimum efficiency over a turn.
 
         It occurs at the maximum of the angle d between pin radius and slot, sin d = e/r, with axis offset e and pin
-        radius r. If the slot oscillates, the minimum is 0 with friction, because of the dead points, and 1 without
-        friction.
+        radius r. If the slot oscillates, it is 0 with friction, because of the dead points, and 1 without friction.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0

@@ -236,8 +236,7 @@ class DisplacedPair:
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the contributions of both wheels to the lag at one x [rad], docs/cut-by-hand.md (2), indexed by n =
-        tooth + j.
+        """Return the contributions of both wheels to the lag at x [rad], docs/cut-by-hand.md (2), for n = tooth + j.
 
         late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
         """

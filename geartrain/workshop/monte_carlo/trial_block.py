@@ -244,8 +244,7 @@ class TrialPointers:
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Return the motion of the outputs (by default all), computed with the randomly sampled wheels. `rows[k]` is the
-    trial that is evaluated at position k.
+    """Return the motion of the outputs (default all) with the sampled wheels; `rows` has the trial at each position.
 
     The transmission functions of all pairs and pins are composed exactly, for every trial at its own position.
     """

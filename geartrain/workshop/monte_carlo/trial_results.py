@@ -441,8 +441,7 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer errors of one output in each trial over one revolution of the output, or of the input if the output is
-    fixed.
+    """Pointer errors of one output in each trial over one revolution of the output, or of the input if that is fixed.
 
     See Also
     --------

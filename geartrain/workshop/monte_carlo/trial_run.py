@@ -95,8 +95,7 @@ def run_trials(
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
 ) -> TrialResults:
-    """Run Monte Carlo trials of a train: each samples the errors of all wheels and turns each pair through a full
-    cycle.
+    """Run Monte Carlo trials of a train: each samples errors of all wheels and turns each pair through a full cycle.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
     (Ctrl-C), the results of the completed trials are returned.

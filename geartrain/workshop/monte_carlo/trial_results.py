@@ -287,7 +287,7 @@ class PairEventRates(Result):
     uncut: int
     """Number of trials with at least one wheel that cannot be cut."""
     backlash: float = nan
-    """Backlash of the pair if its wheels have no errors [pitches of the driven wheel]; NaN for the train."""
+    """Backlash of the pair if its wheels have no errors [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
     """Upper bound of the jam probability due to pitch deviations, 0 to 1; NaN if the pair has other errors."""
 

@@ -219,7 +219,7 @@ class OutlineAgreement(Result):
     loss: tuple[float, float]
     """Loss computed from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Peak-to-peak transmission error from the transmission function and from the outlines [rad, driven wheel]."""
+    """Peak-to-peak error from the transmission function and from the outlines [rad of the driven wheel]."""
     impact: tuple[float, float]
     """Impact loss computed from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]

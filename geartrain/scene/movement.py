@@ -110,7 +110,7 @@ class Movement(Shown):
     why: str = ""
     """Reason why the motion has the kind `mean` or `still`; otherwise empty."""
     period: str | None = None
-    """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
+    """Exact number of turns of the driving link after which the pose repeats; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
     """Transmission-error tables; identical pairs share one table."""
     sources: Sequence[ErrorSource] = ()
@@ -137,8 +137,8 @@ def tables_and_sources(
     """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
     table.
 
-    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, a scene
-          about declared axes
+    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, and
+          a scene counts them about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     sources = []

@@ -121,8 +121,8 @@ class Movement(Shown):
     """Link -> constant error of its angle [rad]."""
 
 
-TOLERANCE = 1e-11  # maximum error of a table in driven pitches
-_DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table is used
+TOLERANCE = 1e-9  # maximum error of a table in driven pitches; the page displays hundredths of a degree
+_DEGREES = (3, 5, 7, 9, 11, 14)  # degrees of polynomials, of which the smallest table is used
 
 
 def step_of(step: Composed) -> ErrorStep:

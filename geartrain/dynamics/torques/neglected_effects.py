@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
 from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
 
 _NO_FORM = (
     "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
@@ -26,12 +30,14 @@ def find_neglected_effects(
     neither: Sequence[str],
     idle: Sequence[str],
     bearings: bool,
+    loads: BearingLoads | None = None,
 ) -> tuple[NeglectedEffect, ...]:
     """Return all effects that the mean torques of one load case neglect.
 
     neither   pairs neither of whose torques is constant over a revolution
     idle      pairs without torque, which have no losses
-    bearings  False if friction of bearings was not requested
+    bearings  False if constant friction of bearings was not requested
+    loads     loads of the bearings whose friction depends on them
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
@@ -44,7 +50,15 @@ def find_neglected_effects(
             "the value for a constant load torque is used, or for a constant driving torque where loads drive"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
+    found += [] if loads is None else _unknown_forces(loads, idle)
     return (*found, *_drag(setting), *_variation(setting, busy), *_inertia(setting))
+
+
+def _unknown_forces(loads: BearingLoads, idle: Sequence[str] = ()) -> Iterator[NeglectedEffect]:
+    """Yield the pairs whose forces on bearings are unknown."""
+    for why, names in loads.missing.items() if loads.forces or loads.missing else ():
+        if busy := tuple(name for name in names if name not in set(idle)):
+            yield NeglectedEffect("forces on bearings", busy, why)
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:

@@ -9,17 +9,28 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies, balancing_torque, unbalanced_motions
 from geartrain.dynamics.torques.torque_balance import LoadedPair, LoadShares, TorqueBalance, generic_balance, idle_pairs
-from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
+from geartrain.dynamics.torques.torque_results import (
+    BearingTorque,
+    HoldingTorque,
+    NeglectedEffect,
+    PairTorque,
+    Torques,
+    TorqueVerdict,
+)
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import decimal
 from geartrain.numerics.quantity import TRAVEL_ARM
 from geartrain.train import Train
 
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
+
+_MOST_ROUNDS = 8  # maximum changes of the pattern of power flow by the friction of loaded bearings
 _GREAT = 10**12  # lambda of section 6: factor of the load that makes constant friction negligible
 
 
@@ -38,6 +49,12 @@ class LoadedBalance:
     """
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
+    bearings: tuple[BearingTorque, ...] = ()
+    """Friction torques of the bearings; `bearing_friction` is their sum by link, without the friction that depends on
+    the load.
+    """
+    bearing_loads: BearingLoads | None = None
+    """Loads of the bearings whose friction depends on them; None if there are none."""
 
     @property
     def names(self) -> str:
@@ -59,6 +76,35 @@ class LoadedBalance:
         """True if both a load and friction of bearings act."""
         return any(self.loads.values()) and any(self.bearing_friction.values())
 
+    def sorted_flows(self, balance: TorqueBalance) -> tuple[list[FlowPattern], bool]:
+        """Return the patterns of power flow of a balance, and True if all patterns were tried.
+
+        Patterns with fewer undetermined torques come first, then those with smaller losses.
+        """
+        found, complete = find_flow_patterns(balance)
+        # the known powers are the same in all flows, so the power of the unknown torques orders the losses
+        return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow))), complete
+
+    def with_loaded_bearings(self) -> LoadedBalance | None:
+        """Return the balance with the friction of the bearings under their loads, for the first pattern of power flow
+        that agrees with it; None if there is none.
+        """
+        found, loads = self, self.bearing_loads
+        flows = [] if loads is None else self.sorted_flows(self.balance)[0]
+        for _ in range(_MOST_ROUNDS):
+            if loads is None or not flows:
+                break
+            loaded = loads.friction_torques(found.balance, flows[0], self.loads)
+            if loaded is None:
+                return None
+            bearings = loads.setting.bearings(loaded, loads.steady)
+            known = _acting(self.loads, _bearing_friction(loads.setting, bearings))
+            found = replace(self, balance=replace(self.balance, known=known), bearings=bearings)
+            before, (flows, _) = flows[0].pattern, self.sorted_flows(found.balance)
+            if flows and flows[0].pattern == before:
+                return found
+        return self if loads is None else None
+
     def power(self, flow: FlowPattern) -> Fraction:
         """Return the power that the unknown torques put into the train [unit of torque times unit of speed]."""
         return self._power(flow.solved.external)
@@ -69,10 +115,10 @@ class LoadedBalance:
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
         """Return the flow patterns under a load so large that constant friction is negligible."""
-        known = dict(self.bearing_friction)
-        for link, torque in self.loads.items():
-            known[link] = known.get(link, Fraction(0)) + _GREAT * torque
-        return find_flow_patterns(replace(self.balance, known=known))[0]
+        loads = {link: _GREAT * torque for link, torque in self.loads.items()}
+        known = _acting(loads, self.bearing_friction)
+        heavy = replace(self, loads=loads, balance=replace(self.balance, known=known)).with_loaded_bearings()
+        return () if heavy is None else find_flow_patterns(heavy.balance)[0]
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
@@ -163,6 +209,20 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
     sure = "" if complete else " (not every pattern of power flow was tried)"
     great = ", however large: the teeth lock, not the bearings" if question.has_friction else ""
     text = f"no torque on {names} balances {question.load} while the train turns this way{great}{sure}"
+    return TorqueVerdict("self-locking", text)
+
+
+def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
+    """Return the verdict that no torques balance the load because the friction of bearings grows with their load."""
+    assert question.bearing_loads is not None
+    links = ", ".join(question.bearing_loads.links)
+    if question.has_friction and question.heavily_loaded():
+        text = f"the load is too small to overcome the friction of the bearings of {links}: a larger load turns the train"
+        return TorqueVerdict("stalled", text)
+    text = (
+        f"no torque on {question.names} balances {question.load} while the train turns this way: the friction of the "
+        f"bearings of {links} grows with the load and locks the train; without it the train turns"
+    )
     return TorqueVerdict("self-locking", text)
 
 
@@ -347,7 +407,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return ()
-    known = _acting(question.loads, _bearing_friction(setting))
+    known = _acting(question.loads, _bearing_friction(setting, setting.bearings({})))
     return idle_pairs(generic_balance(build_balance(setting, known, question.links)))
 
 
@@ -510,7 +570,8 @@ def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | N
 
 
 def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True, flows_only: bool = False) -> Torques:
-    bearing_friction = _bearing_friction(setting) if bearings else {}
+    constant = setting.bearings({}) if bearings else ()
+    bearing_friction = _bearing_friction(setting, constant)
     known = _acting(unknown.loads, bearing_friction)
     state = setting.case.state
     if not unknown.enough and (lacking := find_imbalance(setting, known, unknown.links)) is not None:
@@ -520,14 +581,25 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
-    found, complete = find_flow_patterns(balance)
-    if balance.senses and not found and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
+    if balance.senses and not find_flow_patterns(balance)[0] and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
         names = _overrunning(setting, any_way[0])
         text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
         return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
-    question = LoadedBalance(balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open)
-    # the known powers are the same in all flows, so the power of the unknown torques orders the losses
-    flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
+    question = LoadedBalance(
+        balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open, constant
+    )
+    loads = None
+    if any(part.friction_radius for part in setting.train.links.values()):
+        from geartrain.dynamics.torques.bearing_loads import BearingLoads
+
+        loads = BearingLoads(setting, bearings)
+        question = replace(question, bearing_loads=loads)
+    loaded = question.with_loaded_bearings()
+    flows, complete = question.sorted_flows(balance)
+    if loaded is not None:
+        question, (flows, complete) = loaded, question.sorted_flows(loaded.balance)
+    elif flows:
+        return Torques(state, _locked_bearings(question), unknown.links)
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
     neglected: tuple[NeglectedEffect, ...] = ()
@@ -535,12 +607,12 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
         from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 
         missed = [name for name in idle if name not in loose]
-        neglected = find_neglected_effects(setting, means, neither, missed, bearings)
+        neglected = find_neglected_effects(setting, means, neither, missed, bearings, loads)
     verdict = find_torque_verdict(question, flows, complete, neglected)
     if not flows:
         verdict = _with_reason(unknown, verdict)
         return Torques(state, verdict, unknown.links, neglected=neglected)
-    return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
+    return _torques(setting, question.balance, flows[0], question.bearings, verdict, neglected)
 
 
 def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
@@ -636,10 +708,10 @@ def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fracti
     }
 
 
-def _bearing_friction(setting: LoadCase) -> dict[str, Fraction]:
+def _bearing_friction(setting: LoadCase, bearings: Sequence[BearingTorque]) -> dict[str, Fraction]:
     """Return the friction torque of all bearings on each link, as the link in a bearing or as its carrier."""
     found: dict[str, Fraction] = {}
-    for bearing in setting.bearings:
+    for bearing in bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
             if link != setting.train.frame:
                 found[link] = found.get(link, Fraction(0)) + torque
@@ -650,7 +722,7 @@ def _torques(
     setting: LoadCase,
     balance: TorqueBalance,
     flow: FlowPattern,
-    bearing_friction: Mapping[str, Fraction],
+    bearings: tuple[BearingTorque, ...],
     verdict: TorqueVerdict,
     neglected: tuple[NeglectedEffect, ...],
 ) -> Torques:
@@ -667,7 +739,7 @@ def _torques(
     for base, torque in reactions.values():
         external[base] = external.get(base, Fraction(0)) + torque
     # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
-    for link, torque in bearing_friction.items():
+    for link, torque in _bearing_friction(setting, bearings).items():
         external[link] -= torque
     arms = setting.arms
     return Torques(
@@ -680,7 +752,7 @@ def _torques(
             mesh.id: _pair(setting, mesh, circuit, flow)
             for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
         },
-        setting.bearings if bearing_friction else (),
+        bearings,
         _held(setting, flow),
         neglected,
         reactions,

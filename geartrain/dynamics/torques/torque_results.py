@@ -96,6 +96,10 @@ class BearingTorque(NamedTuple):
     """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
     """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
+    load: float | None = None
+    """Load on the bearing, or the sum of the loads on its two bearings [N]; None if its friction does not depend on
+    the load.
+    """
 
 
 @dataclass(frozen=True)
@@ -318,6 +322,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         Key("links", "link_torques"),
         "held",
         "pairs",
+        Key("bearings", to=as_float),
         Key("power_in", "known_power_in", as_float),
         Key("loss", "known_loss", as_float),
         "neglected",

@@ -579,8 +579,10 @@ class Train(Declared):
         state : str or None
             A declared state; None for a train without states.
         """
-        return bool(self.loads_in(state)) or self.has_jumpers or any(
-            link.bearing is not None and link.bearing.sliding.value for link in self.links.values()
+        return (
+            bool(self.loads_in(state))
+            or self.has_jumpers
+            or any(link.bearing is not None and link.bearing.sliding.value for link in self.links.values())
         )
 
     def _speed(self, speed: Quantity) -> Fraction:

@@ -125,7 +125,9 @@ class BearingFriction(Declared):
     @model_validator(mode="after")
     def _check_static(self) -> BearingFriction:
         if self.at is not None and self.at[0].si == self.at[1].si:
-            raise bad("bearing", "two bearings have the same position", "give two positions, such as `at: [0 mm, 40 mm]`")
+            raise bad(
+                "bearing", "two bearings have the same position", "give two positions, such as `at: [0 mm, 40 mm]`"
+            )
         if not self.model_fields_set & {"sliding", "coefficient"}:
             raise bad("bearing", "the friction is missing", "give `sliding`, a torque, or `coefficient` and `radius`")
         if self.static is None:
@@ -506,13 +508,13 @@ class Link(Declared):
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
         None,
-        description="Mass of the link; for a link that slides or is on a moving carrier the default is computed "
-        "from its wheels, as for `inertia`",
+        description="Mass of a link that slides, is on a moving carrier, or presses on its bearing by `gravity`; "
+        "default computed from its wheels, as for `inertia`, and 0 for `gravity`",
     )
     bearing: DeclaredBearing | None = Field(
         None,
-        description="Friction torque of the link's bearing, opposed to rotation, or `{sliding, static}`, or the friction "
-        "of a loaded pivot, `{coefficient, radius}`; default none",
+        description="Friction torque of the link's bearing, opposed to rotation, or `{sliding, static}`, or "
+        "the friction of a loaded pivot, `{coefficient, radius}`; default none",
     )
     drag: (
         Annotated[TorsionalDamping, not_below_zero("give its magnitude: drag is always opposed to the rotation")] | None

@@ -5,7 +5,7 @@ both axes are the torques T_i and T_j of the pair, so its component across the l
 the centre distance a, for any point of contact and any friction. The component along the line of centres is in a fixed
 ratio to it. The resultant R of all forces on a link, and on the links that it carries, presses on its bearing, whose
 friction torque is rho |R|, with the radius rho = r mu/sqrt(1 + mu^2) of the friction circle: section 6 of
-docs/torques.md, equations (34) to (37).
+docs/torques.md, equations (26) to (28).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import cos, hypot, tan
+from math import cos, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -22,7 +22,7 @@ from geartrain.dynamics.torques.flow_patterns import FlowPattern, solve_block
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
 from geartrain.dynamics.torques.torque_balance import TorqueBalance, equal_planets
 from geartrain.numerics.elimination import LinearForm
-from geartrain.numerics.vectors import Vector, across, cross, minus, scaled, unit
+from geartrain.numerics.vectors import Vector, across, cross, minus, scaled
 from geartrain.train.mechanism import Axis, unit_vector
 from geartrain.train.states import GRAVITY
 
@@ -51,14 +51,6 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
     form, helix = setting.train.form_of(setting.gears[circuit.id]), setting.train.wheels[circuit.wheels[0]][1].helix
     angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
     return tan(angle) / cos(helix)
-
-
-def mean_tangential_force(torques: Sequence[float], radii: Sequence[float], internal: bool) -> float:
-    """Return the magnitude of the tangential force of a pair on parallel axes, whose torques differ by its losses:
-    their sum, or their difference for a ring, divided by the centre distance.
-    """
-    first, second = map(abs, torques)
-    return abs(first - second) / abs(radii[0] - radii[1]) if internal else (first + second) / sum(radii)
 
 
 class AxisForce(NamedTuple):
@@ -104,7 +96,9 @@ class BearingLoads:
     def forces(self) -> tuple[AxisForce, ...]:
         """Forces of pairs and of the line of a weight that press on these bearings."""
         found = [*self._pairs(), *self._line()]
-        return tuple(each for each in found if any(self._inside(link, end) for link in self.links for end in each.links))
+        return tuple(
+            each for each in found if any(self._inside(link, end) for link in self.links for end in each.links)
+        )
 
     def _inside(self, link: str, end: str | None) -> bool:
         """Return True if a force on the link `end` presses on the bearing of `link`, which is `end` or carries it."""

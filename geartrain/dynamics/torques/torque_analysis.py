@@ -217,7 +217,9 @@ def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
     assert question.bearing_loads is not None
     links = ", ".join(question.bearing_loads.links)
     if question.has_friction and question.heavily_loaded():
-        text = f"the load is too small to overcome the friction of the bearings of {links}: a larger load turns the train"
+        text = (
+            f"the load is too small to overcome the friction of the bearings of {links}: a larger load turns the train"
+        )
         return TorqueVerdict("stalled", text)
     text = (
         f"no torque on {question.names} balances {question.load} while the train turns this way: the friction of the "
@@ -452,7 +454,9 @@ class EscapementTorques(NamedTuple):
     at_escape: float
     """Torque at the escape wheel in the sense of its rotation; 0 or less if friction stops the train."""
     without_bearings: float
-    """Torque at the escape wheel without friction of bearings."""
+    """Torque at the escape wheel without the friction of bearings that does not depend on the load."""
+    lost_in_bearings: float
+    """Part of the power that is lost in bearings."""
 
 
 def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
@@ -478,13 +482,12 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
     # the pallets may turn, too
     ahead = setting.relative(escapement.link, setting.reacts_on(escapement.link)) or 0
     sense = setting.sense(escapement.link) * (1 if ahead > 0 else -1)
-    found = []
-    for bearings in (True, False):
-        resisting = _balanced(setting, question, bearings, flows_only=True).external.get(escapement.link)
-        if resisting is None:
-            return None
-        found.append(float(-resisting * sense))
-    return EscapementTorques(source, float(known * way), *found)
+    found, without = (_balanced(setting, question, bearings, flows_only=True) for bearings in (True, False))
+    if not found.verdict or not without.verdict:
+        return None
+    at_escape, lossless = (float(-each.external[escapement.link] * sense) for each in (found, without))
+    lost = float(found.bearing_loss / found.power_in) if found.power_in else 0.0
+    return EscapementTorques(source, float(known * way), at_escape, lossless, lost)
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
@@ -581,7 +584,11 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
-    if balance.senses and not find_flow_patterns(balance)[0] and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
+    if (
+        balance.senses
+        and not find_flow_patterns(balance)[0]
+        and (any_way := find_flow_patterns(replace(balance, senses={}))[0])
+    ):
         names = _overrunning(setting, any_way[0])
         text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
         return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)

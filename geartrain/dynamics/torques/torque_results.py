@@ -477,7 +477,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output divided by power input; a float if pairs have mean efficiencies over teeth.
+        """Power output divided by power input; a float if pairs have mean efficiencies over teeth, or if friction of
+        bearings depends on their load.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """
@@ -485,7 +486,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
             return None
         # the net external power is the loss, even if torques of pairs are undetermined
         found = 1 - self._missing / self.power_in
-        return found if all(pair.exact for pair in self.pairs.values()) else float(found)
+        exact = all(pair.exact for pair in self.pairs.values()) and all(each.load is None for each in self.bearings)
+        return found if exact else float(found)
 
     @property
     def _missing(self) -> Fraction:

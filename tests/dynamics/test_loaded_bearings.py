@@ -463,3 +463,61 @@ def test_the_report_on_a_clock_gives_the_loss_of_its_pivots() -> None:
     plain = find_timekeeping(lossless.mechanics.load_case())
     assert plain is not None
     assert plain.lost_in_bearings == 0
+
+
+# ---------------------------------------------------------------------------------------------------------- over a turn
+
+
+@pytest.mark.parametrize(("at", "gravity", "load"), [(False, False, 10), (True, True, 10), (True, True, 0)])
+def test_over_a_turn_a_train_of_constant_efficiency_has_its_mean_torque_at_every_position(
+    at: bool, gravity: bool, load: float
+) -> None:
+    train = three_arbors(eta=0.97, at=at, gravity=gravity, load=load)
+    cycle = train.torques(turns=1, samples=30)
+    assert np.asarray(cycle.torque) == pytest.approx(float(train.torques().external["A"]), rel=1e-12)
+    assert cycle.parts["bearing B"].loss == pytest.approx(2 * pi * float(train.torques().bearings[1].loss), rel=1e-12)
+
+
+def test_energy_is_balanced_at_every_position() -> None:
+    train = geartrain.load("longcase-clock-pivots")
+    cycle = train.torques(turns=0.05, samples=200)
+    powers, losses = cycle.powers.values, cycle.losses.values
+    assert losses.min() >= 0
+    largest = np.abs(powers).max()
+    assert np.abs(powers.sum(axis=0) - losses.sum(axis=0)).max() < 1e-12 * largest
+    assert cycle.parts["bearing centre"].loss > 0
+
+
+def test_forces_on_a_planet_turn_with_its_carrier_and_weights_do_not() -> None:
+    """One planet presses on the carrier's bearing with both meshes, 2 F along the tangent, which turns; its weight does
+    not turn.
+    """
+    train = geartrain.load(
+        planets(1, 0, 2, "carrier: {bearing: {coefficient: 0.15, radius: 3 mm}}")
+        .replace("planet: {copies", "planet: {mass: 0.5 kg, copies")
+        .replace("loads:", "gravity: [0, -1, 0]\nloads:")
+    )
+    cycle = train.torques(turns=3.5, samples=400)
+    turned = 2 * pi * np.asarray(cycle.turns) * 2 / 7
+    # the loss of the carrier's bearing gives its friction torque: its speed is 2/7 of that of the sun
+    rubbed = cycle.losses.values[-1] / (2 / 7)
+    force = (1 + rubbed) / 21e-3  # torque on the carrier over its radius
+    # the sun turns forwards and drives the planet forwards along the tangent
+    x, y = -force * np.sin(turned), force * np.cos(turned) - 0.5 * STANDARD
+    assert rubbed == pytest.approx(friction_circle(MU, 3e-3) * np.hypot(x, y), rel=1e-9)
+    assert rubbed.max() / rubbed.min() > 1.1
+
+
+def test_a_locked_bearing_locks_at_every_position() -> None:
+    radius = 21 * hypot(1, MU) / MU
+    assert arm("[0, 1, 0]", radius=radius).torques(turns=1, samples=10).verdict.kind == "self-locking"
+    relieved = arm("[0, -1, 0]", radius=radius)
+    assert relieved.torques(turns=1, samples=10).mean == pytest.approx(20e-3 * 6.58536585, rel=3e-9)
+
+
+def test_friction_that_time_steps_leave_out_is_named() -> None:
+    declared = three_arbors().declaration
+    links = {name: link.changed(inertia="1 kg mm2") for name, link in declared.links.items() if name != "frame"}
+    train = geartrain.GearTrain(declared.changed(links={**declared.links, **links}))
+    run = train.dynamics("1 turn/s", turns=0.1)
+    assert any("bearings of A, B, C that grows with the load" in note for note in run.notes)

@@ -10,7 +10,7 @@ docs/torques.md, equations (26) to (28).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import cos, tan
@@ -82,15 +82,8 @@ class BearingLoads:
     @cached_property
     def links(self) -> tuple[str, ...]:
         """Links that turn in bearings whose friction grows with the load."""
-        train, tree = self.setting.train, self.setting.tree
-        return tuple(
-            link
-            for link, part in train.links.items()
-            if link != train.frame
-            and part.friction_radius
-            and link not in tree.lines
-            and self.setting.relative(link, tree.borne_by(link))
-        )
+        links = self.setting.train.links.items()
+        return tuple(link for link, part in links if part.friction_radius and link in self.setting.tree.parent)
 
     @cached_property
     def forces(self) -> tuple[AxisForce, ...]:
@@ -238,16 +231,21 @@ class BearingLoads:
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
         """Return forces rotated about the axes of their carriers by Rodrigues' formula, shape (forces, 3, n)."""
         tree, axes = self.setting.tree, self.setting.train.axes
-        ways = [axes.get(tree.axis(force.carrier) or "", Axis()).way for force in self.forces]
+        labels = [tree.axis(force.carrier) or "" for force in self.forces]
+        ways = [scaled(axes.get(label, Axis()).way, self.setting.axes.sign(label)) for label in labels]
         way = np.array(ways).reshape(-1, 3, 1)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
         return (vectors - inside) * np.cos(turn) + np.cross(way, vectors, axis=1) * np.sin(turn) + inside
 
-    @cached_property
-    def radii(self) -> Floats:
-        """Radius of the friction circle of each link's bearing [m], shape (links,)."""
-        return np.array([self.setting.train.links[link].friction_radius for link in self.links])
+    def friction(self, loads: Floats, balance: TorqueBalance) -> Floats:
+        """Return the friction torque of each link's bearing [N m], shape (links, n), from its load [N].
+
+        Equal planets have equal torques, also if weights or rounding make their loads differ.
+        """
+        own = np.array([[self.setting.train.links[link].friction_radius] for link in self.links]) * loads
+        like, row = equal_planets(balance), {link: at for at, link in enumerate(self.links)}
+        return np.array([own[[row[peer] for peer in like.get(link, (link,))]].mean(axis=0) for link in self.links])
 
     def friction_torques(
         self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]
@@ -259,44 +257,31 @@ class BearingLoads:
 
         applied   known external torques without friction, by link
         """
-        like = equal_planets(balance)
-        groups = list(dict.fromkeys(tuple(like.get(link, (link,))) for link in self.links))
-        of_group = [next(at for at, group in enumerate(groups) if link in group) for link in self.links]
-        found = self._responses(balance, flow, applied, groups)
+        found = self._responses(balance, flow, applied)
         if found is None:
             return None
-        known, response = found[:, :1], found[:, 1:]
 
-        def friction(torques: Floats) -> Floats:
-            own = self.radii * self.loads(known + response @ torques[:, None])[:, 0]
-            # equal planets have equal torques, also if weights or rounding make their loads differ
-            return np.bincount(of_group, own, len(groups)) / np.bincount(of_group, minlength=len(groups))
+        def loads(torques: Floats) -> Floats:
+            return self.loads(found[:, :1] + found[:, 1:] @ torques)
 
-        torques = fixed_point(friction, len(groups))
+        torques = fixed_point(lambda each: self.friction(loads(each), balance), len(self.links))
         if torques is None:
             return None
-        loads = self.loads(known + response @ torques[:, None])[:, 0]
-        return {
-            link: (float(torques[at]), float(load)) for link, at, load in zip(self.links, of_group, loads, strict=True)
-        }
+        rows = zip(self.links, torques[:, 0].tolist(), loads(torques)[:, 0].tolist(), strict=True)
+        return {link: (torque, load) for link, torque, load in rows}
 
-    def _responses(
-        self,
-        balance: TorqueBalance,
-        flow: FlowPattern,
-        applied: Mapping[str, Fraction],
-        groups: Sequence[tuple[str, ...]],
-    ) -> Floats | None:
+    def _responses(self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]) -> Floats | None:
         """Return the carrier torque of each force without load-dependent friction, and for a unit friction torque in
-        each group of bearings, shape (forces, 1 + groups).
+        each bearing, shape (forces, 1 + links). Equal planets have one column, of the first one.
         """
         rows = {link: row for row, link in enumerate(balance.links)}
         known: dict[int, LinearForm] = {row: {_KNOWN: torque} for row, torque in balance.rows.items()}
-        for number, group in enumerate(groups):
-            for link in group:
-                for end, torque in self.setting.friction_senses(link):
-                    if (form := known.get(rows.get(end, -1))) is not None:
-                        form[-2 - number] = form.get(-2 - number, 0) + torque
+        like = equal_planets(balance)
+        for link in self.links:
+            number = self.links.index(like.get(link, (link,))[0])
+            for end, torque in self.setting.friction_senses(link):
+                if (form := known.get(rows.get(end, -1))) is not None:
+                    form[-2 - number] = form.get(-2 - number, 0) + torque
         sides = {}
         for at, column in enumerate(balance.columns):
             first = next((mesh for mesh in column.meshes if mesh.loses), None)
@@ -312,7 +297,7 @@ class BearingLoads:
                 own = mesh.torques(flow.pattern.get(mesh.id, 0))
                 factor = -mesh.senses[0] * own[0] - mesh.senses[1] * own[1]
                 torques[mesh.id] = {symbol: factor * value for symbol, value in (forms[at] or {}).items()}
-        found = np.zeros((len(self.forces), 1 + len(groups)))
+        found = np.zeros((len(self.forces), 1 + len(self.links)))
         for row, force in enumerate(self.forces):
             for symbol, value in torques.get(force.name, {}).items():
                 found[row, -1 - symbol] = float(value)
@@ -320,11 +305,11 @@ class BearingLoads:
 
 
 def fixed_point(function: Callable[[Floats], Floats], size: int) -> Floats | None:
-    """Return a vector x = f(x) of nonnegative numbers by damped fixed-point iteration from 0; None if it diverges.
+    """Return a column x = f(x) of nonnegative numbers by damped fixed-point iteration from 0; None if it diverges.
 
     The mean of x and f(x) converges where f reverses deviations, as it does where friction relieves a bearing.
     """
-    found = np.zeros(size)
+    found = np.zeros((size, 1))
     first = float(np.max(function(found), initial=0.0))
     for _ in range(_MOST_ROUNDS):
         after = (found + function(found)) / 2

@@ -50,11 +50,11 @@ def find_neglected_effects(
             "the value for a constant load torque is used, or for a constant driving torque where loads drive"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
-    found += [] if loads is None else _unknown_forces(loads, idle)
+    found += [] if loads is None else unknown_forces(loads, idle)
     return (*found, *_drag(setting), *_variation(setting, busy), *_inertia(setting))
 
 
-def _unknown_forces(loads: BearingLoads, idle: Sequence[str] = ()) -> Iterator[NeglectedEffect]:
+def unknown_forces(loads: BearingLoads, idle: Sequence[str] = ()) -> Iterator[NeglectedEffect]:
     """Yield the pairs whose forces on bearings are unknown."""
     for why, names in loads.missing.items() if loads.forces or loads.missing else ():
         if busy := tuple(name for name in names if name not in set(idle)):

@@ -359,6 +359,8 @@ class BearingTorques(NamedTuple):
     sliding: float
     static: float
     drag: float = 0.0
+    radius: float = 0.0
+    """Friction torque divided by the load of the bearing [m], added to both friction torques."""
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
@@ -371,7 +373,8 @@ def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
         sliding, static = (0.0, 0.0) if part.bearing is None else (
             float(part.bearing.sliding.base), float(part.bearing.at_rest.base)
         )  # fmt: skip
-        each = BearingTorques(sliding, static, 0.0 if part.drag is None else part.drag.si * (unit or 0.0))
+        drag = 0.0 if part.drag is None else part.drag.si * (unit or 0.0)
+        each = BearingTorques(sliding, static, drag, part.friction_radius)
         if link != train.frame and any(each):
             found[link] = each
     return found

@@ -459,7 +459,7 @@ class TurnBalance:
     def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
         """Return the state with the friction of loaded bearings, all solutions, and the one with minimum loss.
 
-        The friction follows from the solution by fixed-point iteration, which is damped if it does not converge, because
+        The friction follows from the solution by fixed-point iteration, which is damped if it converges slowly, because
         friction may relieve a bearing. Where it diverges, no torques balance.
         """
         pieces = [self._pieces(column, state) for column in self.columns]

@@ -76,13 +76,16 @@ class MemberTorques(NamedTuple):
     """Torque on the carrier of the pair [N m, or number without a unit]."""
 
 
-class BearingTorque(NamedTuple):
+@dataclass(frozen=True)
+class BearingTorque(Result):
     """Friction torques of one bearing: equation (10) of docs/torques.md.
 
     See Also
     --------
     Torques.bearings : all bearings with friction
     """
+
+    KEYS = ("link", "carrier", *(Key(key, to=as_float) for key in ("torque", "reaction", "loss")), "load")
 
     link: str
     """Link that turns in the bearing."""
@@ -322,7 +325,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         Key("links", "link_torques"),
         "held",
         "pairs",
-        Key("bearings", to=as_float),
+        "bearings",
         Key("power_in", "known_power_in", as_float),
         Key("loss", "known_loss", as_float),
         "neglected",

@@ -188,17 +188,26 @@ class BearingLoads:
         return found
 
     @cached_property
+    def masses(self) -> Mapping[str, float | None]:
+        """Mass of each link whose weight presses on these bearings [kg]; None if it is not declared."""
+        if self._down is None or not self.steady:
+            return {}
+        links = self.setting.train.links.items()
+        carried = {link: part.mass for link, part in links if any(self._inside(each, link) for each in self.links)}
+        return {link: None if mass is None else mass.si for link, mass in carried.items()}
+
+    @property
+    def weighs(self) -> bool:
+        """True if a weight presses on one of these bearings."""
+        return any(self.masses.values())
+
+    @cached_property
     def _weights(self) -> Floats:
         """Weight on each bearing [N], shape (bearings, 3, 1)."""
-        found, down = np.zeros((len(self._supports), 3, 1)), self._down
+        found = np.zeros((len(self._supports), 3, 1))
         for row, (number, own, other) in enumerate(self._supports):
-            carried = (
-                part.mass.si
-                for link, part in self.setting.train.links.items()
-                if part.mass is not None and self._inside(self.links[number], link)
-            )
-            if down is not None and self.steady:
-                found[row, :, 0] = np.array(down) * GRAVITY * sum(carried) * self._share(own, other, None)
+            mass = sum(mass or 0.0 for link, mass in self.masses.items() if self._inside(self.links[number], link))
+            found[row, :, 0] = np.array(self._down or (0.0,) * 3) * GRAVITY * mass * self._share(own, other, None)
         return found
 
     @cached_property

@@ -55,10 +55,16 @@ def find_neglected_effects(
 
 
 def unknown_forces(loads: BearingLoads, idle: Sequence[str] = ()) -> Iterator[NeglectedEffect]:
-    """Yield the pairs whose forces on bearings are unknown."""
+    """Yield the pairs and links whose forces on bearings are unknown, and the weights that move."""
     for why, names in loads.missing.items() if loads.forces or loads.missing else ():
         if busy := tuple(name for name in names if name not in set(idle)):
             yield NeglectedEffect("forces on bearings", busy, why)
+    if light := tuple(link for link, mass in loads.masses.items() if mass is None):
+        yield NeglectedEffect("weight on bearings", light, "the `mass` of these links is not declared")
+    moving = (link for link, mass in loads.masses.items() if mass)
+    if lifted := tuple(link for link in moving if loads.setting.bearer(link) != loads.setting.train.frame):
+        why = "they press on bearings, but the torques that lift them with their carriers are not included"
+        yield NeglectedEffect("moments of weights", lifted, why)
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:

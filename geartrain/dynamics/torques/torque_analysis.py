@@ -73,8 +73,9 @@ class LoadedBalance:
 
     @property
     def has_friction(self) -> bool:
-        """True if both a load and friction of bearings act."""
-        return any(self.loads.values()) and any(self.bearing_friction.values())
+        """True if both a load and friction of bearings act that is not proportional to it."""
+        weighs = self.bearing_loads is not None and self.bearing_loads.weighs
+        return any(self.loads.values()) and (weighs or any(self.bearing_friction.values()))
 
     def sorted_flows(self, balance: TorqueBalance) -> tuple[list[FlowPattern], bool]:
         """Return the patterns of power flow of a balance, and True if all patterns were tried.
@@ -237,8 +238,9 @@ def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
         )
+    parts = "teeth" if question.bearing_loads is None else "teeth and bearings"
     return (
-        "; no load in this sense drives the train, because the teeth dissipate all of its power: "
+        f"; no load in this sense drives the train, because the {parts} dissipate all of its power: "
         f"{question.names} must drive as well"
     )
 

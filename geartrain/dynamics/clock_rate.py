@@ -80,9 +80,9 @@ class Timekeeping(Result):
     power: float
     """Power at this link [W]."""
     efficiency: float
-    """Part of the power that reaches the escape wheel; 0 if friction stops the train."""
+    """Fraction of the power that reaches the escape wheel; 0 if friction stops the train."""
     lost_in_bearings: float
-    """Part of the power that is lost in bearings."""
+    """Fraction of the power that is lost in bearings."""
     beat_energy: float
     """Energy of the escape wheel per beat [J]."""
     amplitude: float | None

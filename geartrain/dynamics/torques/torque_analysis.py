@@ -230,7 +230,7 @@ def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a note on a load that puts power in but cannot drive the train alone; "" otherwise."""
+    """Return a note on a load that puts power in but cannot drive the train by itself; "" otherwise."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
@@ -458,7 +458,7 @@ class EscapementTorques(NamedTuple):
     without_bearings: float
     """Torque at the escape wheel without the friction of bearings that does not depend on the load."""
     lost_in_bearings: float
-    """Part of the power that is lost in bearings."""
+    """Fraction of the power that is lost in bearings."""
 
 
 def escapement_torques(setting: LoadCase) -> EscapementTorques | None:

@@ -16,6 +16,9 @@ import pytest
 from scipy.optimize import fsolve
 
 import geartrain
+from geartrain.dynamics.motion.motion_problem import find_motion_problem
+from geartrain.dynamics.torques.torque_results import TorqueVerdict
+from geartrain.dynamics.turn.train_turn import find_turn_balance
 
 MU = 0.15
 STANDARD = 9.80665  # m/s2
@@ -506,6 +509,53 @@ def test_forces_on_a_planet_turn_with_its_carrier_and_weights_do_not() -> None:
     x, y = -force * np.sin(turned), force * np.cos(turned) - 0.5 * STANDARD
     assert rubbed == pytest.approx(friction_circle(MU, 3e-3) * np.hypot(x, y), rel=1e-9)
     assert rubbed.max() / rubbed.min() > 1.1
+
+
+PAIR = """
+links:
+  frame: {{}}
+  a: {{wheels: {{w: {z[0]}}}}}
+  b: {{wheels: {{v: {z[1]}}}, bearing: {{coefficient: 1e-9, radius: 1 mm}}}}
+revolutes: {{A: [frame, a], B: [frame, b]}}
+axes: {{A: {{position: [0 mm, 0 mm, 0 mm]}}, B: {{position: [{distance} mm, 0 mm, 0 mm]}}}}
+gears: [{{pair: [w, v], tooth_form: {form}, friction: {mu}}}]
+inputs: {{a: 1}}
+loads: {{b: {load} N mm}}
+"""
+INVOLUTE = "{form: involute, addendum: [0.62, 0.62]}"  # one tooth pair in contact 2 mm about the pitch point
+TRIANGULAR = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.01}"
+_BASE = 24 * cos(radians(20))  # radius of the driver's base circle, module 2 mm
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "z", "mu", "distance", "load", "angle", "torque", "force"),
+    [
+        ("A5a", INVOLUTE, (24, 36), 0.1, 60, 1000, -pi / 48 - 2 / _BASE, 676.955475, (13.4574343, 27.9492579)),
+        ("A5b", INVOLUTE, (24, 36), 0.1, 60, 1000, -pi / 48 + 2 / _BASE, 676.228668, (7.11558833, 27.9371445)),
+        # the centre distance is the sum of both torques over the tangential force
+        ("A6a", TRIANGULAR, (48, 96), 0.2, 2.809639307808837, 1, radians(5), 0.518866501, (0.225661120, 0.540591281)),
+        ("A6b", TRIANGULAR, (96, 72), 0.2, 1.7296254855060114, 1, radians(-3), 1.35144658, (1.32715237, 1.35951198)),
+    ],
+)
+def test_one_pair_of_teeth_presses_as_statics_of_its_contact_says(
+    name: str,
+    form: str,
+    z: tuple[int, int],
+    mu: float,
+    distance: float,
+    load: float,
+    angle: float,
+    torque: float,
+    force: tuple[float, float],
+) -> None:
+    """Cases A5 and A6: normal force and friction at one point of contact, before and after the line of centres."""
+    train = geartrain.load(PAIR.format(form=form, z=z, mu=mu, distance=repr(distance), load=load))
+    balance = find_turn_balance(train.mechanics.load_case(), find_motion_problem(train.mechanics, None), None)
+    assert not isinstance(balance, TorqueVerdict)
+    found = balance.at(np.array([angle / (2 * pi)]))
+    assert 1e3 * found.torque[0, 0] == pytest.approx(torque, rel=2e-9), name
+    loaded = found.losses[-1, 0] / abs(found.slipping[-1, 0]) / friction_circle(1e-9, 1e-3)
+    assert loaded == pytest.approx(hypot(*force), rel=2e-8), name
 
 
 def test_a_locked_bearing_locks_at_every_position() -> None:

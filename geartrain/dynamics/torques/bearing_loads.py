@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from math import cos, tan
 from typing import TYPE_CHECKING, NamedTuple
@@ -27,8 +28,6 @@ from geartrain.train.mechanism import Axis, unit_vector
 from geartrain.train.states import GRAVITY
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Floats
@@ -54,8 +53,8 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
 
 
 class AxisForce(NamedTuple):
-    """Force on the second link of a pair, and the opposite force on its first link: r along + |r| apart, where r is the
-    torque on the carrier; or a force on one link in proportion to the torque on it.
+    """Force on the second link of a pair, and the opposite force on its first link: r along + |r| lean apart, where r
+    is the torque on the carrier; or a force on one link in proportion to the torque on it.
     """
 
     name: str
@@ -65,6 +64,8 @@ class AxisForce(NamedTuple):
     carrier: str
     along: Vector
     apart: Vector
+    lean: float
+    """Mean separating force divided by the tangential force."""
     places: tuple[float | None, float | None]
     """Position along the axis [m] at which the force acts on either link; None for the middle between two bearings."""
 
@@ -111,8 +112,8 @@ class BearingLoads:
             if lacking := sorted({label for label, point in zip(labels, points, strict=True) if point is None}):
                 self._leave_out(circuit, f"give the positions of the axes {', '.join(lacking)} in `axes`")
                 continue
-            apart = separation(setting, circuit, setting.meshes.get(circuit.id))
-            if apart is None:
+            lean = separation(setting, circuit, setting.meshes.get(circuit.id))
+            if lean is None:
                 self._leave_out(circuit, "the direction of the force of these teeth is unknown")
                 continue
             first, second = (point for point in points if point is not None)
@@ -120,15 +121,14 @@ class BearingLoads:
             way = scaled((axes[0] or Axis()).way, setting.axes.sign(labels[0]))
             line = across(scaled(minus(second, first), _MM), way)
             wheels = [train.wheels[name][1] for name in circuit.wheels]
-            if any(wheel.internal for wheel in wheels):
-                apart = -apart
-            square = float(np.dot(line, line))
+            square = float(np.dot(line, line)) * (-1 if any(wheel.internal for wheel in wheels) else 1)
             yield AxisForce(
                 circuit.id,
                 (circuit.i, circuit.j),
                 circuit.carrier,
-                scaled(cross(way, line), 1 / square),
-                scaled(line, apart / square),
+                scaled(cross(way, line), 1 / abs(square)),
+                scaled(line, 1 / square),
+                lean,
                 tuple(0.0 if wheel.along is None else wheel.along.si for wheel in wheels),  # type: ignore[arg-type]
             )
 
@@ -141,7 +141,8 @@ class BearingLoads:
             self.missing.setdefault("give the direction of `gravity`", []).append(f"line on '{source}'")
             return
         frame = self.setting.train.frame
-        yield AxisForce(source, (None, source), frame, (0.0, 0.0, 0.0), scaled(down, 1 / drive.drum.si), (None, None))
+        pull = scaled(down, 1 / drive.drum.si)
+        yield AxisForce(source, (None, source), frame, (0.0, 0.0, 0.0), pull, 1.0, (None, None))
 
     @cached_property
     def source(self) -> str | None:
@@ -219,16 +220,18 @@ class BearingLoads:
 
     # --------------------------------------------------------------------------------------------------------- friction
 
-    def loads(self, reactions: Floats, angles: Floats | None = None) -> Floats:
+    def loads(self, reactions: Floats, angles: Floats | None = None, leans: Floats | None = None) -> Floats:
         """Return the load on the bearings of each link [N], shape (links, n): the sum over two bearings.
 
         reactions   torque on the carrier of each force, about the reference direction [N m], shape (forces, n)
         angles      angle by which each carrier has turned from its declared position [rad], shape (forces, n)
+        leans       separating force divided by the tangential force, shape (forces, n); None for the mean ratios
         """
         along, apart = (
             np.array([getattr(force, key) for force in self.forces]).reshape(-1, 3, 1) for key in ("along", "apart")
         )
-        vectors = reactions[:, None] * along + np.abs(reactions)[:, None] * apart
+        leans = np.array([[force.lean] for force in self.forces]).reshape(-1, 1) if leans is None else leans
+        vectors = reactions[:, None] * along + (np.abs(reactions) * leans)[:, None] * apart
         if angles is not None:
             vectors = self._turned(vectors, angles)
         total = np.einsum("bf,fdn->bdn", self._shares, vectors) + self._weights
@@ -245,7 +248,8 @@ class BearingLoads:
         way = np.array(ways).reshape(-1, 3, 1)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
-        return (vectors - inside) * np.cos(turn) + np.cross(way, vectors, axis=1) * np.sin(turn) + inside
+        found: Floats = (vectors - inside) * np.cos(turn) + np.cross(way, vectors, axis=1) * np.sin(turn) + inside
+        return found
 
     def friction(self, loads: Floats, balance: TorqueBalance) -> Floats:
         """Return the friction torque of each link's bearing [N m], shape (links, n), from its load [N].
@@ -290,11 +294,11 @@ class BearingLoads:
             number = self.links.index(like.get(link, (link,))[0])
             for end, torque in self.setting.friction_senses(link):
                 if (form := known.get(rows.get(end, -1))) is not None:
-                    form[-2 - number] = form.get(-2 - number, 0) + torque
+                    form[-2 - number] = form.get(-2 - number, Fraction(0)) + torque
         sides = {}
         for at, column in enumerate(balance.columns):
-            first = next((mesh for mesh in column.meshes if mesh.loses), None)
-            sides[at] = 0 if first is None else flow.pattern[first.id]
+            lossy = next((mesh for mesh in column.meshes if mesh.loses), None)
+            sides[at] = 0 if lossy is None else flow.pattern[lossy.id]
         forms = solve_block(balance.columns, balance.whole, sides, known)
         if forms is None:
             return None

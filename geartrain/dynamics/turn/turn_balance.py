@@ -483,11 +483,18 @@ class TurnBalance:
     def _loaded_friction(self, bearings: BearingLoads, best: BalanceLayer, state: _State) -> Floats:
         """Return the friction torque of each loaded bearing in one solution, shape (links, n)."""
         turns = state.motion.turns
-        reactions, angles = np.zeros((len(bearings.forces), len(turns))), np.zeros((len(bearings.forces), len(turns)))
+        reactions, angles, leans = np.zeros((3, len(bearings.forces), len(turns)))
         for row, force in enumerate(bearings.forces):
+            leans[row] = force.lean
             if force.links[0] is not None:
                 first, second = self._member_torques(force.name, best, state)
                 reactions[row] = -(first + second)
+                column = self.of_pair[force.name]
+                by_side = state.forces[self.columns[column].meshes[0].id]
+                pressed = np.where(best.values[column] < 0, -1, 1)
+                for side, contact in by_side.items() if len(by_side) > 1 else ():
+                    if contact.lean is not None:
+                        leans[row] = np.where(pressed == side, contact.lean, leans[row])
             elif force.name in self.requested:
                 reactions[row] = best.values[self.requested_columns[self.requested.index(force.name)]]
             else:
@@ -496,7 +503,7 @@ class TurnBalance:
                 # transmission errors of the carrier do not change the directions noticeably
                 link = self.motion.links[force.carrier]
                 angles[row] = 2 * np.pi * turns * self.motion.senses[link] * self.motion.means[link]
-        return bearings.friction(bearings.loads(reactions, angles), self.balance)
+        return bearings.friction(bearings.loads(reactions, angles, leans), self.balance)
 
     def _member_torques(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
         """Return the torques of a pair on its first and second link, about the reference direction."""

@@ -86,25 +86,25 @@ class LoadedBalance:
         # the known powers are the same in all flows, so the power of the unknown torques orders the losses
         return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow))), complete
 
-    def with_loaded_bearings(self) -> LoadedBalance | None:
-        """Return the balance with the friction of the bearings under their loads, for the first pattern of power flow
-        that agrees with it; None if there is none.
+    def solve(self) -> tuple[LoadedBalance, list[FlowPattern], bool]:
+        """Return the balance with the friction of bearings under their loads, its patterns of power flow as in
+        `sorted_flows`, and True if all patterns were tried. The friction agrees with the loads in the first pattern.
         """
         found, loads = self, self.bearing_loads
-        flows = [] if loads is None else self.sorted_flows(self.balance)[0]
+        flows, complete = self.sorted_flows(self.balance)
+        if loads is None:
+            return self, flows, complete
         for _ in range(_MOST_ROUNDS):
-            if loads is None or not flows:
-                break
-            loaded = loads.friction_torques(found.balance, flows[0], self.loads)
+            loaded = loads.friction_torques(found.balance, flows[0], self.loads) if flows else None
             if loaded is None:
-                return None
+                break
             bearings = loads.setting.bearings(loaded, loads.steady)
             known = _acting(self.loads, _bearing_friction(loads.setting, bearings))
             found = replace(self, balance=replace(self.balance, known=known), bearings=bearings)
-            before, (flows, _) = flows[0].pattern, self.sorted_flows(found.balance)
+            before, (flows, complete) = flows[0].pattern, self.sorted_flows(found.balance)
             if flows and flows[0].pattern == before:
-                return found
-        return self if loads is None else None
+                return found, flows, complete
+        return self, [], complete
 
     def power(self, flow: FlowPattern) -> Fraction:
         """Return the power that the unknown torques put into the train [unit of torque times unit of speed]."""
@@ -118,8 +118,7 @@ class LoadedBalance:
         """Return the flow patterns under a load so large that constant friction is negligible."""
         loads = {link: _GREAT * torque for link, torque in self.loads.items()}
         known = _acting(loads, self.bearing_friction)
-        heavy = replace(self, loads=loads, balance=replace(self.balance, known=known)).with_loaded_bearings()
-        return () if heavy is None else find_flow_patterns(heavy.balance)[0]
+        return tuple(replace(self, loads=loads, balance=replace(self.balance, known=known)).solve()[1])
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
@@ -603,11 +602,8 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
 
         loads = BearingLoads(setting, bearings)
         question = replace(question, bearing_loads=loads)
-    loaded = question.with_loaded_bearings()
-    flows, complete = question.sorted_flows(balance)
-    if loaded is not None:
-        question, (flows, complete) = loaded, question.sorted_flows(loaded.balance)
-    elif flows:
+    question, flows, complete = question.solve()
+    if loads is not None and not flows and find_flow_patterns(balance)[0]:
         return Torques(state, _locked_bearings(question), unknown.links)
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()

@@ -10,8 +10,8 @@ docs/torques.md, equations (26) to (28).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from math import cos, tan
@@ -77,8 +77,7 @@ class BearingLoads:
     setting: LoadCase
     steady: bool = True
     """False to omit weights, so that all forces are proportional to the torques."""
-    missing: dict[str, list[str]] = field(default_factory=dict, init=False)
-    """Names of the pairs whose forces are unknown, by the reason."""
+    _left_out: dict[str, list[str]] = field(default_factory=dict, init=False)
 
     @cached_property
     def links(self) -> tuple[str, ...]:
@@ -94,6 +93,12 @@ class BearingLoads:
             each for each in found if any(self._inside(link, end) for link in self.links for end in each.links)
         )
 
+    @property
+    def missing(self) -> Mapping[str, Sequence[str]]:
+        """Names of the pairs whose forces on these bearings are unknown, by the reason."""
+        _ = self.forces  # lists the pairs
+        return self._left_out
+
     def _inside(self, link: str, end: str | None) -> bool:
         """Return True if a force on the link `end` presses on the bearing of `link`, which is `end` or carries it."""
         while end is not None and end != link:
@@ -103,8 +108,7 @@ class BearingLoads:
     def _pairs(self) -> Iterator[AxisForce]:
         setting, train = self.setting, self.setting.train
         for circuit in setting.circuits:
-            labels = setting.axis_labels(circuit)
-            if circuit.kind != "gear" or not setting.axes.are_parallel(labels):
+            if circuit.kind != "gear" or not setting.axes.are_parallel(labels := setting.axis_labels(circuit)):
                 self._leave_out(circuit, "forces are computed only for gear pairs on parallel axes")
                 continue
             axes = [train.axes.get(label) for label in labels]
@@ -120,8 +124,8 @@ class BearingLoads:
             # about the reference direction of parallel axes, as the signs of the torques
             way = scaled((axes[0] or Axis()).way, setting.axes.sign(labels[0]))
             line = across(scaled(minus(second, first), _MM), way)
-            wheels = [train.wheels[name][1] for name in circuit.wheels]
-            square = float(np.dot(line, line)) * (-1 if any(wheel.internal for wheel in wheels) else 1)
+            i, j = (train.wheels[name][1] for name in circuit.wheels)
+            square = float(np.dot(line, line)) * (-1 if i.internal or j.internal else 1)
             yield AxisForce(
                 circuit.id,
                 (circuit.i, circuit.j),
@@ -129,7 +133,7 @@ class BearingLoads:
                 scaled(cross(way, line), 1 / abs(square)),
                 scaled(line, 1 / square),
                 lean,
-                tuple(0.0 if wheel.along is None else wheel.along.si for wheel in wheels),  # type: ignore[arg-type]
+                (0.0 if i.along is None else i.along.si, 0.0 if j.along is None else j.along.si),
             )
 
     def _line(self) -> Iterator[AxisForce]:
@@ -138,7 +142,7 @@ class BearingLoads:
         if drive is None or drive.drum is None or source is None:
             return
         if (down := self._down) is None:
-            self.missing.setdefault("give the direction of `gravity`", []).append(f"line on '{source}'")
+            self._left_out.setdefault("give the direction of `gravity`", []).append(f"line on '{source}'")
             return
         frame = self.setting.train.frame
         pull = scaled(down, 1 / drive.drum.si)
@@ -157,7 +161,7 @@ class BearingLoads:
 
     def _leave_out(self, circuit: Circuit, why: str) -> None:
         if any(self._inside(link, circuit.i) != self._inside(link, circuit.j) for link in self.links):
-            self.missing.setdefault(why, []).append(circuit.id)
+            self._left_out.setdefault(why, []).append(circuit.id)
 
     # -------------------------------------------------------------------------------------------------------- supports
 
@@ -287,19 +291,24 @@ class BearingLoads:
         """Return the carrier torque of each force without load-dependent friction, and for a unit friction torque in
         each bearing, shape (forces, 1 + links). Equal planets have one column, of the first one.
         """
-        rows = {link: row for row, link in enumerate(balance.links)}
-        known: dict[int, LinearForm] = {row: {_KNOWN: torque} for row, torque in balance.rows.items()}
         like = equal_planets(balance)
+        known: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in balance.known.items()}
         for link in self.links:
             number = self.links.index(like.get(link, (link,))[0])
             for end, torque in self.setting.friction_senses(link):
-                if (form := known.get(rows.get(end, -1))) is not None:
-                    form[-2 - number] = form.get(-2 - number, Fraction(0)) + torque
+                form = known.setdefault(end, {})
+                form[-2 - number] = form.get(-2 - number, Fraction(0)) + torque
+        # different numbers for the loaded links, so that rows are not taken as equal by chance
+        marks = {link: Fraction(2 + balance.links.index(like.get(link, (link,))[0])) for link in known}
+        balance = replace(balance, known=marks)
+        links = dict(enumerate(balance.links))
         sides = {}
         for at, column in enumerate(balance.columns):
             lossy = next((mesh for mesh in column.meshes if mesh.loses), None)
             sides[at] = 0 if lossy is None else flow.pattern[lossy.id]
-        forms = solve_block(balance.columns, balance.whole, sides, known)
+        forms = solve_block(
+            balance.columns, balance.whole, sides, {row: known.get(links.get(row, ""), {}) for row in balance.rows}
+        )
         if forms is None:
             return None
         torques: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in applied.items()}

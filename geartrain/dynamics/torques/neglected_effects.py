@@ -56,7 +56,7 @@ def find_neglected_effects(
 
 def unknown_forces(loads: BearingLoads, idle: Sequence[str] = ()) -> Iterator[NeglectedEffect]:
     """Yield the pairs and links whose forces on bearings are unknown, and the weights that move."""
-    for why, names in loads.missing.items() if loads.forces or loads.missing else ():
+    for why, names in loads.missing.items():
         if busy := tuple(name for name in names if name not in set(idle)):
             yield NeglectedEffect("forces on bearings", busy, why)
     if light := tuple(link for link, mass in loads.masses.items() if mass is None):

@@ -95,7 +95,7 @@ class LoadedBalance:
         if loads is None:
             return self, flows, complete
         for _ in range(_MOST_ROUNDS):
-            loaded = loads.friction_torques(found.balance, flows[0], self.loads) if flows else None
+            loaded = loads.friction_torques(self.balance, flows[0], self.loads) if flows else None
             if loaded is None:
                 break
             bearings = loads.setting.bearings(loaded, loads.steady)
@@ -659,6 +659,8 @@ def build_balance(
     shared = {name for _, parts in shares for name in parts}
     # planets with declared shares need not be loaded equally
     planets = {link for mesh in meshes if mesh.id in shared for link in mesh.links[:2]}
+    # planets with different pivots are not equal
+    pivots = {link: Fraction(part.friction_radius) for link, part in train.links.items() if part.friction_radius}
     return TorqueBalance(
         tuple(link for link in train.links if link != train.frame),
         meshes,
@@ -666,7 +668,7 @@ def build_balance(
         requested,
         _brakes(setting),
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
-        find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
+        find_ties(setting.circuits, meshes, _acting(known, pivots), {train.frame} | held | planets),
         shares,
         _reactions(setting, requested),
         case.senses,

@@ -299,9 +299,9 @@ class BearingLoads:
                 form = known.setdefault(end, {})
                 form[-2 - number] = form.get(-2 - number, Fraction(0)) + torque
         # different numbers for the loaded links, so that rows are not taken as equal by chance
-        marks = {link: Fraction(2 + balance.links.index(like.get(link, (link,))[0])) for link in known}
-        balance = replace(balance, known=marks)
         links = dict(enumerate(balance.links))
+        marks = {link: Fraction(2 + balance.links.index(like.get(link, (link,))[0])) for link in links.values()}
+        balance = replace(balance, known={link: mark for link, mark in marks.items() if link in known})
         sides = {}
         for at, column in enumerate(balance.columns):
             lossy = next((mesh for mesh in column.meshes if mesh.loses), None)

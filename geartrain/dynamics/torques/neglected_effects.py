@@ -31,6 +31,7 @@ def find_neglected_effects(
     idle: Sequence[str],
     bearings: bool,
     loads: BearingLoads | None = None,
+    loose: Sequence[str] = (),
 ) -> tuple[NeglectedEffect, ...]:
     """Return all effects that the mean torques of one load case neglect.
 
@@ -38,6 +39,7 @@ def find_neglected_effects(
     idle      pairs without torque, which have no losses
     bearings  False if constant friction of bearings was not requested
     loads     loads of the bearings whose friction depends on them
+    loose     pairs with undetermined torque
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
@@ -50,15 +52,19 @@ def find_neglected_effects(
             "the value for a constant load torque is used, or for a constant driving torque where loads drive"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
-    found += [] if loads is None else unknown_forces(loads, idle)
+    found += [] if loads is None else unknown_forces(loads, idle, loose)
     return (*found, *_drag(setting), *_variation(setting, busy), *_inertia(setting))
 
 
-def unknown_forces(loads: BearingLoads, idle: Sequence[str] = ()) -> Iterator[NeglectedEffect]:
+def unknown_forces(
+    loads: BearingLoads, idle: Sequence[str] = (), loose: Sequence[str] = ()
+) -> Iterator[NeglectedEffect]:
     """Yield the pairs and links whose forces on bearings are unknown, and the weights that move."""
     for why, names in loads.missing.items():
         if busy := tuple(name for name in names if name not in set(idle)):
             yield NeglectedEffect("forces on bearings", busy, why)
+    if shared := tuple(force.name for force in loads.forces if force.name in set(loose)):
+        yield NeglectedEffect("forces on bearings", shared, "their shares of the load are not determined")
     if light := tuple(link for link, mass in loads.masses.items() if mass is None):
         yield NeglectedEffect("weight on bearings", light, "the `mass` of these links is not declared")
     moving = (link for link, mass in loads.masses.items() if mass)

@@ -612,7 +612,7 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
         from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 
         missed = [name for name in idle if name not in loose]
-        neglected = find_neglected_effects(setting, means, neither, missed, bearings, loads)
+        neglected = find_neglected_effects(setting, means, neither, missed, bearings, loads, loose)
     verdict = find_torque_verdict(question, flows, complete, neglected)
     if not flows:
         verdict = _with_reason(unknown, verdict)

@@ -76,13 +76,16 @@ class MemberTorques(NamedTuple):
     """Torque on the carrier of the pair [N m, or number without a unit]."""
 
 
-class BearingTorque(NamedTuple):
+@dataclass(frozen=True)
+class BearingTorque(Result):
     """Friction torques of one bearing: equation (10) of docs/torques.md.
 
     See Also
     --------
     Torques.bearings : all bearings with friction
     """
+
+    KEYS = ("link", "carrier", *(Key(key, to=as_float) for key in ("torque", "reaction", "loss")), "load")
 
     link: str
     """Link that turns in the bearing."""
@@ -96,6 +99,10 @@ class BearingTorque(NamedTuple):
     """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
     """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
+    load: float | None = None
+    """Load on the bearing, or the sum of the loads on its two bearings [N]; None if its friction does not depend on
+    the load.
+    """
 
 
 @dataclass(frozen=True)
@@ -318,6 +325,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         Key("links", "link_torques"),
         "held",
         "pairs",
+        "bearings",
         Key("power_in", "known_power_in", as_float),
         Key("loss", "known_loss", as_float),
         "neglected",
@@ -472,7 +480,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output divided by power input; a float if pairs have mean efficiencies over teeth.
+        """Power output divided by power input; a float if pairs have mean efficiencies over teeth, or if friction of
+        bearings depends on their load.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """
@@ -480,7 +489,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
             return None
         # the net external power is the loss, even if torques of pairs are undetermined
         found = 1 - self._missing / self.power_in
-        return found if all(pair.exact for pair in self.pairs.values()) else float(found)
+        exact = all(pair.exact for pair in self.pairs.values()) and all(each.load is None for each in self.bearings)
+        return found if exact else float(found)
 
     @property
     def _missing(self) -> Fraction:

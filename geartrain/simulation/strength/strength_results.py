@@ -317,8 +317,7 @@ class WheelForce(Result):
     tangential: float
     """Tangential force at the pitch circle, with the sign of the torque [N].
 
-    On parallel axes and on bevels both wheels of a pair have the same force, from the larger torque divided by radius,
-    because friction reduces the other torque.
+    On parallel axes and on bevels both wheels of a pair have the same force: docs/strength.md (32).
     """
     axial: float
     """Axial force, positive along the direction of the wheel's axis [N]."""

@@ -38,8 +38,7 @@ app = typer.Typer(
     cls=InspectGroup,
     add_completion=False,
     no_args_is_help=True,
-    help="Print equations, formulas, graph or accuracy of a train, estimates from the measured teeth of a wheel, or the "
-    "JSON Schema of the files.\n\n"
+    help="Print equations, formulas, graph, accuracy or measured wheels of a train, or the JSON Schema of files.\n\n"
     "Example: `geartrain inspect formula wolfrom-175`.",
 )
 

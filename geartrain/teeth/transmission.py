@@ -150,6 +150,8 @@ class TransmissionFunction(Shown, ABC):
     """Fraction of the period during which the driven side is at rest; 1 for steps at once."""
     at_once: bool = False
     """True if the driven side moves at once, so that the transmission error is discontinuous."""
+    measured: bool = False
+    """True for wheels with measured teeth."""
 
     @property
     def pitch(self) -> float:

@@ -209,7 +209,9 @@ class MeasuredTeeth(Declared):
         "to the file of the declaration. A number without a unit is in degrees",
     )
     column: str = Field("angle", description="Header of the column of `csv` that contains the angles")
-    missing: Annotated[int, Field(ge=0)] = Field(0, description="Number of missing teeth after the last one in `angles`")
+    missing: Annotated[int, Field(ge=0)] = Field(
+        0, description="Number of missing teeth after the last one in `angles`"
+    )
     error: Annotated[Angle, not_below_zero("give 0 or more, such as 0.05 deg")] | None = Field(
         None, description="Standard deviation of the measurement error of an angle; default 0"
     )
@@ -233,6 +235,9 @@ class MeasuredTeeth(Declared):
 
     @model_validator(mode="after")
     def _describes_pitches_once(self) -> MeasuredTeeth:
+        if self.angles is not None and (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
+            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
+            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
         if self.angles is not None and self.pitch_deviation is not None:
             what, why = "the pitches are declared twice", "both `pitch_deviation` and angles are given"
             raise bad("measured", what, "remove one of them", why)
@@ -317,7 +322,10 @@ class WheelManufacture(Declared):
     @model_validator(mode="after")
     def _is_consistent(self) -> WheelManufacture:
         if self.stepping is not None and self.stepping.value is not None:
-            what, why = "`stepping` is a fixed error", "the even division of the gap removes an error that all steps share"
+            what, why = (
+                "`stepping` is a fixed error",
+                "the even division of the gap removes an error that all steps share",
+            )
             fix = f"give a standard deviation, such as `stepping: {{normal: {self.stepping.value}}}`"
             raise bad("stepping", what, fix, why)
         doubled = [key for key in ("pitch_deviation", "stepping", "eccentricity") if getattr(self, key) is not None]

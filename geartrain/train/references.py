@@ -11,7 +11,7 @@ from typing import Any
 from geartrain.errors import Loc, Problem, dotted, suggest
 from geartrain.numerics.quantity import Quantity, as_rotation, units_of
 from geartrain.train.declaration import Train
-from geartrain.train.manufacturing import FEWEST_ANGLES, material_table
+from geartrain.train.manufacturing import material_table
 from geartrain.train.mechanism import Joint
 from geartrain.train.outputs import Output, PrintedPeriod, Published, Target, year_seconds
 from geartrain.train.periods import period_table, suggested_period
@@ -360,15 +360,11 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
     off = measured.deviations(count)
     for (one, before), (two, after) in pairwise(off.items()):
         if not abs(after - before) < (two - one) * 2 * pi / count:
-            what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' is not ahead of that of tooth {one + 1}"
+            what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' does not follow that of tooth {one + 1}"
             why = f"angles increase from tooth to tooth, by about {360 / count:.5g} deg"
             fix = "list the teeth in the order of rotation, and measure angles against the direction of rotation"
             yield Problem(what, why, fix, train.place(*loc, "angles"))
             return
-    if measured.angles is not None and len(off) < FEWEST_ANGLES:
-        what = f"wheel '{wheel}' has {len(off)} measured angles"
-        why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
-        yield Problem(what, why, "measure more teeth", train.place(*loc, "angles"))
 
 
 def _wheels(train: Train) -> Iterator[Problem]:

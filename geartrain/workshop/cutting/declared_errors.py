@@ -7,8 +7,6 @@ from dataclasses import dataclass, field, replace
 from math import degrees, pi
 from typing import TYPE_CHECKING, Literal
 
-import numpy as np
-
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.teeth.triangular.pair_geometry import depth

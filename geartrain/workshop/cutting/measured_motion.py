@@ -28,6 +28,8 @@ _SAMPLES = 64  # positions per pitch for the range and the mean of a transmissio
 class MeasuredTransmission(LosslessTransmission):
     """Transmission function of one pair of cut wheels, periodic with the cycle in which all its teeth meet."""
 
+    measured = True
+
     def __init__(self, pair: TrialPair, cut: Any) -> None:
         self._pair, self._cut = pair, cut
         one = pair.transmission(cut, np.zeros(0, dtype=np.int64))

@@ -177,10 +177,10 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     where = ("links", link, "wheels", name, "cutting") if own else ("cutting",)
     reader = _Reader(train.place(*where), name, _scales(even, wheel))
     errors = {kind: reader.off(kind, getattr(cutting, kind, None)) for kind in OF_WHEELS}
-    measured = getattr(cutting, "measured", None)
-    by_angles = measured is not None and measured.angles is not None
+    measured: MeasuredTeeth | None = getattr(cutting, "measured", None)
+    by_angles = measured if measured is not None and measured.angles is not None else None
     for each in settings:
-        if by_angles and each.kind in _OF_PITCHES:
+        if by_angles is not None and each.kind in _OF_PITCHES:
             _check_not_measured(each, name)
         elif each.kind in OF_WHEELS and each.of in ("", name):
             errors[each.kind] = reader.set(each)
@@ -190,7 +190,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     at = cutting.eccentricity_angle if cutting is not None else None
     # the declared angle is positive ahead, but teeth are counted in the order they pass, which is backwards
     found = replace(even, errors=errors, towards=-at.si if at else None, tables=reader.tables(cutting))
-    return _with_measured_angles(found, measured) if by_angles else found
+    return found if by_angles is None else _with_measured_angles(found, by_angles)
 
 
 def _check_not_measured(setting: ErrorOverride, wheel: str) -> None:

@@ -38,7 +38,7 @@ def closed_steps(steps: Any) -> Floats:
     """Return the deviations of teeth set off from one another with errors of the steps, shape (..., z).
 
     The sum of all steps is a full turn, so their mean error is divided evenly (Brownian bridge). The mean deviation is
-    0. For independent steps of variance 1, the covariance is `stepped_covariance`.
+    0. The covariance is equation (5) of docs/cut-by-hand.md.
     """
     walk = np.cumsum(steps - np.mean(steps, axis=-1, keepdims=True), axis=-1)
     closed: Floats = walk - walk.mean(axis=-1, keepdims=True)
@@ -46,9 +46,7 @@ def closed_steps(steps: Any) -> Floats:
 
 
 def stepped_covariance(teeth: Ints, z: int) -> Floats:
-    """Return the covariance matrix of `closed_steps` for some of z teeth, given by index: (z^2 - 1) / (12 z) - m (z -
-    m) / (2 z) for teeth that are m teeth apart.
-    """
+    """Return the covariance matrix of `closed_steps` for some of z teeth, by index, if the steps have variance 1."""
     apart = np.abs(teeth[:, None] - teeth)
     found: Floats = (z * z - 1) / (12 * z) - apart * (z - apart) / (2 * z)
     return found
@@ -208,8 +206,8 @@ def estimate_wheel(
 
 def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
     """Return the estimates from the angles declared for a wheel, by the law that von Neumann's ratio indicates."""
-    angles = [None if each is None else each.si for each in measured.angles or ()]
-    return estimate_wheel(angles, count, 0.0 if measured.error is None else measured.error.si)
+    behind, error = measured.deviations(count), 0.0 if measured.error is None else measured.error.si
+    return _estimate(np.array(list(behind)), np.array(list(behind.values())), count, error, None)
 
 
 def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLaw | None) -> WheelEstimate:
@@ -236,7 +234,7 @@ def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLa
     size, F = float(np.hypot(*ab)), float(ab @ np.linalg.solve(covariance, ab)) / 2
     tails = LEVEL / 2, 1 - LEVEL / 2
     p, student = float(fdtrc(2, freedom, F)), float(stdtrit(freedom, tails[1]))
-    noncentrality = ncfdtrinc(2, freedom, LEVEL, fdtri(2, freedom, 1 - LEVEL))
+    noncentrality = float(ncfdtrinc(2, freedom, LEVEL, float(fdtri(2, freedom, 1 - LEVEL))))
     detectable = sqrt(noncentrality * np.linalg.eigvalsh(covariance)[-1])
     along = ab / size if size else np.array([1.0, 0.0])
     across = np.array([-along[1], along[0]])

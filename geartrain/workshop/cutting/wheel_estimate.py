@@ -21,7 +21,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.confidence_intervals import CONFIDENCE, IntervalEstimate, in_degrees
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.train.manufacturing import FEWEST_ANGLES
 
 if TYPE_CHECKING:
@@ -62,6 +62,10 @@ def eccentric_deviations(eccentricity: float, direction: float, z: int) -> Float
     return found
 
 
+def _degrees(angle: float) -> float | None:
+    return finite(degrees(angle))
+
+
 @dataclass(frozen=True)
 class WheelEstimate(Result):
     """Eccentricity and pitch deviations of a wheel, estimated from measured angles of its teeth.
@@ -77,10 +81,10 @@ class WheelEstimate(Result):
     KEYS = (
         *("teeth", "measured", "law", "eccentricity", "eccentricity_error", "eccentric", "F", "p", "detectable"),
         Key("direction", to=in_degrees),
-        Key("direction_error", to=degrees),
+        Key("direction_error", to=_degrees),
         Key("deviation", to=in_degrees),
         *(Key(name, to=degrees) for name in ("deviation_error", "cutting_deviation")),
-        *("q", "q_limit", "stepped", Key("residuals", to=degrees)),
+        *(Key("q", to=finite), Key("q_limit", to=finite), "stepped", Key("residuals", to=degrees)),
     )
 
     teeth: int
@@ -190,7 +194,7 @@ def estimate_wheel(
     --------
     >>> from math import radians
     >>> estimate_wheel([radians(each) for each in (0.3, 71.9, 143.7, 216.1)], teeth=5)
-    <WheelEstimate 4 of 5 teeth, not eccentric, sd 0.158 deg>
+    <WheelEstimate 4 of 5 teeth, not eccentric, sd 0.0874 deg>
     """
     z = len(angles) if teeth is None else teeth
     given = {at: float(each) for at, each in enumerate(angles) if each is not None and not isnan(each)}
@@ -271,7 +275,7 @@ def _successive_ratio(step: Floats, ratio: float, n: int) -> tuple[float, float]
 
     The ratio is nearly normal, with the moments of a quotient of quadratic forms of normal variables.
     """
-    if not len(step):
+    if not len(step) or n == FEWEST_ANGLES:  # with one degree of freedom the ratio is constant
         return nan, -inf
     from scipy.special import ndtri
 

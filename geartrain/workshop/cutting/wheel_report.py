@@ -37,7 +37,7 @@ class MeasuredWheels(TrainResult):
 def find_measured_wheels(train: Train) -> MeasuredWheels:
     """Return the estimates for all wheels with measured angles. Raises `QuestionError` if there are none."""
     cut = {name: (wheel.count, wheel.cutting.measured) for name, (_, wheel) in train.wheels.items() if wheel.cutting}
-    found = {name: estimate_measured(each, count) for name, (count, each) in cut.items() if each and each.angles}
+    found = {name: estimate_measured(each, z) for name, (z, each) in cut.items() if z and each and each.angles}
     if not found:
         what, why = f"no wheel of '{train.name}' has measured angles", "the estimates are computed from angles"
         raise QuestionError(Problem(what, why, "declare `cutting: {measured: {csv: FILE}}` for a wheel"))

@@ -137,7 +137,13 @@ class FeasibilityPlan:
         return self.train.torques(self.state)
 
     def loads(self, train: GearTrain) -> PairLoads | None:
-        """Return the torques of a train, infinite if friction locks it; None if they do not follow from the loads."""
+        """Return the torques of a train, infinite if friction locks it; None if they do not follow from the loads.
+
+        Parameters
+        ----------
+        train : GearTrain
+            Train with the friction of a trial.
+        """
         found = train.torques(self.state)
         crank = found.external.get(self.crank)
         if found.verdict.kind in ("self-locking", "stalled"):
@@ -154,7 +160,13 @@ class FeasibilityPlan:
         return PairLoads(inf if run.maximum is None else run.maximum.torque, {**driven, **maxima}, shares)
 
     def drawn_loads(self, seed: int, trial: int) -> PairLoads | None:
-        """Return the torques with the friction of one trial; None without loads."""
+        """Return the torques with the friction of one trial; None without loads.
+
+        Parameters
+        ----------
+        seed, trial : int
+            Random seed, and number of the trial.
+        """
         if self.nominal is None or not friction_spreads(self.declared):
             return self.nominal
         from geartrain.analysis.gear_train import GearTrain
@@ -189,7 +201,13 @@ class FeasibilityPlan:
             yield LoadedPart(name, material, known.strength.si / 1e6, float(known.spread.value), stress, loads)
 
     def strengths(self, seed: int, trials: int) -> Floats:
-        """Return the strength of each part in each trial, lognormal, shape (trials, parts) [MPa]."""
+        """Return the strength of each part in each trial, lognormal, shape (trials, parts) [MPa].
+
+        Parameters
+        ----------
+        seed, trials : int
+            Random seed, and number of trials.
+        """
         materials = sorted({part.material for part in self.parts})
         units = [
             _drawn(seed, trials, at if self.per_part else materials.index(part.material), STRENGTH).standard_normal
@@ -199,7 +217,13 @@ class FeasibilityPlan:
         return np.stack(columns, axis=1) if columns else np.zeros((trials, 0))
 
     def hands(self, seed: int, trials: int) -> Floats | None:
-        """Return the maximum torque at the crank in each trial, shape (trials,) [N m]; None if no drive limits it."""
+        """Return the maximum torque at the crank in each trial, shape (trials,) [N m]; None if no drive limits it.
+
+        Parameters
+        ----------
+        seed, trials : int
+            Random seed, and number of trials.
+        """
         drive = self.declared.case(self.state).drive
         torque = None if drive is None else drive.steady_torque
         if drive is None or torque is None:
@@ -212,6 +236,11 @@ class FeasibilityPlan:
     def held(self, pair: str) -> Mapping[str, float]:
         """Return the torque on the driven wheel of each pair for a unit torque at the crank while the driven link of
         one pair is held, without losses; empty if it does not follow.
+
+        Parameters
+        ----------
+        pair : str
+            Name of a pair that jams.
         """
         from geartrain.analysis.gear_train import GearTrain
 
@@ -232,7 +261,13 @@ class FeasibilityPlan:
         return {name: each / abs(float(torque)) for name, each in _driven_torques(train, found) if each}
 
     def at_accuracy(self, degrees: float) -> TrialPlan:
-        """Return the plan of the cutting with normal pitch deviations of another standard deviation [deg]."""
+        """Return the plan of the cutting with normal pitch deviations of another standard deviation [deg].
+
+        Parameters
+        ----------
+        degrees : float
+            Standard deviation of the pitch deviation of all wheels [deg].
+        """
         wheels = tuple(
             replace(w, errors={**w.errors, "pitch_deviation": ErrorSpecification(radians(degrees) / w.pitch, "normal")})
             for w in self.cutting.wheels

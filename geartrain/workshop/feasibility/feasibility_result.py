@@ -25,7 +25,12 @@ OUTCOMES = ("cannot be cut", "jams", "too stiff", "breaks", "turns")
 
 
 class OutcomeCause(NamedTuple):
-    """Gear pair, tooth or arbor that causes an outcome, and the probability that it does."""
+    """Gear pair, tooth or arbor that causes an outcome, and the probability that it does.
+
+    See Also
+    --------
+    FeasibilityResult : Result that contains it.
+    """
 
     outcome: str
     """Name of the outcome."""
@@ -36,7 +41,12 @@ class OutcomeCause(NamedTuple):
 
 
 class AccuracyStep(NamedTuple):
-    """Probability that the train turns at one accuracy of the cutting."""
+    """Probability that the train turns at one accuracy of the cutting.
+
+    See Also
+    --------
+    FeasibilityResult : Result that contains it.
+    """
 
     accuracy: float
     """Standard deviation of the pitch deviation of all wheels [deg]."""
@@ -45,7 +55,12 @@ class AccuracyStep(NamedTuple):
 
 
 class ForcedBreakage(NamedTuple):
-    """Probability that the hand breaks a tooth of a train that jams, if it applies its maximum torque."""
+    """Probability that the hand breaks a tooth of a train that jams, if it applies its maximum torque.
+
+    See Also
+    --------
+    FeasibilityResult : Result that contains it.
+    """
 
     torque: ProbabilityEstimate
     """The pair that jams transmits only the torque of the hand: a lower bound."""
@@ -54,7 +69,12 @@ class ForcedBreakage(NamedTuple):
 
 
 class CrankTorque(NamedTuple):
-    """Percentiles of the torque at the crank over all trials in which friction does not lock the train [N m]."""
+    """Percentiles of the torque at the crank over all trials in which friction does not lock the train [N m].
+
+    See Also
+    --------
+    FeasibilityResult : Result that contains it.
+    """
 
     low: IntervalEstimate
     """5th percentile with its 95 % confidence interval."""

@@ -37,13 +37,10 @@ if TYPE_CHECKING:
     from geartrain.workshop.export.file_set import wheel_file as wheel_file
     from geartrain.workshop.export.parts_list import ListedPart as ListedPart
     from geartrain.workshop.export.parts_list import parts_list as parts_list
-    from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan as FeasibilityPlan
     from geartrain.workshop.feasibility.feasibility_plan import find_feasibility_plan as find_feasibility_plan
-    from geartrain.workshop.feasibility.feasibility_plot import feasibility_figure as feasibility_figure
     from geartrain.workshop.feasibility.feasibility_report import describe_feasibility as describe_feasibility
-    from geartrain.workshop.feasibility.feasibility_result import AccuracyStep as AccuracyStep
-    from geartrain.workshop.feasibility.feasibility_result import FeasibilityResult as FeasibilityResult
-    from geartrain.workshop.feasibility.feasibility_result import OutcomeCause as OutcomeCause
+    from geartrain.workshop.feasibility.feasibility_report import feasibility_figure as feasibility_figure
+    from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult as FeasibilityResult
     from geartrain.workshop.feasibility.feasibility_trials import run_feasibility as run_feasibility
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
     from geartrain.workshop.monte_carlo.clearance_study import jamming_map as jamming_map
@@ -90,11 +87,9 @@ __getattr__, __all__ = public_names(
         "export.assembly_guide": "AssemblyStep assembly_steps",
         "export.file_set": "ExportFile export_files notices train_file wheel_file",
         "export.parts_list": "ListedPart parts_list",
-        "feasibility.feasibility_plan": "FeasibilityPlan find_feasibility_plan",
-        "feasibility.feasibility_plot": "feasibility_figure",
-        "feasibility.feasibility_report": "describe_feasibility",
-        "feasibility.feasibility_result": "AccuracyStep FeasibilityResult OutcomeCause",
-        "feasibility.feasibility_trials": "run_feasibility",
+        "feasibility.feasibility_plan": "find_feasibility_plan",
+        "feasibility.feasibility_report": "describe_feasibility feasibility_figure",
+        "feasibility.feasibility_trials": "FeasibilityResult run_feasibility",
         "monte_carlo.clearance_study": "ClearanceCase jamming_map",
         "monte_carlo.friction_trials": "FrictionPlan FrictionSpread FrictionTrials TrialFigure try_frictions",
         "monte_carlo.monte_carlo_plots": "monte_carlo_figure",

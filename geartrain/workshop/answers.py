@@ -8,7 +8,7 @@ from typing import Any
 def answers() -> dict[str, Any]:
     """Return the result type of each workshop command that prints JSON, by name of the command."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
-    from geartrain.workshop.feasibility.feasibility_result import FeasibilityResult
+    from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
     from geartrain.workshop.sizes.train_size_search import BestTrainSizes

@@ -9,9 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from importlib.metadata import version
 from math import inf, pi, radians
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -28,20 +27,16 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.train import ArborSizes, Train
 
-STRENGTH, HAND = 9, 10
-"""Numbers of the random streams of strengths and of the hand, beside those of `trial_block`."""
+_STRENGTH, _HAND = 9, 10  # numbers of the random streams of strengths and of the hand, after those of `trial_block`
+_SAMPLES = 2_000  # positions of the input in a run
 
 
 def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, float]) -> float:
     """Return the torque on the driven wheel of each flank of a jammed pair [unit of `torque`]; 0 if the pair releases
-    itself.
+    itself: docs/cut-by-hand.md, equation (5). Equal ratios without friction give an infinite torque.
 
-    The front flank drives and the back flank resists: docs/cut-by-hand.md, equation (5). Equal ratios without friction
-    give an infinite torque.
-
-    torque        torque T on the driver
-    front, back   ratio of driven to driver speed tau, and efficiency eta, at each flank; at the back flank the driven
-                  wheel drives
+    torque        torque on the driver
+    front, back   ratio of driven to driver speed, and efficiency, of each flank; at the back the driven wheel drives
 
     >>> round(wedge_torque(1.0, (1.0, 0.95), (1.0, 0.95)), 6)
     9.74359
@@ -51,15 +46,11 @@ def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, f
     return torque / net if net > 0 else 0.0 if net < 0 else inf
 
 
-def pivot_stress(force: float, length: float, diameter: float) -> float:
-    """Return the bending stress at the shoulder of a pivot [MPa] under a force [N] in the middle of its length [mm].
-
-    sigma = 16 F l / (pi d^3)
-
-    >>> round(pivot_stress(10.0, 2.0, 2.0), 4)
-    12.7324
-    """
-    return 16 * force * length / (pi * diameter**3)
+def _pivot_stress(sizes: ArborSizes, pressure: float) -> float:
+    """Return the bending stress of a pivot [MPa] from the pressure on its projected area [MPa]: 16 F l / (pi d^3)."""
+    diameter = 1e3 * (sizes.pivot or sizes.diameter).si
+    length = diameter if sizes.pivot_length is None else 1e3 * sizes.pivot_length.si
+    return 16 * pressure * length**2 / (pi * diameter**2)
 
 
 class PairLoads(NamedTuple):
@@ -72,18 +63,18 @@ class PairLoads(NamedTuple):
 
 @dataclass(frozen=True)
 class LoadedPart:
-    """Tooth of a wheel, or arbor with its pivots, that may break."""
+    """Tooth of a wheel, or arbor with its pivots, that may break.
+
+    strength   median of the strength [MPa]; `spread` is the standard deviation of its logarithm
+    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels then [N m], by pair
+    """
 
     name: str
-    """Name, such as "tooth of c1" or "arbor of c"."""
     material: str
     strength: float
-    """Median of the strength [MPa]; `spread` is the standard deviation of its logarithm."""
     spread: float
     stress: float
-    """Stress under the declared loads [MPa]."""
     loads: Mapping[str, float]
-    """Torque on the driven wheel under the declared loads [N m], by gear pair that loads the part."""
 
     def stresses(self, torques: Mapping[str, Floats | float]) -> Floats:
         """Return the stress [MPa] under other torques of the pairs [N m]; for several pairs an upper bound."""
@@ -94,30 +85,18 @@ class LoadedPart:
 
 @dataclass(frozen=True)
 class FeasibilityPlan:
-    """Input data of feasibility trials of a train in one state.
-
-    See Also
-    --------
-    find_feasibility_plan : Make a plan from a train.
-    """
+    """Input data of feasibility trials of a train in one state; `find_feasibility_plan` describes the fields."""
 
     cutting: TrialPlan
-    """Wheels and pairs with their cutting errors."""
     declared: Train
-    """Declaration of the train."""
     state: str | None = None
-    """Name of the state; None for a train without states."""
     turns: float | None = None
-    """Revolutions of the input whose maximum torque is used; None for the torque at mean speeds."""
     per_part: bool = False
-    """True if friction and strength are drawn separately for each part, instead of once per workshop."""
 
     @cached_property
     def train(self) -> GearTrain:
         """Train as declared."""
-        from geartrain.analysis.gear_train import GearTrain
-
-        return GearTrain(self.declared)
+        return _train(self.declared)
 
     @cached_property
     def crank(self) -> str:
@@ -125,25 +104,18 @@ class FeasibilityPlan:
         return self.declared.crank or self.cutting.driving_link
 
     @cached_property
-    def nominal(self) -> PairLoads | None:
-        """Torques without spreads; None without loads with a unit."""
-        if not (self.declared.is_loaded(self.state) and self.declared.has_torque_units(self.state)):
-            return None
-        return self.loads(self.train)
-
-    @cached_property
     def torques(self) -> Torques:
         """Torques under the declared loads, without spreads."""
         return self.train.torques(self.state)
 
-    def loads(self, train: GearTrain) -> PairLoads | None:
-        """Return the torques of a train, infinite if friction locks it; None if they do not follow from the loads.
+    @cached_property
+    def nominal(self) -> PairLoads | None:
+        """Torques without spreads; None without loads with a unit, or if they do not follow from the loads."""
+        known = self.declared.is_loaded(self.state) and self.declared.has_torque_units(self.state)
+        return self.loads(self.train) if known else None
 
-        Parameters
-        ----------
-        train : GearTrain
-            Train with the friction of a trial.
-        """
+    def loads(self, train: GearTrain) -> PairLoads | None:
+        """Return the torques of a train, infinite if friction locks it; None if they do not follow from the loads."""
         found = train.torques(self.state)
         crank = found.external.get(self.crank)
         if found.verdict.kind in ("self-locking", "stalled"):
@@ -160,25 +132,15 @@ class FeasibilityPlan:
         return PairLoads(inf if run.maximum is None else run.maximum.torque, {**driven, **maxima}, shares)
 
     def drawn_loads(self, seed: int, trial: int) -> PairLoads | None:
-        """Return the torques with the friction of one trial; None without loads.
-
-        Parameters
-        ----------
-        seed, trial : int
-            Random seed, and number of the trial.
-        """
+        """Return the torques with the friction of one trial; None without loads."""
         if self.nominal is None or not friction_spreads(self.declared):
             return self.nominal
-        from geartrain.analysis.gear_train import GearTrain
-
-        return self.loads(GearTrain(draw_friction(self.declared, seed, trial, self.per_part)))
-
-    # ------------------------------------------------------------------------------------------- strength and the hand
+        return self.loads(_train(draw_friction(self.declared, seed, trial, self.per_part)))
 
     @cached_property
     def parts(self) -> tuple[LoadedPart, ...]:
         """Teeth and arbors whose stress and strength are known; empty without loads."""
-        return () if self.nominal is None else tuple(self._parts(self.nominal.driven))
+        return tuple(self._parts(self.nominal.driven)) if self.nominal is not None and self.nominal.driven else ()
 
     def _parts(self, driven: Mapping[str, float]) -> Iterator[LoadedPart]:
         found = self.train.strength(self.state, over=self.turns)
@@ -187,12 +149,11 @@ class FeasibilityPlan:
                 own = {pair.pair: driven[pair.pair]}
                 yield from self._part(f"tooth of {wheel.wheel}", wheel.material, wheel.tip_stress, own)
         for arbor in found.arbors:
-            link, sizes = self.declared.links[arbor.link], self.declared.links[arbor.link].arbor
-            own = {
-                g.name: driven[g.name] for g in self.declared.gears if {*g.pair} & {*link.wheels} and g.name in driven
-            }
-            if sizes is not None:
-                stress = max(arbor.stress, _pivot(sizes, arbor.pivot_pressure))
+            link = self.declared.links[arbor.link]
+            gears = (gear for gear in self.declared.gears if not {*gear.pair}.isdisjoint(link.wheels))
+            own = {gear.name: driven[gear.name] for gear in gears if gear.name in driven}
+            if link.arbor is not None:
+                stress = max(arbor.stress, _pivot_stress(link.arbor, arbor.pivot_pressure))
                 yield from self._part(f"arbor of {arbor.link}", arbor.material, stress, own)
 
     def _part(self, name: str, material: str, stress: float, loads: Mapping[str, float]) -> Iterator[LoadedPart]:
@@ -201,56 +162,34 @@ class FeasibilityPlan:
             yield LoadedPart(name, material, known.strength.si / 1e6, float(known.spread.value), stress, loads)
 
     def strengths(self, seed: int, trials: int) -> Floats:
-        """Return the strength of each part in each trial, lognormal, shape (trials, parts) [MPa].
-
-        Parameters
-        ----------
-        seed, trials : int
-            Random seed, and number of trials.
-        """
-        materials = sorted({part.material for part in self.parts})
-        units = [
-            _drawn(seed, trials, at if self.per_part else materials.index(part.material), STRENGTH).standard_normal
-            for at, part in enumerate(self.parts)
-        ]
-        columns = [part.strength * np.exp(part.spread * unit) for part, unit in zip(self.parts, units, strict=True)]
-        return np.stack(columns, axis=1) if columns else np.zeros((trials, 0))
+        """Return the strength of each part in each trial, lognormal, shape (trials, parts) [MPa]."""
+        materials, found = sorted({part.material for part in self.parts}), np.zeros((trials, len(self.parts)))
+        for at, part in enumerate(self.parts):
+            item = at if self.per_part else materials.index(part.material)
+            found[:, at] = part.strength * np.exp(
+                part.spread * _drawn("standard_normal", seed, trials, item, _STRENGTH)
+            )
+        return found
 
     def hands(self, seed: int, trials: int) -> Floats | None:
-        """Return the maximum torque at the crank in each trial, shape (trials,) [N m]; None if no drive limits it.
-
-        Parameters
-        ----------
-        seed, trials : int
-            Random seed, and number of trials.
-        """
+        """Return the maximum torque at the crank in each trial, shape (trials,) [N m]; None if no drive limits it."""
         drive = self.declared.case(self.state).drive
-        torque = None if drive is None else drive.steady_torque
-        if drive is None or torque is None:
+        if drive is None or drive.steady_torque is None:
             return None
         if drive.hand is None or drive.hand.range is None:
-            return np.full(trials, torque)
+            return np.full(trials, drive.steady_torque)
         low, high = (end.si for end in drive.hand.range)
-        return low + (high - low) * _drawn(seed, trials, 0, HAND).random
+        return low + (high - low) * _drawn("random", seed, trials, 0, _HAND)
 
     def held(self, pair: str) -> Mapping[str, float]:
         """Return the torque on the driven wheel of each pair for a unit torque at the crank while the driven link of
         one pair is held, without losses; empty if it does not follow.
-
-        Parameters
-        ----------
-        pair : str
-            Name of a pair that jams.
         """
-        from geartrain.analysis.gear_train import GearTrain
-
-        train, gear = (
-            GearTrain(_lossless(self.declared)),
-            self.nominal and self.train.torques(self.state).pairs.get(pair),
-        )
-        if not gear or not gear.driver:
+        gear = self.torques.pairs.get(pair)
+        if gear is None or gear.driver not in self.declared.wheels:
             return {}
         driven = next(link for link in gear.links[:2] if link != self.declared.wheels[gear.driver][0])
+        train = _train(_lossless(self.declared))
         try:
             found = train.driven(driven, self.crank, self.state)
         except GearTrainError:  # the held link is the crank itself
@@ -261,42 +200,25 @@ class FeasibilityPlan:
         return {name: each / abs(float(torque)) for name, each in _driven_torques(train, found) if each}
 
     def at_accuracy(self, degrees: float) -> TrialPlan:
-        """Return the plan of the cutting with normal pitch deviations of another standard deviation [deg].
-
-        Parameters
-        ----------
-        degrees : float
-            Standard deviation of the pitch deviation of all wheels [deg].
-        """
+        """Return the plan of the cutting with normal pitch deviations of another standard deviation [deg]."""
         wheels = tuple(
             replace(w, errors={**w.errors, "pitch_deviation": ErrorSpecification(radians(degrees) / w.pitch, "normal")})
             for w in self.cutting.wheels
         )
         return replace(self.cutting, wheels=wheels)
 
-    def question(self) -> dict[str, Any]:
-        """Return the data on which the results depend. A journal identifies the run by these data."""
-        train = self.declared.model_dump(mode="json", exclude_defaults=True)
-        own = {"state": self.state, "turns": self.turns, "per_part": self.per_part, "scipy": version("scipy")}
-        return {"declared": train, **own}
+
+def _train(declared: Train) -> GearTrain:
+    from geartrain.analysis.gear_train import GearTrain
+
+    return GearTrain(declared)
 
 
-_SAMPLES = 2_000  # positions of the input in a run
-
-
-class _Draws(NamedTuple):
-    """Random numbers of one stream for all trials: `standard_normal` and uniform ones from 0 to 1."""
-
-    standard_normal: Floats
-    random: Floats
-
-
-def _drawn(seed: int, trials: int, item: int, kind: int) -> _Draws:
-    """Return the random numbers of a stream, of whole blocks: a trial does not depend on the number of trials."""
-    blocks = [RandomStreams(seed, block) for block in range(-(-trials // BLOCK))]
-    normal = [streams.rng(item, kind).standard_normal(BLOCK) for streams in blocks]
-    uniform = [streams.rng(item, kind).random(BLOCK) for streams in blocks]
-    return _Draws(np.concatenate(normal)[:trials], np.concatenate(uniform)[:trials])
+def _drawn(law: str, seed: int, trials: int, item: int, kind: int) -> Floats:
+    """Return random numbers of a stream, from whole blocks, so that they do not depend on the number of trials."""
+    blocks = (RandomStreams(seed, block).rng(item, kind) for block in range(-(-trials // BLOCK)))
+    found: Floats = np.concatenate([getattr(rng, law)(BLOCK) for rng in blocks])[:trials]
+    return found
 
 
 def _driven_torques(train: GearTrain, found: Torques) -> Iterator[tuple[str, float]]:
@@ -307,23 +229,18 @@ def _driven_torques(train: GearTrain, found: Torques) -> Iterator[tuple[str, flo
             yield name, abs(float(pair.torques[1 - pair.links.index(wheels[pair.driver][0])]))
 
 
-def _pivot(sizes: ArborSizes, pressure: float) -> float:
-    """Return the bending stress of a pivot [MPa] from the pressure on its projected area [MPa]."""
-    diameter = 1e3 * (sizes.pivot or sizes.diameter).si
-    length = diameter if sizes.pivot_length is None else 1e3 * sizes.pivot_length.si
-    return pivot_stress(pressure * diameter * length, length, diameter)
-
-
 def _lossless(declared: Train) -> Train:
     """Return the train without friction and with efficiencies of 1."""
-    none = {"friction": None, "efficiency": None}
-    gears = [gear.model_copy(update=none) for gear in declared.gears]
-    couplings = [
-        each.model_copy(update={key: None for key in none if key in type(each).model_fields})
-        for each in declared.couplings
-    ]
-    links = {name: link.model_copy(update={"bearing": None}) for name, link in declared.links.items()}
-    return declared.model_copy(update={"friction": None, "gears": gears, "couplings": couplings, "links": links})
+
+    def without(part: object, *keys: str) -> object:
+        return part.model_copy(update={key: None for key in keys if key in type(part).model_fields})  # type: ignore[attr-defined]
+
+    parts = {name: [without(each, "friction", "efficiency") for each in getattr(declared, name)] for name in _LOSSY}
+    links = {name: without(link, "bearing") for name, link in declared.links.items()}
+    return declared.model_copy(update={"friction": None, **parts, "links": links})
+
+
+_LOSSY = ("gears", "couplings")
 
 
 def find_feasibility_plan(
@@ -342,19 +259,13 @@ def find_feasibility_plan(
     train : GearTrain
         Train with a tooth form for which cutting errors are computed. Loads with units, friction, materials with a
         strength, and a drive with a torque are used if they are declared.
-    settings : sequence of ErrorOverride
-        Cutting errors that replace the declared errors.
-    outputs : sequence of str
-        Outputs whose pointer errors are computed, by default all outputs.
-    state : str, optional
-        Name of a declared state. Required if the train declares states.
-    without : sequence of str
-        Names of pairs to omit, so that the teeth of the remaining pairs do not form a closed loop.
+    settings, outputs, state, without
+        As in `find_trial_plan`; cutting errors are optional.
     turns : float, optional
         Revolutions of the input whose maximum torque is used, instead of the torque at mean speeds.
     per_part : bool
         True to draw friction and strength for each part; by default they are drawn once per workshop. Separate draws
-        average out in the crank torque, and make its interval about half as wide.
+        average out, and make the interval of the crank torque about half as wide.
 
     Returns
     -------

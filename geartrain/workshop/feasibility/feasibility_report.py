@@ -1,21 +1,20 @@
-"""Report on the feasibility of a train: outcomes and their causes, crank torque, required accuracy, pointer errors."""
+"""Report on the feasibility of a train: outcomes, crank torque, accuracy, pointer errors; plot of the accuracies."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, cut
-from geartrain.workshop.feasibility.feasibility_result import OUTCOMES
-from geartrain.workshop.monte_carlo.monte_carlo_report import angle_text, share_text
+from geartrain.workshop.feasibility.feasibility_trials import OUTCOMES
+from geartrain.workshop.monte_carlo.monte_carlo_report import pointer_section, share_text
 
 if TYPE_CHECKING:
+    from geartrain.drawing.style import Figure
     from geartrain.numerics import IntervalEstimate
-    from geartrain.workshop.feasibility.feasibility_result import FeasibilityResult
+    from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult
 
 _CAUSES = 3  # causes of an outcome that are printed
-_POINTERS = 6  # pointers that are printed: those with the largest errors
 
 
 def describe_feasibility(found: FeasibilityResult) -> Document:
@@ -51,8 +50,12 @@ def _sections(found: FeasibilityResult) -> Iterator[Section]:
     if found.crank_torque is not None:
         yield _torque(found)
     if found.curve:
-        yield _curve(found)
-    yield _pointers(found)
+        half = found.accuracy_for(0.5)
+        text = "Probability that the train turns, with the same random numbers at every standard deviation."
+        text += "" if half is None else f" It is 50 % at {half:.3g} deg."
+        rows = [(f"{accuracy:.4g}", share_text(share)) for accuracy, share in found.curve.items()]
+        yield Section("Accuracy", (text,), (Table(("pitch deviation (deg)", "turns"), rows),))
+    yield pointer_section(found.trials.pointers)
 
 
 def _outcomes(found: FeasibilityResult) -> Section:
@@ -61,55 +64,67 @@ def _outcomes(found: FeasibilityResult) -> Section:
     rows.append(("- rough running", share_text(found.rough), "tips clash, of the trials that turn"))
     rows.append(("- loss of contact", share_text(found.loose), "of the trials that turn"))
     if found.forced is not None:
-        rows.append(
-            ("- breaks if forced", share_text(found.forced.torque), "torque of the hand, of the trials that jam")
-        )
-        rows.append(("- with the wedge", share_text(found.forced.wedge), "flanks of the jammed pair squeezed"))
+        rows.append(("- breaks if forced", share_text(found.forced["torque"]), "by the hand, of the trials that jam"))
+        rows.append(("- with the wedge", share_text(found.forced["wedge"]), "flanks of the jammed pair squeezed"))
     notes = [f"Not included: {each}." for each in found.neglected]
-    table = Table(("outcome", "probability", "cause, share of all trials"), cut(rows))
-    return Section("Outcome", (text, *notes), (table,))
+    return Section("Outcome", (text, *notes), (Table(("outcome", "probability", "cause, of all trials"), cut(rows)),))
 
 
 def _causes(found: FeasibilityResult, outcome: str) -> str:
-    own = [each for each in found.causes if each.outcome == outcome]
-    more = f", {len(own) - _CAUSES} more" if len(own) > _CAUSES else ""
-    return ", ".join(f"{each.part} {100 * each.share.value:.3g} %" for each in own[:_CAUSES]) + more
+    own = [f"{part} {100 * share.value:.3g} %" for part, share in found.causes.get(outcome, {}).items()]
+    more = [f"{len(own) - _CAUSES} more"] if len(own) > _CAUSES else []
+    return ", ".join([*own[:_CAUSES], *more])
 
 
 def _torque(found: FeasibilityResult) -> Section:
-    torque = found.crank_torque
-    assert torque is not None
-    text = f"Torque at '{found.plan.crank}': median {_torque_text(torque.median)} N mm"
-    text += f", 90 % of the trials from {_torque_text(torque.low)} to {_torque_text(torque.high)} N mm"
+    assert found.crank_torque is not None
+    low, median, high = found.crank_torque.values()
     over = "at mean speeds" if found.plan.turns is None else f"maximum over {found.plan.turns:g} revolutions"
+    text = (
+        f"Torque at '{found.plan.crank}': median {_torque_text(median)} N mm, 90 % of the trials from "
+        f"{_torque_text(low)} to {_torque_text(high)} N mm ({over})."
+    )
     drive = found.plan.declared.case(found.plan.state).drive
     handle = None if drive is None or drive.hand is None else drive.hand.handle
-    force = f" The median is {torque.median.value / handle.si:.3g} N at the handle." if handle is not None else ""
-    return Section("Crank torque", (f"{text} ({over}).{force}",))
+    text += "" if handle is None else f" The median is {median.value / handle.si:.3g} N at the handle."
+    return Section("Crank torque", (text,))
 
 
 def _torque_text(figure: IntervalEstimate) -> str:
     return f"{1e3 * figure.value:.4g} ({1e3 * figure.low:.4g}..{1e3 * figure.high:.4g})"
 
 
-def _curve(found: FeasibilityResult) -> Section:
-    half = found.accuracy_for(0.5)
-    text = "Probability that the train turns, with the same random numbers at every standard deviation of the pitches."
-    needed = "" if half is None else f" It is 50 % at {half:.3g} deg."
-    rows = [(f"{step.accuracy:.4g}", share_text(step.turns)) for step in found.curve]
-    return Section("Accuracy", (text + needed,), (Table(("pitch deviation (deg)", "turns"), rows),))
+def feasibility_figure(found: FeasibilityResult) -> Figure:
+    """Draw the probability that a train turns over the accuracy of its cutting, with 95 % intervals.
 
+    Parameters
+    ----------
+    found : FeasibilityResult
+        Result with a curve, from `run_feasibility` with accuracies.
 
-def _pointers(found: FeasibilityResult) -> Section:
-    pointers = sorted(found.trials.pointers, key=lambda pointer: -pointer.deviation.value)
-    rows = []
-    for pointer in pointers[:_POINTERS]:
-        ends = (angle_text(pointer.percentiles[percent]) for percent in (2.5, 97.5))
-        name = pointer.name + (" *" if pointer.of_all else "")
-        rows.append((name, angle_text(pointer.deviation), *ends, f"{degrees(pointer.maximum):.3g}"))
-    text = "Errors due to cutting at random positions, in degrees, in trials in which the output turns."
-    if any(row[0].endswith("*") for row in rows):
-        text += " * Nearly all trials jam: errors given by the pushing flanks, ignoring jams."
-    left = len(pointers) - len(rows)
-    text += f" {left} pointers with smaller errors are not listed." if left else ""
-    return Section("Pointers", (text,), (Table(("output", "sd", "2.5 %", "97.5 %", "maximum"), rows),))
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Figure with the standard deviation of the pitches in degrees as abscissa.
+
+    Raises
+    ------
+    QuestionError
+        If the result has no curve.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.workshop import find_feasibility_plan, run_feasibility
+    >>> plan = find_feasibility_plan(geartrain.load("moon-triangular"), outputs=("moon",))
+    >>> feasibility_figure(run_feasibility(plan, 8, accuracies=(0.05, 0.2))).axes[0].get_ylabel()
+    'probability that the train turns'
+    """
+    from geartrain.drawing.style import headed, name_axes
+    from geartrain.workshop.monte_carlo.monte_carlo_plots import probability_figure
+
+    what = "the curve of the accuracies was not computed", "give accuracies: --accuracy 0.02:0.3:6"
+    figure = probability_figure(list(found.curve.items()), "turns", *what)
+    label = "standard deviation of the pitches (deg); shaded: 95 % interval"
+    name_axes(figure.axes[0], label, "probability that the train turns")
+    return headed(figure, f"{found.trials.plan.name}: accuracy that is needed")

@@ -100,14 +100,16 @@ def run(
     over = None if turns is None else float(read_turns("--turns", turns))
     errors = read_error_overrides(cutting or ())
     plan = find_feasibility_plan(load(file), errors, output or (), state, without or (), over, per_part)
-    question = journal_key(plan.cutting, seed, trials, accuracies=steps, **plan.question())
+    train = plan.declared.model_dump(mode="json", exclude_defaults=True)
+    own = {"declared": train, "state": state, "over": over, "per_part": per_part, "accuracies": steps}
+    question = journal_key(plan.cutting, seed, trials, **own)
     with long_run("feasibility", question, out, RunOptions(workers, resume)) as given:
         found = run_feasibility(plan, trials, seed, steps, given)
         complete = found.trials.complete and len(found.curve) == len(steps)
         close_journal(given.journal, cut=not complete)
     give(to, json, lambda: found, lambda: [describe_feasibility(found)])
     if plot is not None and found.curve:
-        from geartrain.workshop.feasibility.feasibility_plot import feasibility_figure
+        from geartrain.workshop.feasibility.feasibility_report import feasibility_figure
 
         draw(feasibility_figure(found), drawing)
     if not complete:

@@ -9,6 +9,7 @@ import typer
 
 from geartrain.cli.common import (
     INTERRUPTED,
+    Cutting,
     File,
     Force,
     Json,
@@ -33,14 +34,7 @@ def run(
     file: File,
     trials: Annotated[int, typer.Option("--trials", help="Number of Monte Carlo trials.")] = 512,
     seed: Seed = 1,
-    cutting: Annotated[
-        Names,
-        typer.Option(
-            "--cutting",
-            metavar="KIND=SIZE",
-            help="Replace a declared cutting error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'; may be repeated.",
-        ),
-    ] = None,
+    cutting: Cutting = None,
     accuracy: Annotated[
         str | None,
         typer.Option(

@@ -116,8 +116,7 @@ def _pointers(train: GearTrain, answer: Answer) -> Section:
 
 def _is_pointer(result: OutputResult) -> bool:
     """Return True if an output has a dial, a target or a published figure, or fails an expectation."""
-    output = result.output
-    return bool(output.dial or output.published or result.targets or not result.holds)
+    return result.output.is_pointer or not result.holds
 
 
 def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:

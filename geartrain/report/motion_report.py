@@ -360,7 +360,11 @@ def moving_sections(
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
         rippling = [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
-        yield Section(head, (text, *holds, *_remarks(run)), _outputs(rippling, run.motion._problem.deviation))
+        declared = train.declaration.outputs
+        pointers = [tally for tally in rippling if tally.name in declared and declared[tally.name].is_pointer]
+        yield Section(
+            head, (text, *holds, *_remarks(run)), _outputs(pointers or rippling, run.motion._problem.deviation)
+        )
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 

@@ -675,6 +675,11 @@ class Output(Declared):
     )
     note: str | None = Field(None, description="Remark for readers")
 
+    @property
+    def is_pointer(self) -> bool:
+        """True if the output has a dial, a target or a published figure."""
+        return bool(self.dial or self.published or self.targets)
+
     def links(self, name: str, frame: str) -> tuple[str, str]:
         """Return the link that turns, and the link to which its motion is relative.
 

@@ -348,7 +348,7 @@ def test_too_many_kinds_are_refused_before_the_search() -> None:
     axes /= np.linalg.norm(axes, axis=1)[:, None]
     names = tuple("abcdef")
     chain = tuple((i, i + 1) for i in range(5))
-    with pytest.raises(GearTrainError, match="tooth sets"):
+    with pytest.raises(GearTrainError, match="combinations of tooth numbers"):
         suggest_tooth_counts(Configuration(names, axes, chain, names, (0,) * 6), 60)
 
 

@@ -74,7 +74,7 @@ class ManufacturingSizes(Shown):
         problems = []
         if self.arms is not None and self.arms < 3:
             what = f"a wheel cannot have {self.arms} spokes"
-            why, fix = "a web with windows has at least 3 spokes", "pass 3 or more, or omit --spokes for solid webs"
+            why, fix = "a wheel with spokes has at least 3 of them", "pass 3 or more, or omit --spokes for solid webs"
             problems.append(Problem(what, why, fix, "--spokes"))
         for name, bounds in _MADE.items():
             value = getattr(self, name)

@@ -248,7 +248,10 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
         what = f"wheel '{blank.wheel}' keeps its solid web"
         return blank, [
             Problem(
-                what, "it has holes for other parts, which windows could meet", "cut its windows by hand", "--spokes"
+                what,
+                "openings between its spokes could intersect holes for other parts",
+                "cut the openings by hand",
+                "--spokes",
             )
         ]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []

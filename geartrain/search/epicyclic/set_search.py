@@ -209,7 +209,7 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
         raise QuestionError(
             Problem(
                 f"the clearance {clearance} is not finite",
-                "a clearance is a gap between tooth tips in modules",
+                "the gap between the tooth tips of neighbouring planets must be a finite number of modules",
                 "give a number of modules, such as 0.5",
             )
         )
@@ -390,8 +390,14 @@ def blocks(
     """
     total = size(kind, bounds, slack)
     if total > MOST_SETS:
-        why = f"at most {MOST_SETS:.0e} sets are enumerated"
-        raise RangeError(Problem(f"{total:.2g} tooth sets are too many", why, "narrow the counts, or reduce the slack"))
+        why = f"at most {MOST_SETS:.0e} combinations are enumerated"
+        raise RangeError(
+            Problem(
+                f"{total:.2g} combinations of tooth counts are too many",
+                why,
+                "narrow the ranges of tooth counts, or reduce the slack",
+            )
+        )
     first, *rest = (np.array(bounds[wheel], dtype=np.int64) for wheel in kind.free)
     inner = [column.ravel() for column in np.meshgrid(*rest, indexing="ij")]
     # about 20,000 sets fit the cache of a processor

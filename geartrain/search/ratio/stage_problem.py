@@ -277,7 +277,7 @@ def check_order(by: str) -> None:
         known = ", ".join(get_args(StageOrder))
         raise QuestionError(
             Problem(
-                f"'{by}' is not an order of solutions",
+                f"solutions cannot be sorted by '{by}'",
                 "solutions are sorted by one of the predefined criteria",
                 f"use one of {known}",
             )

@@ -302,7 +302,7 @@ def search_train(
     if by not in ORDERS:
         raise QuestionError(
             Problem(
-                f"'{by}' is not an order of solutions",
+                f"solutions cannot be sorted by '{by}'",
                 "solutions are sorted by one of the predefined criteria",
                 suggest(by, ORDERS),
             )

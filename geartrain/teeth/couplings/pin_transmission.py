@@ -188,8 +188,8 @@ class SlotToPinTransmission(PinTransmission):
         if pin_radius < offset:
             raise RangeError(
                 Problem(
-                    f"a follower cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}",
-                    "a follower oscillates, and is at rest at its dead points while the pin moves on",
+                    f"an oscillating slot cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}",
+                    "its pin radius is below the offset, so the slot is at rest at its dead points while the pin moves",
                     "let the pin drive",
                     "driver",
                 )

@@ -18,26 +18,7 @@ _CAUSES = 3  # causes of an outcome that are printed
 
 
 def describe_feasibility(found: FeasibilityResult) -> Document:
-    """Return the report on the feasibility of a train.
-
-    Parameters
-    ----------
-    found : FeasibilityResult
-        Result of `run_feasibility`.
-
-    Returns
-    -------
-    Document
-        Probabilities with Wilson's 95 % confidence intervals, torques in N mm, pointer errors in degrees.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import find_feasibility_plan, run_feasibility
-    >>> plan = find_feasibility_plan(geartrain.load("moon-triangular"), outputs=("moon",))
-    >>> [section.title for section in describe_feasibility(run_feasibility(plan, trials=4)).sections]
-    ['Outcome', 'Pointers']
-    """
+    """Return the report on the feasibility of a train."""
     trials = found.trials
     summary = [f"{trials.done} trials, seed {trials.seed}; intervals are at the 95 % confidence level."]
     if not trials.complete:
@@ -95,31 +76,7 @@ def _torque_text(figure: IntervalEstimate) -> str:
 
 
 def feasibility_figure(found: FeasibilityResult) -> Figure:
-    """Draw the probability that a train turns over the accuracy of its cutting, with 95 % intervals.
-
-    Parameters
-    ----------
-    found : FeasibilityResult
-        Result with a curve, from `run_feasibility` with accuracies.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure with the standard deviation of the pitches in degrees as abscissa.
-
-    Raises
-    ------
-    QuestionError
-        If the result has no curve.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import find_feasibility_plan, run_feasibility
-    >>> plan = find_feasibility_plan(geartrain.load("moon-triangular"), outputs=("moon",))
-    >>> feasibility_figure(run_feasibility(plan, 8, accuracies=(0.05, 0.2))).axes[0].get_ylabel()
-    'probability that the train turns'
-    """
+    """Draw the probability that a train turns over the accuracy of its cutting. Raises `QuestionError` without a curve."""
     from geartrain.drawing.style import headed, name_axes
     from geartrain.workshop.monte_carlo.monte_carlo_plots import probability_figure
 

@@ -53,8 +53,7 @@ class FeasibilityResult(Pictured, Result):
     """
 
     PAGE = "workshop.feasibility.feasibility_report:describe_feasibility"
-    FIGURE = "feasibility_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.feasibility.feasibility_report:feasibility_figure"
 
     KEYS = (
         *(Key("train", "trials.plan.name"), Key("seed", "trials.seed"), Key("trials", "trials.done"), "conditions"),

@@ -252,7 +252,7 @@ class FrictionTrials(Result):
     seed: int
     """Random seed of the trials."""
     spreads: Mapping[str, FrictionSpread]
-    """Distributions of the friction coefficients, by `train`, pair or coupling."""
+    """Distributions of the friction coefficients, by the pair or coupling that declares them, or "train"."""
     mean: TrialFigure
     """Distribution of the mean torque over the run [N m, or the unit of the loads], in trials in which the train turns.
     """

@@ -49,6 +49,14 @@ Without = Annotated[
         "--without", help="Omit a redundant gear pair, so that the teeth of a closed loop can turn; may be repeated."
     ),
 ]
+Cutting = Annotated[
+    Names,
+    typer.Option(
+        "--cutting",
+        metavar="KIND=SIZE",
+        help="Replace a declared cutting error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'; may be repeated.",
+    ),
+]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 

@@ -239,7 +239,7 @@ class GearTrain:
         labels : bool
             True to add names and numbers.
         outputs : sequence of str
-            Outputs whose dials are drawn; by default all.
+            Outputs whose dials are drawn; by default all outputs.
         """
         return imported_function("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
 
@@ -380,7 +380,7 @@ class GearTrain:
         counts : mapping of str to iterable of int
             Wheel -> tooth counts to evaluate.
         outputs : sequence of str
-            Names of outputs; by default all.
+            Names of outputs; by default all outputs.
         state : str, optional
             A declared state; None only if the train has no states.
 

@@ -115,7 +115,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
     graph : networkx.MultiGraph
         Graph of the train, from `GearTrain.graph`.
     kinds : iterable of str
-        Kinds of edges to count: revolute, prismatic, gear, or kinds of couplings; by default all.
+        Kinds of edges to count: revolute, prismatic, gear, or kinds of couplings; by default all kinds.
 
     Returns
     -------

@@ -69,7 +69,7 @@ def collect_formulas(
     states : sequence of str or None
         Names of states; None for a train without states.
     outputs : sequence of str
-        Names of outputs; by default all.
+        Names of outputs; by default all outputs.
     sensitivities : bool
         True to include all elasticities.
 

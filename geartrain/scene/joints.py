@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 
 
 def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """Return all gear pairs in the order of declaration; `faults` maps names of pairs to descriptions of their
-    faults."""
+    """Return all gear pairs in the order of declaration; `faults` maps names of pairs to descriptions of faults."""
     forms = {mesh.name: mesh.form for mesh in stage.meshes}
     return tuple(
         ScenePair(

@@ -216,7 +216,9 @@ class GearTrain:
         >>> [line for line in str(document).splitlines() if line.startswith("| carrier | 2/7")]
         ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
         """
-        return imported_function("report", "describe_train")(imported_function("report", "collect_report")(self))
+        return imported_function("report.train_report", "describe_train")(
+            imported_function("report.train_data", "collect_report")(self)
+        )
 
     def draw(
         self,
@@ -244,7 +246,7 @@ class GearTrain:
         return imported_function("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
 
     def view(self, state: str | None = None, height: int = 620) -> Any:
-        """Return an animated view of the train for a notebook, a `geartrain.viewer.EmbeddedPage`.
+        """Return an animated view of the train for a notebook.
 
         Parameters
         ----------
@@ -253,7 +255,7 @@ class GearTrain:
         height : int
             Height of the frame [px].
         """
-        return imported_function("viewer", "EmbeddedPage")(self, state, height)
+        return imported_function("viewer.viewer_page", "EmbeddedPage")(self, state, height)
 
     # -------------------------------------------------------------------------------------------- what is declared
 
@@ -298,7 +300,7 @@ class GearTrain:
         """Kinematic graph of the first state, for networkx: links are nodes; turning pairs, gear pairs and couplings
         are edges.
 
-        `geartrain.analysis.build_train_graph` documents the attributes, and builds the graph of any state.
+        See docs/library.md for the attributes.
         """
         from geartrain.analysis.train_graph import build_train_graph
 

@@ -28,10 +28,11 @@ from geartrain.drawing.style import (
 )
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import decimal, is_short
-from geartrain.scene import Pointer, Scene
+from geartrain.scene import Scene
 from geartrain.scene.dial_scale import DialScale, clock_point, engrave, plain_circle
 from geartrain.scene.pose import body_errors, turns_of
 from geartrain.scene.stroke_letters import HANDS
+from geartrain.scene.train_scene import Pointer
 
 _MOST = 60  # maximum number of faces on a page
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title

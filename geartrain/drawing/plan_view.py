@@ -53,7 +53,8 @@ from geartrain.drawing.style import (
     title_of,
     write,
 )
-from geartrain.scene import Scene, SceneCoupling, SceneWheel
+from geartrain.scene import Scene
+from geartrain.scene.elements import SceneCoupling, SceneWheel
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -33,7 +33,8 @@ from geartrain.drawing.style import (
     Rectangle,
 )
 from geartrain.numerics.polylines import simplified
-from geartrain.scene import Scene, SceneCoupling, ScenePart, SceneWave, SceneWheel
+from geartrain.scene import Scene
+from geartrain.scene.elements import SceneCoupling, ScenePart, SceneWave, SceneWheel
 from geartrain.scene.layout.wheel_reach import CROWN, height_on_cone, taper
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.fixed_teeth import bent_line

@@ -22,10 +22,6 @@ class ScenePart(Shown):
     """Structural part as manufactured, such as an arbor or a plate: a turned part or a flat part.
 
     The z axis of the part passes through `place`, which is at mid-height of a flat part.
-
-    See Also
-    --------
-    build_scene : returns it in `Scene.parts`.
     """
 
     body: int
@@ -55,10 +51,6 @@ class ScenePart(Shown):
 class SceneHanger(Shown):
     """Part that hangs from a train, such as a pendulum, the line of a weight or the weight, or that connects two
     bodies.
-
-    See Also
-    --------
-    build_scene : returns it in `Scene.hangers`.
     """
 
     kind: Literal["pendulum", "line", "weight", "rod"]
@@ -94,12 +86,7 @@ class SceneHanger(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneBody(Shown):
-    """Link of a scene as a rigid body, with the axis about which it turns.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.bodies`.
-    """
+    """Link of a scene as a rigid body, with the axis about which it turns."""
 
     id: str
     """Name of the link."""
@@ -146,10 +133,6 @@ class ToothProfile(Shown):
     """Profile of one tooth of a wheel, from the middle of a tooth space to the middle of the next.
 
     The middle of the tooth is at angle 0.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.profiles`.
     """
 
     form: str
@@ -169,12 +152,7 @@ class ToothProfile(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneWheel(Shown):
-    """Wheel in a scene: its position, dimensions, teeth and declared data.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.wheels`.
-    """
+    """Wheel in a scene: its position, dimensions, teeth and declared data."""
 
     id: str
     """Name of the wheel."""
@@ -247,12 +225,7 @@ class SceneWheel(Shown):
 
 @dataclass(frozen=True, slots=True)
 class ScenePair(Shown):
-    """Gear pair of a scene: two wheels that mesh, with the equation of their speeds.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.pairs`.
-    """
+    """Gear pair of a scene: two wheels that mesh, with the equation of their speeds."""
 
     id: str
     """Name of the gear pair."""
@@ -276,12 +249,7 @@ class ScenePair(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneCoupling(Shown):
-    """Coupling of two links in a scene: a pin in a slot, or pins in round holes.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.couplings`.
-    """
+    """Coupling of two links in a scene: a pin in a slot, or pins in round holes."""
 
     id: str
     """Name of the coupling."""
@@ -345,10 +313,6 @@ class SceneShiftElement:
 class SceneWave(Shown):
     """Strain wave that deflects a flexible wheel (flexspline) into mesh with its ring (circular spline). Wheel, cup
     wall and wave generator are coaxial.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.waves`.
     """
 
     wheel: int

@@ -39,12 +39,7 @@ FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class DialFace(Shown):
-    """Dial of a scene: a scale over which pointers turn, or a ball in a pointer.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.dials`.
-    """
+    """Dial of a scene: a scale over which pointers turn, or a ball in a pointer."""
 
     id: str
     """Name of the dial."""
@@ -86,12 +81,7 @@ class DialFace(Shown):
 
 @dataclass(frozen=True, slots=True)
 class PointerTarget(Shown):
-    """Target speed of an output, with which the speed of its pointer is compared.
-
-    See Also
-    --------
-    make_scene : returns it in `Pointer.targets`.
-    """
+    """Target speed of an output, with which the speed of its pointer is compared."""
 
     label: str
     """Name of the target speed."""
@@ -103,12 +93,7 @@ class PointerTarget(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneSetting(Shown):
-    """Angle to which a pointer is set at a date, as a polynomial of the time.
-
-    See Also
-    --------
-    make_scene : returns it in `SceneEpoch.settings`.
-    """
+    """Angle to which a pointer is set at a date, as a polynomial of the time."""
 
     pointer: int
     """Index of the pointer."""
@@ -122,12 +107,7 @@ class SceneSetting(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneEpoch(Shown):
-    """Date that corresponds to a number of turns of the driving link, and the duration of one turn.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.epoch`.
-    """
+    """Date that corresponds to a number of turns of the driving link, and the duration of one turn."""
 
     julian_day: str
     """Julian day of the date, exact [d]."""
@@ -153,12 +133,7 @@ class SceneEpoch(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TourStop(Shown):
-    """Step of the tour of a scene.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.tour`.
-    """
+    """Step of the tour of a scene."""
 
     kind: str
     """Kind of the part: output, link, wheel, dial or coupling."""
@@ -170,12 +145,7 @@ class TourStop(Shown):
 
 @dataclass(frozen=True, slots=True)
 class Pointer(Shown):
-    """Pointer of a scene, which shows one output of the train.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.pointers`.
-    """
+    """Pointer of a scene, which shows one output of the train."""
 
     output: str
     """Name of the output."""

@@ -586,7 +586,7 @@ class Motion(Shown):
         Returns
         -------
         matplotlib.figure.Figure
-            Figure drawn by `geartrain.drawing.motion_figure`.
+            Figure with a panel for each kind of curve.
 
         Raises
         ------
@@ -605,5 +605,5 @@ class Motion(Shown):
         for name in outputs:
             check_choice("output", name, list(self.outputs))
         shown = self._of(outputs or tuple(self.outputs))
-        run = imported_function("dynamics", "MotionRun")(shown, turns, samples)
-        return imported_function("drawing", "motion_figure")(run)
+        run = imported_function("dynamics.motion.motion_run", "MotionRun")(shown, turns, samples)
+        return run.plot()

@@ -417,8 +417,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """Draw the power flow under these torques as a matplotlib figure, with `geartrain.drawing.power_figure`."""
-        return imported_function("drawing", "power_figure")(self, self.state or "")
+        """Draw the power flow under these torques as a matplotlib figure."""
+        return imported_function("drawing.power_sankey", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:

@@ -169,7 +169,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     PAGE = "report.torque_report:torques_document"
 
-    FIGURE = "torque_cycle_figure"
+    FIGURE = "drawing.output_error_plots:torque_cycle_figure"
 
     KEYS = (
         "state",

@@ -47,8 +47,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     PAGE = "simulation.time.time_report:time_document"
 
-    FIGURE = "time_run_figure"
-    DRAWN_IN = "simulation"
+    FIGURE = "simulation.time.time_run_plot:time_run_figure"
 
     KEYS = (
         *("train", "state", "model", "driving_link", "rate", "link", "driven", "restitution", "step", "skip"),

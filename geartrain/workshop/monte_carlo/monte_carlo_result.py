@@ -44,8 +44,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     PAGE = "workshop.monte_carlo.monte_carlo_report:describe_monte_carlo"
 
-    FIGURE = "monte_carlo_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.monte_carlo.monte_carlo_plots:monte_carlo_figure"
 
     KEYS = (
         Key("train", "trials.plan.name"),

@@ -51,8 +51,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     PAGE = "workshop.sizes.tooth_sizes_report:describe_tooth_sizes"
 
-    FIGURE = "tooth_sizes_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.sizes.tooth_sizes_plot:tooth_sizes_figure"
 
     KEYS = (
         *("teeth", "driver", "friction", "aims", "free", "limits", "best", "outlines"),

@@ -414,8 +414,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     PAGE = "workshop.sizes.tooth_sizes_report:describe_train_sizes"
 
-    FIGURE = "train_sizes_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.sizes.tooth_sizes_plot:train_sizes_figure"
 
     KEYS = (
         *("train", "aim", "output", "source", "free", "limits", "before", "apart", "together", "pairs"),

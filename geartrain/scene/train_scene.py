@@ -244,7 +244,7 @@ class Scene(Shown):
     dials: Sequence[DialFace]
     """Dials of the scene, with their scales."""
     pointers: Sequence[Pointer]
-    """Pointers of the outputs; of the first 100 links if no output is declared."""
+    """Pointers of the outputs, or of the first 100 links if no output is declared."""
     movement: Movement
     """Deviations of the bodies' angles from uniform motion, for positive turns of the driving link."""
     sources: Mapping[str, Mapping[str, str]]

@@ -813,7 +813,7 @@ class GearTrain:
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     """Load a train from a YAML file, the name of a train shipped with geartrain, YAML text, or plain data.
 
-    The circuits and the inputs, brakes and locks of all states are computed at once, so that every error of the
+    The circuits and the inputs, brakes and locks of all states are computed immediately, so that every error of the
     declaration is reported.
 
     Parameters

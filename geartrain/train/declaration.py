@@ -389,7 +389,7 @@ class Train(Declared):
 
     @property
     def pin_couplings(self) -> tuple[PinCoupling, ...]:
-        """Couplings by a pin or pins, in the order declared; also links kept parallel by any device."""
+        """Couplings by a pin or pins, in the order of declaration; also links kept parallel by any device."""
         if not self.couplings:
             return ()
         from geartrain.teeth.couplings.pins import PinCoupling

@@ -209,7 +209,7 @@ class TorqueVerdict(Result):
 
     - `determined`: all torques follow from the loads, and no declared effect is neglected.
     - `incomplete`: all torques follow from the loads, but `Torques.neglected` lists neglected effects.
-    - `self-locking`: no torques balance the load, however large, while the train turns this way.
+    - `self-locking`: no torques balance the load, however large, while the train turns in this sense.
     - `stalled`: no torques balance this load, which is too small to overcome the friction of bearings.
     - `ambiguous`: several patterns of power flow balance the load; the one with minimum loss is returned.
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
@@ -384,7 +384,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def _units(self) -> Mapping[str, str]:
-        """Units of torque, speed and power, as declared."""
+        """Declared units of torque, speed and power."""
         declared = self._declaration
         torque, speed = "N m, or the unit of the loads", "unit of the train"
         if declared is not None:

@@ -429,7 +429,7 @@ class PinContact(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if unknown."""
+        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if either is unknown."""
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property

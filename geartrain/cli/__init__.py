@@ -7,7 +7,7 @@ declarations    `init`, `format`, `list`, `periods`; `check`, `solve`, `gearbox`
 inspection      a group of commands: `equations`, `formula`, `graph`, `bench`, `schema`
 report          `report`, `compare`; `draw` writes pictures, `view` has `view` and `watch`
 torques, motion, sphere
-mesh            a pair of wheels of any tooth form, with `pair_options` and `triangular_pair`; `pin` in a slot
+mesh            a pair of wheels of any tooth form, with `pair_options`; `pin` in a slot
 
 Commands of optional parts of the package are in their own folders.
 """
@@ -57,6 +57,7 @@ class VerbGroup(EndingGroup, LazyGroup):
             "posterior": "geartrain.search.posterior.verb",
             "export": "geartrain.workshop.export.verb",
             "montecarlo": "geartrain.workshop.monte_carlo.verb",
+            "feasibility": "geartrain.workshop.feasibility.verb",
             "budget": "geartrain.workshop.budget.verb",
         },
         entry_points="geartrain.wings",
@@ -66,7 +67,7 @@ class VerbGroup(EndingGroup, LazyGroup):
             "Speeds": ("solve", "gearbox", "sphere", "inspect"),
             "Teeth, losses and motion": ("mesh", "pin", "torques", "motion", "strength", "dynamics", "optimise"),
             "Search": ("teeth", "reconstruct", "posterior"),
-            "Make": ("export", "montecarlo", "budget"),
+            "Make": ("export", "montecarlo", "feasibility", "budget"),
         },
     )
 

@@ -37,13 +37,13 @@ def picture(
     kind : {"plan", "stick", "graph", "lever", "dials"}
         Kind of picture; "lever" is the speed diagram.
     state : str, optional
-        Name of a state; by default the first, or all states for "lever".
+        Name of a state; by default the first state, or for "lever" all states.
     turns : Fraction
         Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
     labels : bool
         True to add names and numbers.
     outputs : sequence of str
-        Outputs whose dials are drawn; by default all. Used by "dials".
+        Outputs whose dials are drawn; by default all outputs. Used by "dials".
 
     Returns
     -------

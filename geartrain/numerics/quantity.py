@@ -129,9 +129,9 @@ SPELT = {
 }
 
 
-def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
-    """Return a validation error for a declaration, with its fix."""
-    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
+def bad(kind: str, what: str, fix: str, why: str = "") -> PydanticCustomError:
+    """Return a validation error for a declaration, with its cause and its fix."""
+    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix, "why": why})
 
 
 def scale(unit: str) -> tuple[str, Fraction]:
@@ -417,8 +417,8 @@ class Quantity:
         raw : str, int, float, Fraction or Quantity
             A quantity such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
-            length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure, torsional stiffness,
-            stiffness, torsional damping, damping or fraction; "time or length" allows two.
+            Required dimension: length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure,
+            torsional stiffness, stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
             True to allow a number without a unit; 0 is always allowed.
 
@@ -490,7 +490,7 @@ def millimetres(length: Quantity) -> Fraction:
 
 
 TRAVEL_ARM = 1 / (2000 * PI)
-"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is calculated as a link that turns once for each
+"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is treated as a link that turns once for each
 millimetre of its travel, with its forces at this arm."""
 
 

@@ -39,12 +39,7 @@ FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class DialFace(Shown):
-    """Dial of a scene: a scale over which pointers turn, or a ball in a pointer.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.dials`.
-    """
+    """Dial of a scene: a scale over which pointers turn, or a ball in a pointer."""
 
     id: str
     """Name of the dial."""
@@ -68,7 +63,7 @@ class DialFace(Shown):
     centre.
     """
     note: str = ""
-    """Note on the dial, as declared."""
+    """Declared note on the dial."""
     plate: float = 0.0
     """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if the scene has no such disc."""
     placed: bool = False
@@ -86,12 +81,7 @@ class DialFace(Shown):
 
 @dataclass(frozen=True, slots=True)
 class PointerTarget(Shown):
-    """Target speed of an output, with which the speed of its pointer is compared.
-
-    See Also
-    --------
-    make_scene : returns it in `Pointer.targets`.
-    """
+    """Target speed of an output, with which the speed of its pointer is compared."""
 
     label: str
     """Name of the target speed."""
@@ -103,12 +93,7 @@ class PointerTarget(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneSetting(Shown):
-    """Angle to which a pointer is set at a date, as a polynomial of the time.
-
-    See Also
-    --------
-    make_scene : returns it in `SceneEpoch.settings`.
-    """
+    """Angle to which a pointer is set at a date, as a polynomial of the time."""
 
     pointer: int
     """Index of the pointer."""
@@ -122,12 +107,7 @@ class SceneSetting(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneEpoch(Shown):
-    """Date that corresponds to a number of turns of the driving link, and the duration of one turn.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.epoch`.
-    """
+    """Date that corresponds to a number of turns of the driving link, and the duration of one turn."""
 
     julian_day: str
     """Julian day of the date, exact [d]."""
@@ -138,44 +118,34 @@ class SceneEpoch(Shown):
     calendar: str | None
     """Calendar in which dates are displayed; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str
-    """Source of the date, as declared."""
+    """Declared source of the date."""
     note: str
-    """Note on the date, as declared."""
+    """Declared note on the date."""
     settings: Sequence[SceneSetting] = ()
-    """Pointers that are set at that date; a pointer is after the pointer that sets its base."""
+    """Pointers that are set at that date. Each pointer is listed after the pointer that sets its base."""
     unset: Sequence[str] = ()
-    """Outputs on a zodiac that are not set."""
+    """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
-    """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body ->
-    longitude, perihelion (of the Moon perigee and node) [deg], eccentricity, distance [au]; empty without settings.
+    """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body -> longitude,
+    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty without settings.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class TourStop(Shown):
-    """Step of the tour of a scene.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.tour`.
-    """
+    """Step of the tour of a scene."""
 
     kind: str
     """Kind of the part: output, link, wheel, dial or coupling."""
     name: str
     """Name of the part."""
     text: str
-    """Text about the part, as declared."""
+    """Declared text about the part."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pointer(Shown):
-    """Pointer of a scene, which shows one output of the train.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.pointers`.
-    """
+    """Pointer of a scene, which shows one output of the train."""
 
     output: str
     """Name of the output."""
@@ -203,9 +173,9 @@ class Pointer(Shown):
     wheels: Sequence[int]
     """Indices of the wheels on the path from the input to the output."""
     note: str = ""
-    """Note on the output, as declared."""
+    """Declared note on the output."""
     targets: Sequence[PointerTarget] = ()
-    """Targets of the output, in the order declared; empty if nothing is driven, or the speed is not determined."""
+    """Targets of the output in the order of declaration; empty if nothing is driven or the speed is not determined."""
     level: float = 0.0
     """Height of the middle of the hand above the dial [mm]."""
     seat: float = 0.0
@@ -215,7 +185,7 @@ class Pointer(Shown):
     outline: Sequence[tuple[float, float]] = ()
     """Outline relative to the hand's length: distances from the axis and half widths; empty without a dial."""
     hand: str = "needle"
-    """Shape of the hand, as declared."""
+    """Declared shape of the hand."""
     ball: float = 0.0
     """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 without a sphere."""
 
@@ -234,13 +204,13 @@ class Scene(Shown):
     title: str
     """Title of the train."""
     note: str
-    """Note on the train, as declared; empty if none is declared."""
+    """Declared note on the train; empty if none is declared."""
     state: str | None
     """State of the train; None if it has no states."""
     unit: str
     """Unit of the speeds that are shown for bodies and pointers."""
     positive: str
-    """Sense of rotation of a positive speed, as declared."""
+    """Declared sense of rotation of a positive speed."""
     front: int
     """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
     driving_link: int | None
@@ -248,7 +218,7 @@ class Scene(Shown):
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     drive: Literal["hand", "motor", "spring", "weight"]
-    """Drive of the body of the crank: as declared, a motor for a speed in real time, otherwise a hand."""
+    """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
     fusee: Sequence[float]
     """Radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
     up: Vector
@@ -262,19 +232,19 @@ class Scene(Shown):
     remedy.
     """
     bodies: Sequence[SceneBody]
-    """Links, in the order declared, which is the order of their indices."""
+    """Links, in the order of declaration, which is the order of their indices."""
     wheels: Sequence[SceneWheel]
-    """Wheels, in the order declared, which is the order of their indices."""
+    """Wheels, in the order of declaration, which is the order of their indices."""
     profiles: Sequence[ToothProfile]
     """Distinct tooth profiles, to which the wheels refer by index."""
     pairs: Sequence[ScenePair]
-    """Gear pairs, in the order declared."""
+    """Gear pairs, in the order of declaration."""
     couplings: Sequence[SceneCoupling]
-    """Pins in slots and in round holes, in the order declared."""
+    """Pins in slots and in round holes, in the order of declaration."""
     dials: Sequence[DialFace]
     """Dials of the scene, with their scales."""
     pointers: Sequence[Pointer]
-    """Pointers of the outputs; of the first 100 links if no output is declared."""
+    """Pointers of the outputs, or of the first 100 links if no output is declared."""
     movement: Movement
     """Deviations of the bodies' angles from uniform motion, for positive turns of the driving link."""
     sources: Mapping[str, Mapping[str, str]]
@@ -286,12 +256,12 @@ class Scene(Shown):
     unit_days: str | None = None
     """Length of the unit in days, exact, if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
-    """Brakes and clutches, each engaged or open in this state, in the order declared."""
+    """Brakes and clutches, each engaged or open in this state, in the order of declaration."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link, and for a run.
+    """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
     """
     tour: Sequence[TourStop] = ()
-    """Tour of the train, as declared."""
+    """Declared tour of the train."""
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
     asks: bool = True

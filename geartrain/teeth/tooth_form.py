@@ -49,7 +49,7 @@ TwoAngles = Annotated[tuple[Angle, Angle], BeforeValidator(twice), _schema("angl
 
 
 class ToothForm(BaseModel, ABC):
-    """Tooth form of a gear pair as declared. Its method `mesh` returns the mesh of two wheels.
+    """Declared tooth form of a gear pair. Its method `mesh` returns the mesh of two wheels.
 
     See Also
     --------
@@ -157,12 +157,12 @@ class ToothForm(BaseModel, ABC):
         wheels : MeshingWheels
             The two wheels as declared.
         shaft_angle : callable
-            Returns the shaft angle [rad], None for parallel axes. It is called only if the form needs it.
+            Function that returns the shaft angle [rad], or None for parallel axes. It is called only if it is needed.
 
         Returns
         -------
         GearMesh or None
-            None for teeth that add nothing to the ratio.
+            Mesh; None for teeth that are completely described by the ratio.
 
         Raises
         ------

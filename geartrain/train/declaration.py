@@ -49,6 +49,7 @@ from geartrain.train.fields import (
 from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
 from geartrain.train.mechanism import (
     Axis,
+    Direction,
     GearPair,
     Joint,
     Link,
@@ -205,6 +206,11 @@ class Train(Declared):
         validate_default=True,
         description="Directions and positions of axes, by label; default all axes are parallel",
     )
+    gravity: Direction | None = Field(
+        None,
+        description="Direction in which weights pull, for the load of bearings: [0, -1, 0] is down for axes along z; "
+        "default without weights",
+    )
     revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
     slides: Slides = Field((), description="Sliding pairs of the links, which form one tree with the turning pairs")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs in mesh")
@@ -314,7 +320,7 @@ class Train(Declared):
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
         """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. If several parts have
-        the same name, the first of these kinds.
+        the same name, the kind that is first in this list is used.
         """
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)
@@ -383,7 +389,7 @@ class Train(Declared):
 
     @property
     def pin_couplings(self) -> tuple[PinCoupling, ...]:
-        """Couplings by a pin or pins, in the order declared; also links kept parallel by any device."""
+        """Couplings by a pin or pins, in the order of declaration; also links kept parallel by any device."""
         if not self.couplings:
             return ()
         from geartrain.teeth.couplings.pins import PinCoupling
@@ -573,7 +579,11 @@ class Train(Declared):
         state : str or None
             A declared state; None for a train without states.
         """
-        return bool(self.loads_in(state)) or self.has_jumpers or any(link.bearing for link in self.links.values())
+        return (
+            bool(self.loads_in(state))
+            or self.has_jumpers
+            or any(link.bearing is not None and link.bearing.sliding.value for link in self.links.values())
+        )
 
     def _speed(self, speed: Quantity) -> Fraction:
         """Convert a prescribed speed to the train's unit."""
@@ -669,8 +679,8 @@ class Train(Declared):
 
     @property
     def travel_unit(self) -> str:
-        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm` per turn without units
-        of speeds.
+        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm` (per turn) if speeds
+        have no unit.
         """
         name = self.unit_name.replace("rpm", "turn/min")
         return re.sub("^turns?", "mm", name) or "mm"
@@ -692,7 +702,7 @@ class Train(Declared):
 
     @property
     def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
-        """The train and its states with their paths: both have inputs, loads, fixed links, locks and outputs."""
+        """Train and its states with their paths; each can declare inputs, loads, fixed links, locks and outputs."""
         yield (), self
         for name, state in self.states.items():
             yield ("states", name), state

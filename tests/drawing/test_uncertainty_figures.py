@@ -28,10 +28,12 @@ from geartrain.workshop import (
     SobolIndices,
     find_trial_plan,
     jamming_map,
-    monte_carlo_figure,
     read_error_overrides,
     run_course,
     run_trials,
+)
+from geartrain.workshop.monte_carlo.monte_carlo_plots import (
+    monte_carlo_figure,
 )
 from geartrain.workshop.monte_carlo.sobol_indices import SobolIndex
 

@@ -10,7 +10,8 @@ import yaml
 
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
-from geartrain.simulation import collect_time_report, find_link_inertias
+from geartrain.simulation import find_link_inertias
+from geartrain.simulation.time.time_report import collect_time_report
 
 SET = """
 name: planetary set

@@ -19,7 +19,8 @@ from shapely.geometry import Polygon
 import geartrain
 from geartrain import GearTrain, load
 from geartrain.errors import GearTrainError
-from geartrain.report import collect_report, describe_train, to_markdown
+from geartrain.report import collect_report, to_markdown
+from geartrain.report.train_report import describe_train
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth import CircularArc
 

@@ -76,13 +76,16 @@ class MemberTorques(NamedTuple):
     """Torque on the carrier of the pair [N m, or number without a unit]."""
 
 
-class BearingTorque(NamedTuple):
+@dataclass(frozen=True)
+class BearingTorque(Result):
     """Friction torques of one bearing: equation (10) of docs/torques.md.
 
     See Also
     --------
     Torques.bearings : all bearings with friction
     """
+
+    KEYS = ("link", "carrier", *(Key(key, to=as_float) for key in ("torque", "reaction", "loss")), "load")
 
     link: str
     """Link that turns in the bearing."""
@@ -96,6 +99,10 @@ class BearingTorque(NamedTuple):
     """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
     """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
+    load: float | None = None
+    """Load on the bearing, or the sum of the loads on its two bearings [N]; None if its friction does not depend on
+    the load.
+    """
 
 
 @dataclass(frozen=True)
@@ -120,8 +127,8 @@ class PairTorque(Result):
     driver: str
     """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
     links: tuple[str, ...]
-    """Names of first link, second link and carrier of the pair. For a link that slides and a link that turns, the
-    links on which they react follow: the third takes the reaction of the force, the fourth that of the torque.
+    """Names of first link, second link and carrier of the pair. If one of them slides and the other turns, the third
+    link takes the reaction of the force, and a fourth link the reaction of the torque.
     """
     torques: tuple[Fraction, ...]
     """Torques on these links, each about its own axis, or forces on links that slide [N m or N, or number without a
@@ -202,7 +209,7 @@ class TorqueVerdict(Result):
 
     - `determined`: all torques follow from the loads, and no declared effect is neglected.
     - `incomplete`: all torques follow from the loads, but `Torques.neglected` lists neglected effects.
-    - `self-locking`: no torques balance the load, however large, while the train turns this way.
+    - `self-locking`: no torques balance the load, however large, while the train turns in this sense.
     - `stalled`: no torques balance this load, which is too small to overcome the friction of bearings.
     - `ambiguous`: several patterns of power flow balance the load; the one with minimum loss is returned.
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
@@ -318,6 +325,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         Key("links", "link_torques"),
         "held",
         "pairs",
+        "bearings",
         Key("power_in", "known_power_in", as_float),
         Key("loss", "known_loss", as_float),
         "neglected",
@@ -346,16 +354,16 @@ class Torques(FrozenFields, Tabular, TrainResult):
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that the torques do not include."""
     reactions: Mapping[str, tuple[str, Fraction]] = field(default_factory=dict)
-    """Link of `requested` whose reaction does not act on the frame -> link of the reaction, and its torque, which
-    `external` includes. The pallets of an escapement are such a link.
+    """Reactions that do not act on the frame: link of `requested` -> link that takes the reaction, such as the pallets
+    of an escapement, and its torque, which `external` includes.
     """
     overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
     """Speed at which each one-way clutch overruns, without torque and loss [unit of the train], by clutch; None if
     undetermined.
     """
     arms: Mapping[str, Fraction] = field(default_factory=dict)
-    """Lever arm [m] of the force on each link that slides: force times arm times speed, a travel of 1 mm counted as one
-    turn, is the power.
+    """Lever arm [m] of the force on each link that slides. Its power is force times arm times speed, where a travel of
+    1 mm counts as one turn.
     """
 
     def power(self, link: str, load: Fraction) -> Fraction:
@@ -376,7 +384,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def _units(self) -> Mapping[str, str]:
-        """Units of torque, speed and power, as declared."""
+        """Declared units of torque, speed and power."""
         declared = self._declaration
         torque, speed = "N m, or the unit of the loads", "unit of the train"
         if declared is not None:
@@ -417,8 +425,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """Draw the power flow under these torques as a matplotlib figure, with `geartrain.drawing.power_figure`."""
-        return imported_function("drawing", "power_figure")(self, self.state or "")
+        """Draw the power flow under these torques as a matplotlib figure."""
+        return imported_function("drawing.power_sankey", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:
@@ -472,7 +480,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output divided by power input; a float if pairs have mean efficiencies over teeth.
+        """Power output divided by power input; a float if pairs have mean efficiencies over teeth, or if friction of
+        bearings depends on their load.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """
@@ -480,7 +489,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
             return None
         # the net external power is the loss, even if torques of pairs are undetermined
         found = 1 - self._missing / self.power_in
-        return found if all(pair.exact for pair in self.pairs.values()) else float(found)
+        exact = all(pair.exact for pair in self.pairs.values()) and all(each.load is None for each in self.bearings)
+        return found if exact else float(found)
 
     @property
     def _missing(self) -> Fraction:

@@ -50,7 +50,7 @@ def find_separation(
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, from `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state; None only for a train that has no states.
     without : sequence of str
@@ -95,6 +95,7 @@ def find_separation(
     declared, case = train.declaration, train.kinematics.case(state)
     acting = find_inertial_loads(declared, case, train.tree, inertias, moving.speeds)
     rubbing, uncounted = separate_rubbing(moving, (*declared.gears, *declared.couplings))
+    uncounted += tuple(f"bearing {link}" for link, part in declared.links.items() if part.friction_radius)
     contacts = InertialContacts(moving, acting, rubbing=rubbing)
     period = contacts.motion.period
     # without a common period one revolution is searched
@@ -140,7 +141,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, from `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state; None only for a train that has no states.
 
@@ -191,7 +192,7 @@ class PairSeparation(Result):
     pair: str
     """Name of the pair or coupling."""
     rate: float | None
-    """Input speed [turn/s]; 0 if the flanks separate at any speed, None if they never separate."""
+    """Input speed [turn/s]; 0 if the flanks separate at any speed; None if they never separate."""
     at: float
     """Position of the input at which the flanks first separate [turn]."""
     leap: bool = False
@@ -215,7 +216,7 @@ class SeparationRates(Result):
     state: str | None
     """Name of the declared state for which the speeds were computed."""
     input: str
-    """Name of the input link, whose speed the results give."""
+    """Name of the input link, to which the speeds refer."""
     turns: float
     """Searched range of the input [turn]."""
     complete: bool
@@ -225,7 +226,9 @@ class SeparationRates(Result):
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the links, as used in the computation."""
     uncounted: tuple[str, ...] = ()
-    """Names of the pairs with a constant ratio and of the pins; the computation neglects their friction."""
+    """Names of the pairs with a constant ratio and of the pins, and `bearing LINK` for each bearing whose friction
+    grows with the load; the computation neglects their friction.
+    """
 
     @property
     def first(self) -> PairSeparation | None:
@@ -272,7 +275,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
     """Yield sentences on the first pair that separates, the searched input range, and links of unknown inertia."""
     yield _first_separation(found)
     if found.uncounted:
-        yield f"Pairs whose friction is not included: {', '.join(found.uncounted)}."
+        yield f"Parts whose friction is not included: {', '.join(found.uncounted)}."
     if not found.complete:
         yield f"The search covered {found.turns:.6g} turns of '{found.input}', which is not a full period."
     if found.unknown:

@@ -144,7 +144,7 @@ class PointerBudget(Result):
     drifts: tuple[RatioDrift, ...] = ()
     """Drift relative to each target. The cause "ratio" is the magnitude of the first drift over the span."""
     pairs: Mapping[str, float] | None = None
-    """Peak-to-peak pointer error due to the teeth of one pair only [deg], by pair, descending; None if unknown."""
+    """Peak-to-peak pointer errors due to the teeth of each single pair [deg], in descending order; None if unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
@@ -207,8 +207,7 @@ class TrainBudget(Tabular, Pictured, Result):
 
     PAGE = "workshop.budget.budget_report:describe_budget"
 
-    FIGURE = "budget_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.budget.budget_bars:budget_figure"
 
     KEYS = (
         *("name", "state", "span_days", "turns", "samples", Key("input", "driving_link"), "pointers", "crank"),

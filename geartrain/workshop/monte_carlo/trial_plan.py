@@ -104,7 +104,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair; `rows` is the trial at each angle."""
+        """Return the transmission functions of a cut pair; `rows` contains the trial of each angle."""
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
@@ -302,8 +302,8 @@ class TrialPlan(Shown):
     driving_link: str
     """Name of the driving link."""
     shown: Mapping[str, float | None] = field(default_factory=dict)
-    """Mean speed of each output that a plot shows [deg/d], None if it is unknown: the requested outputs, or the outputs
-    with a dial.
+    """Mean speed of each plotted output [deg/d], None if it is unknown. The requested outputs are plotted, or by
+    default the outputs with a dial.
     """
 
     def _summary(self) -> str:
@@ -351,8 +351,8 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def jamming_bound(self, pair: TrialPair) -> float:
-        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed, if it has errors other
-        than normally distributed pitch deviations, or if no bound is known for its teeth.
+        """Return an upper bound of the jam probability of a pair; NaN if the pair is filed, if it has errors other than
+        normally distributed pitch deviations, or if no bound is known for its teeth.
 
         Parameters
         ----------
@@ -394,6 +394,7 @@ def find_trial_plan(
     outputs: Sequence[str] = (),
     state: str | None = None,
     without: Sequence[str] = (),
+    perfect: bool = False,
 ) -> TrialPlan:
     """Collect the input data for Monte Carlo trials of a train with cutting errors, in one state.
 
@@ -410,6 +411,8 @@ def find_trial_plan(
         Name of a declared state. Required if the train declares states.
     without : sequence of str
         Names of pairs to omit, so that the teeth of the remaining pairs do not form a closed loop.
+    perfect : bool
+        True if a train without errors is allowed.
 
     Returns
     -------
@@ -451,7 +454,7 @@ def find_trial_plan(
     senses = _RotationSenses(motion)
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
     composition = motion._with_sources([pair.name for pair in pairs])
-    if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
+    if not perfect and all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no manufacturing errors"
         why = "without them all trials are identical"
         fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting 'pitch_deviation=2 %'"

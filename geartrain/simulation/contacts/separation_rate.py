@@ -179,12 +179,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 
 @dataclass(frozen=True)
 class PairSeparation(Result):
-    """Input speed above which the flanks of a pair, or a pin and its slot, separate.
-
-    See Also
-    --------
-    SeparationRates : Contains one such object for each pair.
-    """
+    """Input speed above which the flanks of a pair, or a pin and its slot, separate."""
 
     KEYS = ("pair", "rate", "at", "leap")
 

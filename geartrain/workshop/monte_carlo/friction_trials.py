@@ -49,12 +49,7 @@ _MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of i
 
 
 class FrictionSpread(NamedTuple):
-    """Normal distribution of a friction coefficient.
-
-    See Also
-    --------
-    FrictionTrials.spreads : Spreads used in trials.
-    """
+    """Normal distribution of a friction coefficient."""
 
     sliding: float
     """Mean of the sliding friction coefficient [1]."""
@@ -174,12 +169,7 @@ def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction
 
 @dataclass(frozen=True)
 class TrialFigure(Result):
-    """Distribution of one result over the trials.
-
-    See Also
-    --------
-    FrictionTrials : All results of the trials.
-    """
+    """Distribution of one result over the trials."""
 
     KEYS = ("mean", "deviation", "percentiles")
 
@@ -206,12 +196,7 @@ class TrialFigure(Result):
 
 @dataclass(frozen=True)
 class FrictionTrials(Result):
-    """Results of trials with random friction coefficients: the torque and the efficiency over a run.
-
-    See Also
-    --------
-    try_frictions : Run the trials.
-    """
+    """Results of trials with random friction coefficients: the torque and the efficiency over a run."""
 
     PAGE = "workshop.monte_carlo.friction_trials:trials_document"
 

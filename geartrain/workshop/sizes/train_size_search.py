@@ -360,12 +360,7 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """Sizes of one pair of a train: the declared sizes, the best sizes of the pair, and the best sizes for the train.
-
-    See Also
-    --------
-    find_train_sizes : Find the sizes.
-    """
+    """Sizes of one pair of a train: declared sizes, best sizes of the pair, and best sizes for the train."""
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
 

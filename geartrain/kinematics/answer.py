@@ -30,7 +30,7 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """Closed loop of meshing wheels relative to one carrier, with the product of its speed ratios (docs/theory.md, 7)."""
+    """Closed loop of meshing wheels on one carrier, with the product of its speed ratios (docs/theory.md, 7)."""
 
     carrier: str
     """Link relative to which the ratios of all pairs of the loop are measured."""

@@ -102,8 +102,6 @@ class CycleEnergy(Result):
 class PairCycle(Result):
     """Loss, transmitted energy and torque of one gear pair, coupling or bearing over a run."""
 
-    KEYS = ("kind", "loss", "passed", "flank_changes", "maximum")
-
     kind: str
     """Kind of the part of the train: `mesh`, `pin` or `bearing`."""
     loss: float

@@ -181,8 +181,6 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 class PairSeparation(Result):
     """Input speed above which the flanks of a pair, or a pin and its slot, separate."""
 
-    KEYS = ("pair", "rate", "at", "leap")
-
     pair: str
     """Name of the pair or coupling."""
     rate: float | None

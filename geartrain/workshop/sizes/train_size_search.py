@@ -411,11 +411,6 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     FIGURE = "workshop.sizes.tooth_sizes_plot:train_sizes_figure"
 
-    KEYS = (
-        *("train", "aim", "output", "source", "free", "limits", "before", "apart", "together", "pairs"),
-        *("untouched", "declaration"),
-    )
-
     train: str
     """Name of the train."""
     aim: str

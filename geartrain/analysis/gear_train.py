@@ -235,7 +235,7 @@ class GearTrain:
         kind : {"plan", "stick", "graph", "lever", "dials"}
             Kind of picture.
         state : str, optional
-            Name of a state; by default the first, for "lever" all states.
+            Name of a state; by default the first state, or for "lever" all states.
         turns : Fraction
             Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
         labels : bool
@@ -661,16 +661,16 @@ class GearTrain:
         return GearTrain(with_counts(self.declaration, {**(counts or {}), **more}))
 
     def with_changes(self, changes: Mapping[str, Any] | None = None, **more: Any) -> GearTrain:
-        """Return a copy of the train with other values of any keys of its declaration.
+        """Return a copy of the train with some keys of its declaration changed.
 
         Parameters
         ----------
         changes : mapping, optional
-            Keys of a declaration with their values, applied in the same way as by `extends`. Entries of `links`,
-            `gears`, `outputs` and the like are merged by name, other values such as `inputs` and `tooth_form` are
-            replaced, None deletes a key, and `remove` deletes entries.
+            New values by key, merged in the same way as by `extends`: entries of `links`, `gears`, `outputs` and the
+            like are merged by name; other values, such as `inputs` and `tooth_form`, are replaced; None deletes a key;
+            `remove` deletes entries.
         **more : object
-            Keys that are Python identifiers with their values, applied in the same way as `changes`.
+            Further changes, as keyword arguments.
 
         Returns
         -------

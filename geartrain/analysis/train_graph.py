@@ -1,4 +1,4 @@
-"""Graph of a train with attributes of its links and pairs; attributes are computed when first read."""
+"""Graph of a train with attributes of its links and pairs; attributes are computed on first access."""
 
 from __future__ import annotations
 

@@ -108,7 +108,8 @@ def run(
         from geartrain.drawing.output_error_plots import motion_figure
 
         with progress("drawing", samples) as bar:
-            title = f"{train.name}: motion over {requested.turns:g} turns of {motion._problem.driving_link}"
+            unit = "turn" if requested.turns == 1 else "turns"
+            title = f"{train.name}: motion over {requested.turns:g} {unit} of {motion._problem.driving_link}"
             draw(motion_figure(requested, bar.advance, title), picture)
 
 

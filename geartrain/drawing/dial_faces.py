@@ -78,7 +78,7 @@ class DialPicture:
     scale: DialScale
     pointers: tuple[int, ...]
     title: str = ""
-    """Text above the face; empty if it is the name."""
+    """Text above the face; empty to use the name."""
     ball: bool = False
     """True for a half-black ball that shows the Moon's phase."""
 
@@ -140,8 +140,8 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, for none to draw, or for more than 60
-    faces.
+    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, if there are none to draw, or for more
+    than 60 faces.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:

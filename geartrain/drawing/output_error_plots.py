@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -86,8 +87,11 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def _error_chart(run: MotionRun, title: str) -> Figure:
-    """Return a chart of the errors of a run, which has been computed."""
-    ranked = sorted(run.statistics, key=lambda tally: -tally.peak_to_peak)
+    """Return a chart of the errors of a run, which has been computed. Outputs that move uniformly have no row if others
+    have one.
+    """
+    uneven = [tally for tally in run.statistics if tally.peak_to_peak > _ROUNDING]
+    ranked = sorted(uneven or run.statistics, key=lambda tally: -tally.peak_to_peak)
     shown = ranked[:MOST_ROWS]
     days = any(run.motion._degrees_per_day(tally.name) for tally in shown)
     panels = {
@@ -98,8 +102,11 @@ def _error_chart(run: MotionRun, title: str) -> Figure:
     }
     notes = [title, f"{len(ranked) - len(shown)} outputs with smaller errors are omitted: select them with --of"]
     notes = notes if len(ranked) > len(shown) else notes[:1]
-    if not any(tally.peak_to_peak > _ROUNDING for tally in ranked):
+    if not uneven:
         notes.append("every output moves uniformly")
+    elif len(uneven) < len(run.statistics):
+        even = [tally.name for tally in run.statistics if tally not in uneven]
+        notes.append(f"uniform: {shorten(', '.join(even), 60, placeholder=' ...')}")
     return interval_chart(panels, {"mean": DOT}, ("range", *["days"] * days), "; ".join(filter(None, notes)))
 
 
@@ -257,7 +264,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
         what, fix = "the torque over a turn is not known", "declare loads that the input can drive"
         raise QuestionError(Problem(what, found.verdict.text, fix))
     rows, label = _loss_rows(found)
-    heights = [2.9] + ([0.9 + 0.3 * len(rows)] if rows else [])
+    heights = [2.9] + ([0.9 + 0.25 * len(rows)] if rows else [])
     figure, panels = curve_panels(heights, 0.8, share=False)
     _torque(panels[0], found)
     if rows:
@@ -296,10 +303,11 @@ def _torque(panel: Axes, found: TorqueCycle) -> None:
         )
     if found.mean is not None:
         mean = factor * found.mean
-        panel.axhline(mean, color=GREY, linewidth=1.0, linestyle="--", label=f"mean {mean:.5g}")
+        panel.axhline(mean, color=BLACK, linewidth=1.0, linestyle="--", label=f"mean {mean:.5g}", zorder=3)
+    constant = np.ptp(torque) < _MINIMUM * abs(torque).max()
     marks = (("maximum", found.maximum, "^", RED), ("minimum", found.minimum, "v", GREEN))
     for name, extreme, marker, colour in marks:
-        if extreme is not None:
+        if extreme is not None and not constant:
             look: dict[str, Any] = {"color": colour, "markersize": 7, "clip_on": False, "zorder": 5}
             value = factor * extreme.torque
             panel.plot([extreme.turns], [value], marker, label=f"{name} {value:.5g}", gid=name, **look)
@@ -307,7 +315,7 @@ def _torque(panel: Axes, found: TorqueCycle) -> None:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label=f"locked, {100 * found.locked_share:.3g} %")
         even = np.interp(np.linspace(found.turns[0], found.turns[-1], _POINTS), found.turns, torque)
         panel.set_ylim(*_bounds(even))
-    elif np.ptp(torque) < _MINIMUM * abs(torque).max():  # a constant torque is a line at half of the height
+    elif constant:  # a constant torque is a line at half of the height
         panel.set_ylim(*sorted((0.0, 2 * torque[0])))
     name_axes(panel, y=f"torque at {short(found.link)}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 5)

@@ -374,7 +374,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
 
 @dataclass(frozen=True, slots=True)
 class _PlanSize:
-    """Dimensions of a plan on paper, in inches except for its depth."""
+    """Dimensions of a plan on paper [in]; `bottom` and `depth` are in mm, before scaling."""
 
     scale: float
     """Inches per millimetre."""

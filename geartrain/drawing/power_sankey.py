@@ -83,7 +83,7 @@ class _NodeLabels:
 
     def lines(self, node: PowerNode, power: Fraction) -> tuple[str, str]:
         """Return the name and the power of a node."""
-        amount = percent_text(power / self.whole)
+        amount = percent_text(power / self.whole, 3)
         if node.kind == "bearing":
             return f"bearing {node.name}", amount
         if node.kind in ("in", "out"):
@@ -97,7 +97,7 @@ class _NodeLabels:
 
     def loss(self, node: PowerNode, power: Fraction) -> str:
         """Return the label of the loss at a node."""
-        return f"{'teeth' if node.kind == 'pair' else 'bearing'} {percent_text(power / self.whole, 3)}"
+        return percent_text(power / self.whole, 3)
 
     def loss_width(self, node: PowerNode, power: Fraction) -> float:
         """Return the width of the label of a node's loss [in]."""
@@ -240,4 +240,4 @@ def _legend(placed: SankeyLayout) -> Iterator[Patch | Line2D]:
     if placed.turns:
         yield Patch(facecolor=PURPLE, alpha=0.6, label="recirculating power")
     if placed.sheds:
-        yield Patch(facecolor=RED, alpha=0.6, label="lost")
+        yield Patch(facecolor=RED, alpha=0.6, label="lost in teeth or bearings")

@@ -115,7 +115,7 @@ class MotionFigures(Result):
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
     advances: Mapping[str, float]
-    """Mean speed of the link that one-way clutches drive in steps, divided by the speed of the input [1], by name."""
+    """Mean speed of each link that one-way clutches drive in steps, per unit speed of the input [1], by link."""
 
 
 @dataclass(frozen=True)
@@ -421,7 +421,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
-    """Yield a section on the couplings that move by steps; nothing if there are none."""
+    """Yield a section on the couplings that move in steps; nothing if there are none."""
     rows = []
     for source in motion._forward.used:
         transmission = source.transmission

@@ -365,7 +365,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a loss with its shares of the power in and of all losses, then the power of impacts and its share."""
+    """Return a table row: a loss, its shares of input power and of all losses, the power of impacts and its share."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")

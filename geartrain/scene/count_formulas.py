@@ -13,9 +13,9 @@ class CountFormula(Shown):
     """Ratio of two polynomials in the tooth counts, with integer coefficients, for one speed or one condition."""
 
     wheels: Sequence[int]
-    """Tooth counts of the formula as indices into `SceneFormulas.wheels`, repeated if equal planets share one."""
+    """Indices in `SceneFormulas.wheels` of the counts in the formula, repeated for equal planets that share a count."""
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the numerator: a coefficient as a string, and exponents parallel to `wheels`, all 0 or more."""
+    """Terms of the numerator: a coefficient as a string, and the power of each entry of `wheels`, 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
     """Terms of the denominator, in the same form as the numerator."""
 

@@ -30,8 +30,8 @@ class ScenePart(Shown):
     """Name of the part in the list of parts."""
     kind: str
     """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, drum, foot, cock, pin,
-    plate. A plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials
-    is `dial`.
+    plate. Plates of the frame have the kind `frame`, plates that turn with a carrier or a ring `carrier`, and plates of
+    dials `dial`.
     """
     place: Vector
     """Position of the origin of the part in the zero pose [mm]."""
@@ -74,7 +74,7 @@ class SceneHanger(Shown):
     parts: Sequence[ScenePart] = ()
     """Turned parts in their positions in the zero pose: rod and bob, or the weight."""
     to: int | None = None
-    """Index of the body at the end of a rod, which is `point` + `length` `down` in the zero pose; otherwise None."""
+    """Index of the body at the end of a rod, at `point` + `length` * `down` in the zero pose; None for other parts."""
 
 
 # Not in every train: `SceneCoupling.slot_turn` (starting angles), heights instead of radii in the profiles of bevel
@@ -110,7 +110,7 @@ class SceneBody(Shown):
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
-    """Starting angle of the link [rad]: as declared, or from the epoch."""
+    """Starting angle of the link [rad]: declared, or computed from the epoch."""
     role: str
     """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False
@@ -177,7 +177,7 @@ class SceneWheel(Shown):
     root: float
     """Root radius [mm]."""
     module: float
-    """Module [mm]: transverse, or the axial module of a worm."""
+    """Transverse module [mm]; for a worm, its axial module."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     cone: float
@@ -199,8 +199,8 @@ class SceneWheel(Shown):
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at the wheel's meshes; None if it is not known, as without declared
-    loads.
+    """Fraction of the input power that is lost at the wheel's meshes; None if it is not known, for example without
+    declared loads.
     """
     helix: float = 0.0
     """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right-hand

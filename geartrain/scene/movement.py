@@ -110,7 +110,7 @@ class Movement(Shown):
     why: str = ""
     """Reason why the motion has the kind `mean` or `still`; otherwise empty."""
     period: str | None = None
-    """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
+    """Exact number of turns of the driving link after which the pose repeats; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
     """Transmission-error tables; identical pairs share one table."""
     sources: Sequence[ErrorSource] = ()
@@ -121,8 +121,8 @@ class Movement(Shown):
     """Link -> constant error of its angle [rad]."""
 
 
-TOLERANCE = 1e-11  # maximum error of a table in driven pitches
-_DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table is used
+TOLERANCE = 1e-9  # maximum error of a table in driven pitches; the page displays hundredths of a degree
+_DEGREES = (3, 5, 7, 9, 11, 14)  # degrees of polynomials, of which the smallest table is used
 
 
 def step_of(step: Composed) -> ErrorStep:
@@ -137,8 +137,8 @@ def tables_and_sources(
     """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
     table.
 
-    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, a scene
-          about declared axes
+    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, and
+          a scene counts them about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     sources = []

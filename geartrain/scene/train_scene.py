@@ -122,12 +122,12 @@ class SceneEpoch(Shown):
     note: str
     """Note on the date, as declared."""
     settings: Sequence[SceneSetting] = ()
-    """Pointers that are set at that date; a pointer is after the pointer that sets its base."""
+    """Pointers that are set at that date. Each pointer is listed after the pointer that sets its base."""
     unset: Sequence[str] = ()
-    """Outputs on a zodiac that are not set."""
+    """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
-    """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body ->
-    longitude, perihelion (of the Moon perigee and node) [deg], eccentricity, distance [au]; empty without settings.
+    """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body -> longitude,
+    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty without settings.
     """
 
 
@@ -218,7 +218,7 @@ class Scene(Shown):
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     drive: Literal["hand", "motor", "spring", "weight"]
-    """Drive of the body of the crank: as declared, a motor for a speed in real time, otherwise a hand."""
+    """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
     fusee: Sequence[float]
     """Radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
     up: Vector
@@ -258,7 +258,7 @@ class Scene(Shown):
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link, and for a run.
+    """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
     """
     tour: Sequence[TourStop] = ()
     """Tour of the train, as declared."""

@@ -225,7 +225,7 @@ class MotionRun(Tabular, Pictured):
     """Motion that the run evaluates."""
     turns: float
     """Revolutions of the input, up to 1e12 in magnitude. If the number is negative, the input turns against its
-    declared sense, and the coast flanks drive.
+    declared sense, and the coast flanks are in contact.
     """
     samples: int
     """Number of positions, 2 or more, including both ends of the run."""

@@ -1,7 +1,7 @@
 """Constraints on the tooth counts of a declared train: assembly, equal planets, limits of wheels.
 
 `find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
-solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
+solved for the count of a wheel; a `Condition` can only be tested. Both are evaluated for many candidates at once.
 """
 
 from __future__ import annotations
@@ -70,9 +70,9 @@ def find_constraints(
 
     free   admissible counts by varied wheel; all other wheels have their declared counts
 
-    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets.
-    Constraints that involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is
-    raised if a requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
+    The order is: bounds of single wheels; equations; conditions on pairs, then on sets of planets. Constraints that
+    involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is raised if a requested
+    constraint cannot be evaluated for this train or cannot be satisfied by any counts.
     """
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
@@ -97,7 +97,7 @@ class _ConstraintBuilder:
         yield from self._owned()
 
     def _owned(self) -> Iterator[CountConstraint]:
-        """Yield a condition for each collection of owned wheels: no more wheels of a count are used than it has."""
+        """Yield a condition for each collection of owned wheels: no tooth count is used more often than it is owned."""
         wheels: dict[tuple[tuple[int, int], ...], dict[str, int]] = {}
         for name, (link, wheel) in self.declared.wheels.items():
             search = wheel.teeth.search if isinstance(wheel.teeth, Teeth) else None

@@ -278,7 +278,7 @@ def search_train(
     Raises
     ------
     QuestionError
-        If no wheel is varied, if nothing is required of the varied wheels, or if the order or state does not exist.
+        If no wheel is varied, if no requirement depends on the varied wheels, or if the order or state does not exist.
     RangeError
         If a range of counts is too large to list.
 

@@ -34,7 +34,7 @@ class ClearanceCase(Result):
     scale: float
     """Factor by which manufacturing errors are multiplied, except errors measured tooth by tooth."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability that each event (jam, clash, stops (jam or clash), dwell, disengaged) occurs in at least one pair."""
+    """Probability that each event occurs in at least one pair: jam, clash, stops (jam or clash), dwell, disengaged."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
     """Probability of each event (as in `events`) in each pair, by pair."""
 

@@ -157,7 +157,7 @@ def _bands(errors: Floats) -> Floats:
 
 
 def error_figure(trials: TrialResults) -> Figure:
-    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error, the widest range at the top.
+    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error; the widest range is at the top.
 
     Raises `QuestionError` if a pointer has no errors.
     """

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 import shipped
-from playwright.sync_api import Browser, Locator, Page
+from conftest import OpenWindow
+from playwright.sync_api import Locator, Page
 from viewing import contrast, listen, luminance
 
 from geartrain import load
@@ -29,24 +30,19 @@ Opened = Callable[..., tuple[Page, list[str]]]
 
 
 @pytest.fixture
-def open_report(browser: Browser, tmp_path: Path) -> Iterator[Opened]:
+def open_report(open_window: OpenWindow, tmp_path: Path) -> Opened:
     """Function that returns an opened page with a list of errors, dialogs and requests to other addresses."""
-    contexts = []
 
     def show(text: str, **window: object) -> tuple[Page, list[str]]:
         path = tmp_path / "report.html"
         path.write_text(text, encoding="utf-8")
-        context = browser.new_context(**({"viewport": {"width": 1000, "height": 800}} | window))
-        contexts.append(context)
-        page = context.new_page()
+        page = open_window(**({"viewport": {"width": 1000, "height": 800}} | window))
         wrong = listen(page, path.as_uri(), "data:", "blob:", "about:")
         page.goto(path.as_uri())
         page.evaluate("document.querySelectorAll('details').forEach((each) => { each.open = true; })")
         return page, wrong
 
-    yield show
-    for context in contexts:
-        context.close()
+    return show
 
 
 def table(page: Page, heading: str) -> list[list[str]]:
@@ -180,13 +176,13 @@ def test_it_prints_on_white_without_what_can_only_be_clicked(freeth: str, open_r
     assert wrong == []
 
 
-def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(browser: Browser, tmp_path: Path) -> None:
+def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(open_window: OpenWindow, tmp_path: Path) -> None:
     """A window of 1280 x 800 pixels, with the plan and the dials of a train of 24 outputs."""
     drawings = [Picture(kind, render(picture(shipped.train("freeth-2021"), kind), ".svg").decode()) for kind in DRAWN]
     path = tmp_path / "report.html"
     text = to_html([describe_shared_page(shipped.report("freeth-2021"), drawings)])
     path.write_text(text, encoding="utf-8")
-    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page = open_window(viewport={"width": 1280, "height": 800})
     page.goto(path.as_uri())
     names = (".badge", "article > p:has-text('Verdict')", "table", "figure", "nav.contents")
     places = [page.locator(name).first.bounding_box() for name in names]
@@ -202,7 +198,6 @@ def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(browser: Br
         assert folded.get_attribute("open") is None
     pages = page.pdf(format="A4", margin=dict.fromkeys(("top", "bottom", "left", "right"), "10mm"))
     assert len(re.findall(rb"/Type\s*/Page\b", pages)) <= 4
-    page.close()
 
 
 def test_a_click_on_a_rank_shows_its_train_turning(open_report: Opened) -> None:

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
+from viewing import ANTIKYTHERA, MOVING, SIMPLE, Opening, tab, turns, wait
 
 
 def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Opening) -> None:
@@ -37,7 +37,7 @@ def test_a_step_is_one_unit_of_the_input(show: Opening) -> None:
 
 
 def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **MOVING)
     shown.page.get_by_role("button", name="play", exact=True).click()
     wait(shown, "!String(geartrain.turns).startsWith('0')")
     shown.page.get_by_role("button", name="pause", exact=True).click()
@@ -50,7 +50,7 @@ def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> Non
 
 
 def test_reduced_motion_moves_by_jumps_of_a_second(show: Opening) -> None:
-    shown = show(SIMPLE, reduced_motion="reduce")
+    shown = show(SIMPLE)
     moves = shown.run(
         """async () => {
           const at = []; const began = performance.now(); let before = String(geartrain.turns);

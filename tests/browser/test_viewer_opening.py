@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import shipped
 from conftest import Shown
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, tab, turns, wait
+from viewing import ANTIKYTHERA, LOCKED, MOVING, SIMPLE, Opening, tab, turns, wait
 
 from geartrain import load
 from geartrain.errors import DeclarationError
@@ -35,7 +35,7 @@ def exact_turns(shown: Shown, train: str) -> dict[str, float]:
 
 
 def test_a_page_opens_in_motion(show: Opening) -> None:
-    shown = show(SIMPLE, opening=True)
+    shown = show(SIMPLE, opening=True, **MOVING)
     first = turns(shown)
     wait(shown, f"String(geartrain.turns) !== '{first}'")
     shown.page.get_by_role("button", name="pause", exact=True).click()
@@ -44,9 +44,9 @@ def test_a_page_opens_in_motion(show: Opening) -> None:
 
 @pytest.mark.parametrize("name", ["huygens-planetarium-1682", "prague-orloj", SIMPLE])
 def test_a_page_opens_with_its_pointers_apart_and_at_rest_for_users_who_prefer_it(show: Opening, name: str) -> None:
-    shown = show(name, opening=True, reduced_motion="reduce")
+    shown = show(name, opening=True)
     first = turns(shown)
-    shown.page.wait_for_timeout(1500)
+    shown.page.wait_for_timeout(300)
     assert turns(shown) == first != 0
     assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
     dials = {output: each.dial for output, each in shipped.train(name).declaration.outputs.items()}
@@ -57,7 +57,7 @@ def test_a_page_opens_with_its_pointers_apart_and_at_rest_for_users_who_prefer_i
 
 
 def test_a_script_that_sets_the_turns_ends_the_opening_motion(show: Opening) -> None:
-    shown = show(SIMPLE)
+    shown = show(SIMPLE, **MOVING)
     shown.page.wait_for_timeout(400)
     assert turns(shown) == 0
 
@@ -169,7 +169,7 @@ SEEN = """(name) => {
 
 
 def test_steps_move_the_camera_to_their_parts(show: Opening) -> None:
-    shown = show(SIMPLE, reduced_motion="reduce")
+    shown = show(SIMPLE)
     steps: Any = shipped.train(SIMPLE).declaration.tour
     shown.page.get_by_role("button", name="Tour").click()
     text, back = shown.page.locator(".tour p"), shown.page.locator(".tour").get_by_role("button", name="Back")
@@ -191,7 +191,7 @@ def test_steps_move_the_camera_to_their_parts(show: Opening) -> None:
 
 
 def test_a_part_behind_the_front_is_seen_from_behind(show: Opening) -> None:
-    shown = show(ANTIKYTHERA, reduced_motion="reduce")
+    shown = show(ANTIKYTHERA)
     shown.page.get_by_role("button", name="Tour").click()
     shown.page.get_by_role("button", name="Next").click(click_count=2)
     assert "slot of wheel k2" in shown.page.locator(".tour p").inner_text()

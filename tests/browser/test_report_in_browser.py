@@ -15,7 +15,6 @@ from viewing import contrast, listen, luminance
 
 from geartrain import load
 from geartrain.drawing import picture, render
-from geartrain.drawing.train_pictures import PictureKind
 from geartrain.report import Document, Picture, Section, Table, collect_report, describe_shared_page, to_html
 from geartrain.report.document import Branch, PageExtras, SceneText
 from geartrain.scene import build_scene
@@ -25,7 +24,6 @@ EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg" width="720pt" height="72pt"><path d="M 0 0 L 720 72" stroke="red"/></svg>'
 )
-DRAWN: tuple[PictureKind, ...] = ("plan", "dials")
 Opened = Callable[..., tuple[Page, list[str]]]
 
 
@@ -178,7 +176,10 @@ def test_it_prints_on_white_without_what_can_only_be_clicked(freeth: str, open_r
 
 def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(open_window: OpenWindow, tmp_path: Path) -> None:
     """A window of 1280 x 800 pixels, with the plan and the dials of a train of 24 outputs."""
-    drawings = [Picture(kind, render(picture(shipped.train("freeth-2021"), kind), ".svg").decode()) for kind in DRAWN]
+    train = shipped.train("freeth-2021")
+    drawings = [
+        Picture("drawn", render(each, ".svg").decode()) for each in (picture(train, "plan"), picture(train, "dials"))
+    ]
     path = tmp_path / "report.html"
     text = to_html([describe_shared_page(shipped.report("freeth-2021"), drawings)])
     path.write_text(text, encoding="utf-8")

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from math import pi
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 import shipped
@@ -16,9 +16,9 @@ from viewing import LOCKED, MOVING, SIMPLE, wait
 import geartrain
 from geartrain.scene import make_scene
 from geartrain.viewer import frame_of, page
-from geartrain.viewer.viewer_page import Shown as Way
 
 Showing = Callable[..., Shown]
+Way = Literal["page", "embed", "kiosk"]
 CAMERA = "geartrain.stages.find(Boolean).camera.position.toArray()"
 
 

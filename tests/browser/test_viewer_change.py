@@ -150,7 +150,7 @@ def test_a_step_is_one_tooth_and_pointers_follow(opened: Any) -> None:
     assert shown.page.locator(".changed").count() == 0
     for text in ("0", "-3", "2.5", "many", "9999999999999"):
         tab(shown, "Wheels")
-        shown.page.locator("[data-wheel='s']").click()
+        shown.page.locator("button[data-wheel='s']").click()
         field = shown.page.get_by_label("teeth of s", exact=True)
         field.fill(text)
         field.press("Enter")
@@ -199,7 +199,7 @@ def test_meshes_of_other_axes_are_judged_by_what_they_have(opened: Any) -> None:
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_what_is_changed_can_be_read(opened: Any, scheme: str) -> None:
-    shown = opened(shipped.train("planetary-24-18-60"))
+    shown = opened(shipped.train("planetary-24-18-60"), before="")
     shown.page.get_by_label("theme").select_option(scheme)
     give(shown, "s", 26)
     for name in ("Change", "Wheels"):

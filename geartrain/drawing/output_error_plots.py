@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -76,30 +77,6 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     target, or for all outputs, if there is none). It shows the transmission error of the teeth less its mean, without
     the anomaly of couplings; if no tooth form with variable ratio is declared, it shows the anomaly. The curves of one
     output are its angle with any backward motion, the same error, and the speed.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run that defines outputs, turns and positions. The motion is computed again, so `run.run` need not have been
-        called.
-    on_done : callable
-        Called with the number of positions computed since the previous call.
-    title : str
-        Title above the picture.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Errors [deg, or mm for links that slide] of at most `MOST_ROWS` outputs, the largest error at the top, with
-        their ranges also in days if the train has a unit of time. Curves are plotted against turns of the input.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.dynamics import MotionRun
-    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=0.1, samples=51)
-    >>> [label.get_text() for label in motion_figure(run).axes[0].get_yticklabels()]
-    ['moon', 'sun']
     """
     motion = run.motion._of(run.motion._shown)
     if len(motion.outputs) == 1:
@@ -110,8 +87,11 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def _error_chart(run: MotionRun, title: str) -> Figure:
-    """Return a chart of the errors of a run, which has been computed."""
-    ranked = sorted(run.statistics, key=lambda tally: -tally.peak_to_peak)
+    """Return a chart of the errors of a run, which has been computed. Outputs that move uniformly have no row if others
+    have one.
+    """
+    uneven = [tally for tally in run.statistics if tally.peak_to_peak > _ROUNDING]
+    ranked = sorted(uneven or run.statistics, key=lambda tally: -tally.peak_to_peak)
     shown = ranked[:MOST_ROWS]
     days = any(run.motion._degrees_per_day(tally.name) for tally in shown)
     panels = {
@@ -122,8 +102,11 @@ def _error_chart(run: MotionRun, title: str) -> Figure:
     }
     notes = [title, f"{len(ranked) - len(shown)} outputs with smaller errors are omitted: select them with --of"]
     notes = notes if len(ranked) > len(shown) else notes[:1]
-    if not any(tally.peak_to_peak > _ROUNDING for tally in ranked):
+    if not uneven:
         notes.append("every output moves uniformly")
+    elif len(uneven) < len(run.statistics):
+        even = [tally.name for tally in run.statistics if tally not in uneven]
+        notes.append(f"uniform: {shorten(', '.join(even), 60, placeholder=' ...')}")
     return interval_chart(panels, {"mean": DOT}, ("range", *["days"] * days), "; ".join(filter(None, notes)))
 
 
@@ -272,42 +255,16 @@ _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    r"""Return a figure of the requested torque over a run, with its mean and extremes.
+    """Return a figure of the requested torque over a run, with its mean and extremes.
 
     A chart below the torque shows the mean and the range of the losses of gear pairs, couplings and bearings, if there
     are any, the largest at the top.
-
-    Parameters
-    ----------
-    found : TorqueCycle
-        Result of `GearTrain.torques` over some turns.
-    title : str
-        Title above the picture.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Torque against turns of the input, and losses as equivalent torque (power divided by the mean speed of the
-        link), in N m with the decimal prefix of the axis, or dimensionless if the torque has no unit. Intervals in
-        which the train locks are shaded.
-
-    Raises
-    ------
-    QuestionError
-        If the torque is unknown at all positions.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("extends: planetary-24-18-60\nloads: {carrier: -10 N m}\nname: loaded")
-    >>> torque_cycle_figure(train.torques(turns=1, samples=20)).axes[0].get_ylabel()
-    'torque at sun (N m)'
     """
     if found.turns is None or found.torque is None or not np.isfinite(found.torque).any():
         what, fix = "the torque over a turn is not known", "declare loads that the input can drive"
         raise QuestionError(Problem(what, found.verdict.text, fix))
     rows, label = _loss_rows(found)
-    heights = [2.9] + ([0.9 + 0.3 * len(rows)] if rows else [])
+    heights = [2.9] + ([0.9 + 0.25 * len(rows)] if rows else [])
     figure, panels = curve_panels(heights, 0.8, share=False)
     _torque(panels[0], found)
     if rows:
@@ -346,10 +303,11 @@ def _torque(panel: Axes, found: TorqueCycle) -> None:
         )
     if found.mean is not None:
         mean = factor * found.mean
-        panel.axhline(mean, color=GREY, linewidth=1.0, linestyle="--", label=f"mean {mean:.5g}")
+        panel.axhline(mean, color=BLACK, linewidth=1.0, linestyle="--", label=f"mean {mean:.5g}", zorder=3)
+    constant = np.ptp(torque) < _MINIMUM * abs(torque).max()
     marks = (("maximum", found.maximum, "^", RED), ("minimum", found.minimum, "v", GREEN))
     for name, extreme, marker, colour in marks:
-        if extreme is not None:
+        if extreme is not None and not constant:
             look: dict[str, Any] = {"color": colour, "markersize": 7, "clip_on": False, "zorder": 5}
             value = factor * extreme.torque
             panel.plot([extreme.turns], [value], marker, label=f"{name} {value:.5g}", gid=name, **look)
@@ -357,7 +315,7 @@ def _torque(panel: Axes, found: TorqueCycle) -> None:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label=f"locked, {100 * found.locked_share:.3g} %")
         even = np.interp(np.linspace(found.turns[0], found.turns[-1], _POINTS), found.turns, torque)
         panel.set_ylim(*_bounds(even))
-    elif np.ptp(torque) < _MINIMUM * abs(torque).max():  # a constant torque is a line at half of the height
+    elif constant:  # a constant torque is a line at half of the height
         panel.set_ylim(*sorted((0.0, 2 * torque[0])))
     name_axes(panel, y=f"torque at {short(found.link)}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 5)

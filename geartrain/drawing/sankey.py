@@ -37,6 +37,8 @@ class SankeySpot:
     """Space for text to the left of the node's centre [in]."""
     right: float = 0.0
     """Space for text to the right of the node's centre [in]."""
+    lost: float = 0.0
+    """Space for the label of the loss, below the box, to the right of the node's centre [in]."""
     top: float = 0.0
     before: list[BandSegment] = field(default_factory=list)
     after: list[BandSegment] = field(default_factory=list)
@@ -112,7 +114,7 @@ class SankeyLayout:
     height: float
 
 
-_MINIMUM_GAP = 0.62  # minimum gap between columns
+_MINIMUM_GAP = 0.5  # minimum gap between columns
 _CLEAR = 0.06  # between text and a return band next to it
 
 
@@ -150,13 +152,14 @@ def abscissae(
     """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
+    lost = [max(spot.lost for spot in column) for column in table]
     gaps = []
     for at in range(len(table) - 1):
         names = right[at] + left[at + 1] + 0.12
         behind, before = room.get((at, True), 0.0), room.get((at + 1, False), 0.0)
-        turning = behind + before + (left[at + 1] if behind else 0.0) + (right[at] if before else 0.0)
+        turning = behind + before + (left[at + 1] if behind else 0.0) + (max(right[at], lost[at]) if before else 0.0)
         # beside a return band the text of the neighbouring column needs its whole width
-        gaps.append(max(names, _MINIMUM_GAP, turning + 0.2))
+        gaps.append(max(names, _MINIMUM_GAP, lost[at] + 0.16, turning + 0.2))
     more = max(minimum - left[0] - right[-1] - 0.2 - sum(gaps), 0.0) / len(gaps)
     x = [left[0] + 0.1]
     for gap in gaps:
@@ -425,7 +428,7 @@ def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, minimum: float) ->
         spot.left = spot.right = name(node, through[node]) / 2
         if lost:
             middle, half = spot.width / 2 + BEND + spot.shed / 2, loss(node, lost) / 2
-            spot.left, spot.right = max(spot.left, half - middle), max(spot.right, half + middle)
+            spot.left, spot.lost = max(spot.left, half - middle), half + middle
     bands, passing = make_bands(spots, ahead, back, scale)
     every = [*spots.values(), *passing]
     table = [[spot for spot in every if spot.column == at] for at in range(max(columns.values()) + 1)]
@@ -435,6 +438,6 @@ def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, minimum: float) ->
     x = abscissae(table, gaps, minimum)
     high = min([spot.top - spot.above for spot in every] + [turn.lane for turn in lanes])
     low = max(spot.top + spot.height + spot.below for spot in every)
-    edge = max(spot.right for spot in table[-1]) + 0.1
+    edge = max(max(spot.right, spot.lost) for spot in table[-1]) + 0.1
     leading = [band for band in bands if not band[0].back]
     return SankeyLayout(every, leading, lanes, x, scale, sheds, high, x[-1] + edge, low - high)

@@ -15,7 +15,8 @@ from viewing import LOCKED, MOVING, SIMPLE, wait
 
 import geartrain
 from geartrain.scene import make_scene
-from geartrain.viewer import frame_of, page
+from geartrain.viewer import page
+from geartrain.viewer.viewer_page import frame_of
 
 Showing = Callable[..., Shown]
 Way = Literal["page", "embed", "kiosk"]

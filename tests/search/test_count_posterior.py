@@ -15,7 +15,8 @@ from geartrain import load
 from geartrain.analysis import GearTrain
 from geartrain.errors import DeclarationError, GearTrainError, QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
-from geartrain.search import ToothCountPosterior, describe_posterior, infer_counts
+from geartrain.search import ToothCountPosterior, infer_counts
+from geartrain.search.posterior.posterior_report import describe_posterior
 
 LONG = 10**18  # sums of products of such weights need integers of Python
 CHAIN: dict[str, Any] = {

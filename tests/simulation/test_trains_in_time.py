@@ -11,12 +11,8 @@ import pytest
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.report import to_markdown
-from geartrain.simulation import (
-    TimeRun,
-    collect_time_report,
-    describe_time_run,
-    find_separation,
-)
+from geartrain.simulation import TimeRun, find_separation
+from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
 
 GRAVITY = 9.80665  # m/s2
 INERTIA = {"sun": 3e-5, "c": 5e-6, "d": 8e-6, "moon": 2e-6}

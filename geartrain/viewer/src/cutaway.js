@@ -12,8 +12,7 @@ export const isOpened = (scene, { kind, body }) =>
 
 /**
  * The quarter that is cut out: its edge passes through `at` along the axis of most rings, and its sides extend along `right`
- * and `up`, as seen from the front; null for a train without rings. `hides` is true if rings hide each other, or if the wall
- * of a cup surrounds one.
+ * and `up`, as seen from the front; null for a train without rings. `hides` is true if rings hide each other.
  */
 export function quarterOf(scene, size) {
   const rings = scene.wheels.filter(({ kind }) => kind === "ring");
@@ -26,8 +25,7 @@ export function quarterOf(scene, size) {
   const seen = isParallel(direction, [0, 1, 0]) ? vector([0, 0, -1]) : vector([0, 1, 0]);
   const up = seen.addScaledVector(towards, -seen.dot(towards)).normalize();
   const heights = most.map(({ centre }) => vector(centre).dot(towards));
-  const walled = scene.parts.some(({ kind }) => kind === "wall");
-  const hides = walled || Math.max(...heights) - Math.min(...heights) > LEVEL * size;
+  const hides = Math.max(...heights) - Math.min(...heights) > LEVEL * size;
   return { at: vector(point), up, right: up.clone().cross(towards), hides };
 }
 

@@ -19,6 +19,7 @@ const BETTER = 1.13; // minimum ratio of visibilities for which the initial view
 const NEARLY = 0.95; // relative to the best visibility
 const INTO = [0.62, 0.46, 0.64]; // oblique view into a train that is cut open
 const BEHIND = [INTO[0], INTO[1], -INTO[2]]; // the same from behind
+const MOUTH = [LOOKS.free[0], LOOKS.free[1], -LOOKS.free[2]]; // towards the teeth of a flexible wheel, if its cup is in front of them
 const MARGIN = 1.05;
 const NEAR = 1.7; // distance of the camera from a part, relative to that at which the part fills the picture
 const BEYOND = 0.02; // distance of a part behind the middle for which it is seen from behind, relative to the size of the train
@@ -211,7 +212,7 @@ export class Stage {
   opening() {
     const { aspect } = this.camera;
     const { opened } = this.world;
-    const [others, usual] = opened ? [[BEHIND], INTO] : [OTHERS, LOOKS.free];
+    const [others, usual] = opened ? [[BEHIND], INTO] : [this.machine.scene.waves.length ? [MOUTH] : OTHERS, LOOKS.free];
     if (this.found?.aspect !== aspect || this.found.opened !== opened) this.found = { aspect, opened, towards: this.bestOf(others.map((way) => this.towards(way)), this.towards(usual)) };
     return this.found.towards;
   }

@@ -121,11 +121,14 @@ export class World {
     const [low, high] = [Math.min(...ends, ...own), Math.max(...ends, ...own)];
     const past = [own[0] - low, high - own[1]];
     const off = (end) => onAxis(body, end).distanceTo(this.ball.center);
-    const outward = Math.abs(past[0] - past[1]) > 1e-6 * size
-      ? past[0] - past[1]
-      : isParallel(body.direction, this.main.toArray())
-        ? vector(body.direction).dot(this.main) * scene.front
-        : off(high) - off(low);
+    const hidden = scene.drive === "motor" && isParallel(body.direction, this.main.toArray()); // a motor would hide its wheel: it is behind
+    const outward = hidden
+      ? -vector(body.direction).dot(this.main) * scene.front
+      : Math.abs(past[0] - past[1]) > 1e-6 * size
+        ? past[0] - past[1]
+        : isParallel(body.direction, this.main.toArray())
+          ? vector(body.direction).dot(this.main) * scene.front
+          : off(high) - off(low);
     // in front of a dial the crank would hide its scale
     const isBefore = ({ centre, normal, radius }) => isParallel(body.direction, normal) && offAxis(body, centre) < 1.08 * radius + REACH * size;
     const read = new Set(scene.dials.filter(isBefore).map(({ normal }) => Math.sign(vector(normal).dot(vector(body.direction)))));

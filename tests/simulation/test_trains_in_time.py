@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from commands import call
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
-from geartrain.report import to_markdown
 from geartrain.simulation import TimeRun, find_separation
-from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
 
 GRAVITY = 9.80665  # m/s2
 INERTIA = {"sun": 3e-5, "c": 5e-6, "d": 8e-6, "moon": 2e-6}
@@ -207,13 +206,11 @@ def test_figures_of_a_part_of_a_turn_have_no_interval() -> None:
 
 def test_a_figure_that_depends_on_the_step_is_named_with_its_error_and_the_steps_to_ask_for() -> None:
     # a pitch is passed within one step, so that what is taken for the speed of its blow doubles with half the step
-    train = load("longcase-clock")
-    run = train.dynamics(turns=1 / 360, skip=0, steps=30_000, fast=False)
-    page = to_markdown([describe_time_run(collect_time_report(train, run))])
+    requested = ("dynamics", "longcase-clock", "--turns", 1 / 360, "--skip", 0, "--no-fast", "-o", "-")
+    page = call(*requested, "--steps", 30_000).stdout
     assert "NOT CONVERGED: escape hardest impact." in page
     assert "at most 50 % (escape hardest impact): `--steps 1500000` reduces it to 1 %" in page
-    run = train.dynamics(turns=1 / 360, skip=0, fast=False)
-    assert "NOT CONVERGED" not in to_markdown([describe_time_run(collect_time_report(train, run))])
+    assert "NOT CONVERGED" not in call(*requested).stdout
 
 
 @pytest.mark.slow

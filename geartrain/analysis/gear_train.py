@@ -300,7 +300,7 @@ class GearTrain:
         """Kinematic graph of the first state, for networkx: links are nodes; turning pairs, gear pairs and couplings
         are edges.
 
-        See docs/library.md for the attributes.
+        `geartrain.analysis.build_train_graph` documents the attributes, and builds the graph of any state.
         """
         from geartrain.analysis.train_graph import build_train_graph
 

@@ -41,8 +41,6 @@ def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
 class VaryingCoupling(Result):
     """Coupling with a variable ratio other than a pin in a slot, and its transmission function."""
 
-    KEYS = ("coupling", "kind", "driver", "driven", "ratio", "swing", "speed_ratio", "at_once", "formula")
-
     coupling: str
     """Name of the coupling."""
     kind: str

@@ -14,8 +14,10 @@ from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import PlaceInRun, PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
+    from geartrain.dynamics import PowerFlow, TorqueCycle, Torques, TorqueVerdict
+    from geartrain.dynamics.torques.power_flow import PowerLoss
     from geartrain.dynamics.torques.torque_results import DrivenWay
+    from geartrain.dynamics.turn.torque_cycle import PlaceInRun
     from geartrain.train import Train
 
 
@@ -118,7 +120,7 @@ class TorqueReport(Result):
     """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
     """Torque over a run of some revolutions of the input in one state; None unless requested."""
-    friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
+    friction_trials: Annotated[Any, WingResult("workshop.monte_carlo.friction_trials", "FrictionTrials")] | None = None
     """Results of torque runs with random friction; None unless requested."""
 
 

@@ -426,12 +426,7 @@ def _unknown(what: str, word: str, known: Iterable[str]) -> GearTrainError:
 
 @dataclass(frozen=True)
 class SurveyRow(Result):
-    """Properties of one solid with gears on all faces: a row of the table in section 2 of docs/sphere.md.
-
-    See Also
-    --------
-    survey : Returns one for each solid.
-    """
+    """Properties of one solid with gears on all faces: a row of the table in section 2 of docs/sphere.md."""
 
     KEYS = (
         "solid",

@@ -166,12 +166,7 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 @dataclass(frozen=True)
 class ToothCountCompromise(Shown):
-    """Set of tooth numbers with which all meshes have nearly the same pitch.
-
-    See Also
-    --------
-    suggest_tooth_counts : Returns such objects.
-    """
+    """Set of tooth numbers with which all meshes have nearly the same pitch."""
 
     teeth: Mapping[str, int]
     """Mapping from gear kind to tooth number."""
@@ -206,10 +201,6 @@ class ToothCountCompromise(Shown):
 class ToothCountSuggestions(Result):
     """Result of a search for tooth numbers: a sequence of `ToothCountCompromise` in the requested order, with the
     numbers of rejected sets.
-
-    See Also
-    --------
-    suggest_tooth_counts : Returns such objects.
     """
 
     PAGE = "report.spherical_report:describe_suggestions"
@@ -342,10 +333,6 @@ class _Search:
 class NeighbourRatioWindow(Shown):
     """Range of the ratio of two tooth numbers in which neighbouring gears of the same kind do not overlap. Addenda are
     ignored.
-
-    See Also
-    --------
-    ratio_windows : Returns such objects.
     """
 
     a: str

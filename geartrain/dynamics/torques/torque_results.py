@@ -31,12 +31,7 @@ class LinkTorque(Result):
 
 @dataclass(frozen=True)
 class HoldingTorque(Result):
-    """Brake on one link or lock between two links, with the torques that it exerts.
-
-    See Also
-    --------
-    Torques.held : all brakes and locks
-    """
+    """Brake on one link or lock between two links, with the torques that it exerts."""
 
     KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
 
@@ -78,12 +73,7 @@ class MemberTorques(NamedTuple):
 
 @dataclass(frozen=True)
 class BearingTorque(Result):
-    """Friction torques of one bearing: equation (10) of docs/torques.md.
-
-    See Also
-    --------
-    Torques.bearings : all bearings with friction
-    """
+    """Friction torques of one bearing: equation (10) of docs/torques.md."""
 
     KEYS = ("link", "carrier", *(Key(key, to=as_float) for key in ("torque", "reaction", "loss")), "load")
 
@@ -107,12 +97,7 @@ class BearingTorque(Result):
 
 @dataclass(frozen=True)
 class PairTorque(Result):
-    """Gear pair or coupling under load: equations (2) and (4) to (6) of docs/torques.md.
-
-    See Also
-    --------
-    Torques.pairs : all pairs and couplings
-    """
+    """Gear pair or coupling under load: equations (2) and (4) to (6) of docs/torques.md."""
 
     KEYS = (
         "driver",
@@ -243,12 +228,7 @@ class TorqueVerdict(Result):
 
 @dataclass(frozen=True)
 class NeglectedEffect(Result):
-    """Declared effect that the torque calculation neglects, as listed in docs/torques.md, section 13.
-
-    See Also
-    --------
-    Torques.neglected : all neglected effects
-    """
+    """Declared effect that the torque calculation neglects, as listed in docs/torques.md, section 13."""
 
     what: str
     """Neglected effect, such as `friction of bearings` or `variation within a turn`."""
@@ -269,12 +249,7 @@ class NeglectedEffect(Result):
 
 
 class DrivenWay(NamedTuple):
-    """Torques of a train in which link `source` drives and a unit of power leaves at link `load`.
-
-    See Also
-    --------
-    geartrain.GearTrain.driven : computes the torques for one direction
-    """
+    """Torques of a train in which link `source` drives and a unit of power leaves at link `load`."""
 
     torques: Torques
     """Torques of the driven train, with the `efficiency` in this direction."""

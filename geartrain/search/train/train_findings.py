@@ -45,12 +45,7 @@ class ReachedSpeed(Result):
 
 @dataclass(frozen=True, slots=True)
 class Assignment(CountSizes, Result):
-    """Tooth counts of the varied wheels, with the resulting speeds of the outputs.
-
-    See Also
-    --------
-    search_train : Search for tooth counts of a train.
-    """
+    """Tooth counts of the varied wheels, with the resulting speeds of the outputs."""
 
     KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
 

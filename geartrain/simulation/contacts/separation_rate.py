@@ -180,14 +180,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 
 @dataclass(frozen=True)
 class PairSeparation(Result):
-    """Input speed above which the flanks of a pair, or a pin and its slot, separate.
-
-    See Also
-    --------
-    SeparationRates : Contains one such object for each pair.
-    """
-
-    KEYS = ("pair", "rate", "at", "leap")
+    """Input speed above which the flanks of a pair, or a pin and its slot, separate."""
 
     pair: str
     """Name of the pair or coupling."""

@@ -178,10 +178,6 @@ class PairStrength(Result):
 class ArborStrength(Result):
     """Stresses and strength of an arbor between two bearings, as upper bounds for all positions of its wheels;
     docs/strength.md (16), (17), (26).
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
     """
 
     KEYS = (
@@ -221,12 +217,7 @@ class ArborStrength(Result):
 
 @dataclass(frozen=True)
 class WheelStrength(Result):
-    """Strength of one wheel of a loaded pair.
-
-    See Also
-    --------
-    PairStrength : Contains such objects.
-    """
+    """Strength of one wheel of a loaded pair."""
 
     KEYS = (
         *("wheel", "material", "torque", "section", "thickness", "lewis", "tip_stress", "shared_stress", "pressure"),
@@ -279,12 +270,7 @@ class WheelStrength(Result):
 
 @dataclass(frozen=True)
 class FlankWear(Result):
-    """Wear of all flanks of one wheel in one mesh: docs/strength.md (14) and (15).
-
-    See Also
-    --------
-    WheelStrength : Contains such an object.
-    """
+    """Wear of all flanks of one wheel in one mesh: docs/strength.md (14) and (15)."""
 
     passages: float
     """Number of meshing cycles of each tooth."""
@@ -329,12 +315,7 @@ class WheelForce(Result):
 
 @dataclass(frozen=True)
 class FlankStrength(Result):
-    """Strength of one wheel of a pair with point contact.
-
-    See Also
-    --------
-    PointContact : Contains such objects.
-    """
+    """Strength of one wheel of a pair with point contact."""
 
     KEYS = ("wheel", "material", "strength", "spread", "safety", "tip_stress", "root_safety")
 
@@ -364,10 +345,6 @@ class FlankStrength(Result):
 class PointContact(Result):
     """Strength of crossed helical gears or of a worm gear pair, whose flanks have point contact; docs/strength.md (24),
     (25).
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
     """
 
     pair: str
@@ -392,12 +369,7 @@ class PointContact(Result):
 
 @dataclass(frozen=True)
 class PinContact(Result):
-    """Strength of the contact between pins and the lobes or holes of a disc: docs/strength.md (28) to (30).
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
-    """
+    """Strength of the contact between pins and the lobes or holes of a disc: docs/strength.md (28) to (30)."""
 
     KEYS = (
         *("name", "disc", "material", "pins", "width", "force", "radius", "pressure", "strength", "contact_safety"),

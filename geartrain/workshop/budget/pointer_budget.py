@@ -28,12 +28,7 @@ MEASURES: Mapping[CauseName, str] = {
 
 @dataclass(frozen=True, slots=True)
 class BudgetCause(Result):
-    """Contribution of one cause to the error of a pointer.
-
-    See Also
-    --------
-    PointerBudget : All causes of a pointer.
-    """
+    """Contribution of one cause to the error of a pointer."""
 
     KEYS = ("name", "measure", "declared", "degrees", "rms", "days", "interval", "note")
 
@@ -88,12 +83,7 @@ class BudgetCause(Result):
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Drift of a pointer relative to a target, due to the error of its mean speed; positive if it is fast.
-
-    See Also
-    --------
-    PointerBudget : All drifts of a pointer.
-    """
+    """Drift of a pointer relative to a target, due to the error of its mean speed; positive if it is fast."""
 
     target: str
     """Description of the target to which the drift is relative."""

@@ -21,16 +21,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from geartrain.drawing import shapes_figure, sweep_figure, triangular_figure
-from geartrain.drawing.power_sankey import power_figure
 from geartrain.drawing.theme_colours import themed
-from geartrain.dynamics import find_power_flow
 from geartrain.scene.palette import THEMES
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop import PointerErrorCourse, ToothSizes, find_tooth_sizes, find_train_sizes
 from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure
-from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure, train_sizes_figure
 
 GRID = np.linspace(0.0, 1.0, 5)
 
@@ -83,7 +80,7 @@ def test_a_sweep_names_its_parameters_by_itself() -> None:
 
 def test_marks_of_one_place_stand_one_within_the_other() -> None:
     """Here the optimum of each pair is also the optimum of the train."""
-    figure = train_sizes_figure(find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}))
+    figure = find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}).plot()
     marks = [line for line in figure.axes[0].lines if line.get_gid() != "interval"]
     sizes = [line.get_markersize() for line in marks]
     assert len(marks) == 3
@@ -94,7 +91,7 @@ def test_marks_of_one_place_stand_one_within_the_other() -> None:
 def test_marks_of_best_sizes_are_in_view_and_their_key_is_below_all_designs() -> None:
     """Pitch-true teeth are better than all designs with a free window, and far from them."""
     start = ToothSizes((60, 30), 1.1, 0.5, (radians(30), radians(30)), 0.2)
-    figure = tooth_sizes_figure(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
+    figure = find_tooth_sizes(start, free={"window": (0.4, 0.6)}).plot()
     figure.draw_without_rendering()
     (axes,) = figure.axes
     (legend,) = figure.legends
@@ -128,7 +125,7 @@ def test_the_key_of_bands_is_as_dark_as_they_are_seen() -> None:
 
 def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:
     train = load("norton-compound")
-    (axes,) = power_figure(find_power_flow(train.torques()), train.name).axes
+    (axes,) = train.torques().plot().axes
     turned = [patch for patch in axes.patches if patch.get_zorder() == 1.0]
     assert turned
     for text in axes.texts:

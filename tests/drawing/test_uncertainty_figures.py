@@ -32,9 +32,6 @@ from geartrain.workshop import (
     run_course,
     run_trials,
 )
-from geartrain.workshop.monte_carlo.monte_carlo_plots import (
-    monte_carlo_figure,
-)
 from geartrain.workshop.monte_carlo.sobol_indices import SobolIndex
 
 RNG = np.random.default_rng(1)
@@ -59,7 +56,7 @@ def course(errors: np.ndarray, name: str = "moon") -> PointerErrorCourse:
 def test_the_bands_that_are_drawn_are_those_of_the_trials_that_turn(findings: MonteCarloResult) -> None:
     jams = np.full((3, 50), np.nan)
     drawn = [course(np.vstack((ERRORS, jams))), course(2 * ERRORS, "sun")]
-    figure = monte_carlo_figure(replace(findings, courses=drawn), "course")
+    figure = replace(findings, courses=drawn).plot("course")
     assert line(figure, "median") == pytest.approx(np.stack((TURNS, np.median(ERRORS, axis=0)), axis=1))
     assert line(figure, "one") == pytest.approx(np.stack((TURNS, ERRORS[0]), axis=1))
     for share, low, high in (("every trial", 0, 1), ("95 % of the trials", 0.025, 0.975), ("50 %", 0.25, 0.75)):
@@ -77,7 +74,7 @@ def sure(value: float) -> IntervalEstimate:
 
 def shares(findings: MonteCarloResult, indices: Iterable[SobolIndex]) -> Figure:
     """Return the picture of Sobol indices of one pointer."""
-    return monte_carlo_figure(replace(findings, indices=[SobolIndices("moon", "wheel", 64, tuple(indices))]), "sobol")
+    return replace(findings, indices=[SobolIndices("moon", "wheel", 64, tuple(indices))]).plot("sobol")
 
 
 def test_shares_are_sorted_and_have_their_intervals(findings: MonteCarloResult) -> None:
@@ -171,22 +168,22 @@ def findings() -> MonteCarloResult:
 
 def test_pictures_of_trials_show_their_trials(findings: MonteCarloResult) -> None:
     trials = findings.trials
-    errors = monte_carlo_figure(findings)
+    errors = findings.plot()
     known = np.array(trials.columns["moon error (deg)"])
     turns = ~(trials.marks & 0b11001).any(axis=1)
     turning = known[turns if turns.sum() >= 30 else np.isfinite(known)]
     assert line(errors, "median")[0, 0] == pytest.approx(np.median(turning))
     ends = [each.get_xdata() for each in errors.axes[0].lines if each.get_gid() == "interval"]
     assert ends == [pytest.approx(np.quantile(turning, share)) for share in ((0.025, 0.975), (0.25, 0.75))]
-    course = monte_carlo_figure(findings, "course")
+    course = findings.plot("course")
     assert line(course, "median")[:, 1] == pytest.approx(np.degrees(np.median(findings.courses[0].errors, axis=0)))
-    (axes,) = monte_carlo_figure(findings, "pairs").axes
+    (axes,) = findings.plot("pairs").axes
     (shares,) = [each for each in axes.lines if each.get_gid() == "first order"]
     assert sum(shares.get_xdata()) == pytest.approx(1)
-    converged = line(monte_carlo_figure(findings, "convergence"), "any pair")
+    converged = line(findings.plot("convergence"), "any pair")
     assert converged[-1, 0] == 300
     assert converged[-1, 1] == pytest.approx((trials.marks & 1).any(axis=1).mean())
-    figure = monte_carlo_figure(findings, "map")
+    figure = findings.plot("map")
     (mesh,) = [each for each in figure.axes[0].collections if each.get_gid() == "map"]
     seen = np.array(mesh.get_array()).reshape(2, 2)
     for each in findings.cleared:
@@ -198,7 +195,7 @@ def test_pictures_of_what_was_not_requested_are_refused(findings: MonteCarloResu
     bare = MonteCarloResult(findings.trials)
     for picture in ("course", "sobol", "map", "colour"):
         with pytest.raises(QuestionError) as caught:
-            monte_carlo_figure(bare, picture)
+            bare.plot(picture)
         assert all(problem.fix for problem in caught.value.problems)
 
 

@@ -406,16 +406,15 @@ def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
 
 
 def test_the_picture_shows_where_a_pointer_goes_back() -> None:
-    from geartrain.drawing.output_error_plots import motion_figure
 
-    year = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
+    year = MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001).plot()
     labels = [panel.get_ylabel() for panel in year.axes]
     assert labels == ["mars\nangle (deg)", "mars\nanomaly\nless its mean (deg)", "mars\nspeed divided by mean"]
     back = year.axes[0].lines[2]
     assert back.get_label() == "backward"
     y = np.asarray(back.get_ydata(), dtype=float)
     assert (np.diff(y)[np.isfinite(np.diff(y))] < 0).all()
-    long = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001))
+    long = MotionRun(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001).plot()
     assert long.axes[0].get_ylabel() == "mars\nbackward motion (deg)"
     (arcs,) = long.axes[0].lines
     starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)

@@ -14,12 +14,10 @@ import pytest
 import shipped as catalogue
 from hypothesis import given
 from hypothesis import strategies as st
-from models import torque_figures
+from models import torque_figures, torque_page
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
-from geartrain.report import to_markdown
-from geartrain.report.torque_report import collect_torque_report, describe_torques
 from geartrain.train import Train
 
 RING = """
@@ -369,9 +367,7 @@ outputs: {third: {}}
 
 
 def page(train: GearTrain) -> str:
-    return to_markdown(
-        [describe_torques(collect_torque_report(train, [train.torques(state) for state in states(train)]))]
-    )
+    return torque_page(train, *(train.torques(state) for state in states(train)))
 
 
 def rows(text: str, first: str) -> list[list[str]]:
@@ -431,11 +427,8 @@ def test_collisions_stand_beside_sliding() -> None:
 @cache
 def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing.power_sankey import power_figure
-
-    train = load(TRAINS[name])
-    flow = find_power_flow(train.torques(state))
-    return flow, power_figure(flow, f"{name}: how its power flows")
+    torques = load(TRAINS[name]).torques(state)
+    return find_power_flow(torques), torques.plot()
 
 
 PICTURES = [("ring", None), ("clock", None), ("rubbing", None), ("norton", None), ("reverse", "R"),

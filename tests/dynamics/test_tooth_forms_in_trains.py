@@ -18,8 +18,7 @@ from models import PAIR, PLANETARY
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import MotionRun
-from geartrain.report import collect_report, to_markdown
-from geartrain.report.train_report import describe_train
+from geartrain.report import collect_report
 from geartrain.teeth import GearMesh
 from geartrain.teeth.conjugate import ConjugateTransmission
 
@@ -192,7 +191,7 @@ def test_teeth_that_cannot_run_fail_check_and_report_with_what_would_fit(
         assert f"FAIL {path}:9: pair 'p~w' (gear 1 is 'p', gear 2 'w'): {fault.what}; {fault.why}; {fault.fix}" in line
         assert problem.fix
     assert call("report", path).exit_code == 1
-    assert mesh.faults[0].what in to_markdown([describe_train(collect_report(load(path)))])
+    assert mesh.faults[0].what in str(load(path).report())
     (data,) = json.loads(call("report", path, "--json").output)[0]["teeth"]
     assert data["verdict"]["kind"] == mesh.verdict.kind
     assert [fault["fix"] for fault in data["verdict"]["faults"]] == [fault.fix for fault in mesh.verdict.faults]

@@ -12,11 +12,9 @@ from typing import Any
 
 import pytest
 from commands import call
+from models import torque_figures
 
 from geartrain import GearTrainError, load
-from geartrain.report import collect_report
-from geartrain.report.torque_report import collect_torque_report
-from geartrain.report.train_report import describe_train
 from geartrain.teeth.couplings.belt import belt_length
 
 F = Fraction
@@ -56,7 +54,7 @@ def speeds(text: str, state: str | None = None) -> dict[str, Any]:
 
 
 def section(text: str, title: str) -> str:
-    page = describe_train(collect_report(load(text)))
+    page = load(text).report()
     shown = [each for each in page.sections if each.title == title]
     return str(shown[0].tables[0].rows)
 
@@ -115,7 +113,7 @@ def test_b6_load_efficiency_and_pull_of_a_belt() -> None:
     torques = train.torques()
     assert torques.external["a"] == F(3) * F(2, 3) / F(98, 100)
     assert float(torques.external["a"]) == pytest.approx(2.0408163, abs=5e-8)
-    (figures,) = collect_torque_report(train, [torques]).states
+    figures = torque_figures(train)
     # 3 N m on a radius of 37.5 mm
     assert figures.to_dict()["belt_pulls"] == {"a~b": pytest.approx(80)}
     assert "597.131045 mm" in section(LOADED, "Couplings")

@@ -23,9 +23,8 @@ from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT
 
 from geartrain import load
-from geartrain.report import collect_report, to_html, to_markdown, to_text
+from geartrain.report import to_html, to_markdown, to_text
 from geartrain.report.reconstruction_comparison import describe_comparison
-from geartrain.report.train_report import describe_train
 
 Write = Callable[..., Path]
 Rows = list[list[str]]
@@ -177,7 +176,7 @@ def test_the_report_carries_every_erratum_of_the_declaration_with_what_is_right(
 
 @pytest.mark.parametrize("name", shipped.every_train())
 def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
-    document = describe_train(shipped.report(name))
+    document = shipped.document(name)
     page, text = Page(to_html([document])), to_markdown([document])
     assert page.tables == markdown_tables(text)
     assert page.headings == headings(text)
@@ -187,7 +186,7 @@ def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
 
 
 def test_what_is_wider_than_paper_is_printed_in_strips_with_every_cell_once() -> None:
-    page = Page(to_html([describe_train(shipped.report("freeth-2021"))]))
+    page = Page(to_html([shipped.document("freeth-2021")]))
     (matrix,) = (
         table for table in page.tables if len(table[0]) == len(shipped.train("freeth-2021").kinematics.tree.parent) + 2
     )
@@ -209,7 +208,7 @@ def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(train
         'inputs: {"a|b": 1}\n',
         "t.yaml",
     )
-    document = describe_train(collect_report(load(path)))
+    document = load(path).report()
     page, text = Page(to_html([document])), to_markdown([document])
     assert page.outside == []
     assert page.headings[0] == "<script>alert(1)</script> & | <b>"
@@ -229,7 +228,7 @@ def test_a_note_of_several_lines_stays_within_its_cell(train_file: Write) -> Non
         'errata: [{place: p, printed: 1, right: 2, why: "because\\nof this"}]\n',
         "t.yaml",
     )
-    text = to_markdown([describe_train(collect_report(load(path)))])
+    text = str(load(path).report())
     assert [row[0] for row in section(text, "Structure")[0]] == ["link", "frame", "a", "c"]
     assert len(section(text, "Errata of the sources")[0]) == 2
 
@@ -393,7 +392,7 @@ def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name:
 
 
 def terminal(name: str, width: int) -> str:
-    return to_text([describe_train(shipped.report(name))], width)
+    return to_text([shipped.document(name)], width)
 
 
 def strips(shown: str) -> Iterator[tuple[str, str]]:

@@ -19,7 +19,7 @@ from geartrain import load
 from geartrain.report import Branch, Document, Picture, Section, Table, collect_report, to_html, to_markdown
 from geartrain.report.html_page import inline
 from geartrain.report.reconstruction_comparison import describe_comparison
-from geartrain.report.train_report import describe_shared_page, describe_train
+from geartrain.report.train_report import describe_shared_page
 
 SVG = (
     '<?xml version="1.0"?><!DOCTYPE svg><svg xmlns="http://www.w3.org/2000/svg" width="10pt" height="5pt" '
@@ -101,7 +101,7 @@ def test_sources_stand_at_the_end_and_wheels_lead_to_them(train_file: Callable[.
     (cited,) = {link for link in links if link.startswith("#source-")}
     assert cited[1:] in page.ids
     assert "Source good: a paper" not in page.text
-    assert "Source good: a paper" in to_markdown([describe_train(collect_report(load(path)))])
+    assert "Source good: a paper" in str(load(path).report())
 
 
 LIVE = (

@@ -21,8 +21,7 @@ from places import ROOT
 from geartrain import load
 from geartrain.errors import Problem, printable
 from geartrain.numerics.files import csv_line, csv_lines, csv_text
-from geartrain.report import Document, Section, Table, collect_report, to_markdown, to_text
-from geartrain.report.train_report import describe_train
+from geartrain.report import Document, Section, Table, to_markdown, to_text
 
 EVIL = "\x1b]0;owned\x07\x1b[2J\x9b31m\u202etxt"
 STEERING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2028\u2029]")
@@ -224,7 +223,7 @@ def test_no_complaint_of_a_wrong_command_line_steers_one(words: tuple[str, ...])
 
 
 def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
-    text = to_text([describe_train(collect_report(load(hostile)))], 200)
+    text = to_text([load(hostile).report()], 200)
     assert not STEERING.search(text)
     assert "\\x1b]0;owned" in text
 

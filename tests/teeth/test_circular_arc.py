@@ -19,8 +19,6 @@ from shapely.geometry import Polygon
 import geartrain
 from geartrain import GearTrain, load
 from geartrain.errors import GearTrainError
-from geartrain.report import collect_report, to_markdown
-from geartrain.report.train_report import describe_train
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth import CircularArc
 
@@ -225,7 +223,7 @@ def clock() -> GearTrain:
 def test_a_shipped_clock_runs_with_them_and_its_hands_stray_by_little(clock: GearTrain) -> None:
     assert not clock.mechanics.faults
     assert {mesh.form for mesh in clock.meshes} == {"circular_arc"}
-    said = " ".join(to_markdown([describe_train(collect_report(clock))]).split())
+    said = " ".join(str(clock.report()).split())
     assert "circular arc" in said
     assert "the contact of their outlines" in said
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, solve_block
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
+from geartrain.dynamics.torques.torque_analysis import power_inputs
 from geartrain.dynamics.torques.torque_balance import TorqueBalance, equal_planets
 from geartrain.numerics.elimination import LinearForm
 from geartrain.numerics.vectors import Vector, across, cross, minus, scaled
@@ -138,7 +139,7 @@ class BearingLoads:
 
     def _line(self) -> Iterator[AxisForce]:
         """Yield the pull of the line of a driving weight, in proportion to the torque on its drum."""
-        drive, source = self.setting.case.drive, self.source
+        drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return
         if (down := self._down) is None:
@@ -147,12 +148,6 @@ class BearingLoads:
         frame = self.setting.train.frame
         pull = scaled(down, 1 / drive.drum.si)
         yield AxisForce(source, (None, source), frame, (0.0, 0.0, 0.0), pull, 1.0, (None, None))
-
-    @cached_property
-    def source(self) -> str | None:
-        """Link at which power enters, if it is unique."""
-        case, crank = self.setting.case, self.setting.train.crank
-        return crank or (next(iter(case.inputs)) if len(case.inputs) == 1 else None)
 
     @property
     def _down(self) -> Vector | None:

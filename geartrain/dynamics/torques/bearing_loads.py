@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, solve_block
+from geartrain.dynamics.torques.load_case import power_inputs
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
-from geartrain.dynamics.torques.torque_analysis import power_inputs
 from geartrain.dynamics.torques.torque_balance import TorqueBalance, equal_planets
 from geartrain.numerics.elimination import LinearForm
 from geartrain.numerics.vectors import Vector, across, cross, minus, scaled

@@ -22,14 +22,14 @@ from geartrain.train.declaration_files import write_declaration
 from geartrain.workshop import (
     WheelEstimate,
     estimate_wheel,
-    find_measured_wheels,
     find_trial_plan,
-    measured_motion,
     read_error_overrides,
     run_course,
     run_trials,
 )
+from geartrain.workshop.cutting.measured_motion import measured_motion
 from geartrain.workshop.cutting.wheel_estimate import closed_steps, stepped_covariance
+from geartrain.workshop.cutting.wheel_report import find_measured_wheels
 from geartrain.workshop.monte_carlo.trial_block import JAM, RandomStreams, draw_trial_wheels, judge_trial_pairs
 
 FIFTEEN = [

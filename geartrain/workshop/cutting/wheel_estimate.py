@@ -194,7 +194,7 @@ def estimate_wheel(
     --------
     >>> from math import radians
     >>> estimate_wheel([radians(each) for each in (0.3, 71.9, 143.7, 216.1)], teeth=5)
-    <WheelEstimate 4 of 5 teeth, not eccentric, sd 0.0874 deg>
+    <WheelEstimate 4 of 5 teeth, not eccentric, sd 0.046 deg>
     """
     z = len(angles) if teeth is None else teeth
     given = {at: float(each) for at, each in enumerate(angles) if each is not None and not isnan(each)}

@@ -17,7 +17,8 @@ from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import Motion, MotionRun, RunningStatistics, SpectrumLine
+    from geartrain.dynamics import Motion, MotionRun, RunningStatistics
+    from geartrain.dynamics.motion.motion_run import SpectrumLine
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
 

@@ -80,7 +80,9 @@ class Material(Declared):
         None, description="Density; the `density` of a wheel takes precedence"
     )
     spread: Annotated[Figure, _SPREAD] = Field(
-        Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
+        Figure.parse("0.3"),
+        description="Relative uncertainty of the strength to either side, 0 to less than 1; in Monte Carlo runs "
+        "`strength` is the median of a lognormal distribution, and `spread` the standard deviation of its logarithm",
     )
     what: str = Field("", description="Description of the material")
     source: str = Field("", description="Source of the values")

@@ -585,7 +585,7 @@ class Motion(Shown):
         Parameters
         ----------
         *outputs : str
-            Names of the outputs to draw, by default all.
+            Names of the outputs to draw; by default all outputs.
         turns : float
             Revolutions of the input, from position 0.
         samples : int

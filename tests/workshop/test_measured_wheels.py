@@ -247,7 +247,7 @@ def test_the_wheel_as_measured_is_the_same_in_every_trial_and_other_wheels_are_d
     drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 3)
     assert np.ptp(drawn.wheels[0].place, axis=0).max() == 0
     law = find_trial_plan(measured("law")).wheels[0]
-    found = find_measured_wheels(measured().declaration).wheels["p"]
+    found = find_measured_wheels(measured().declaration)["p"]
     assert found.law == "stepped"
     assert (law.towards, law.tables) == (None, {})
     assert law.errors["stepping"].size * 24 == pytest.approx(degrees(found.deviation.value), rel=1e-9)

@@ -7,9 +7,13 @@ from dataclasses import dataclass, field, replace
 from math import degrees, pi
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.teeth.triangular.pair_geometry import depth
+from geartrain.workshop.cutting.cut_wheel import displaced
+from geartrain.workshop.cutting.wheel_estimate import estimate_measured
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
@@ -203,8 +207,6 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
     The eccentricity is either part of the pitch deviations, or separate and removed from them. Missing teeth have no
     deviation from the fitted eccentricity, if that is significant, else none from an even division.
     """
-    from geartrain.workshop.cutting.wheel_estimate import eccentric_deviations, estimate_measured
-
     found = estimate_measured(measured, wheel.z)
     depth = wheel.depth / wheel.angle_radius
     if measured.use == "law":
@@ -214,7 +216,7 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
             law["eccentricity"] = ErrorSpecification(found.eccentricity.value / depth)
         return replace(wheel, errors={**wheel.errors, **law}, towards=None)
     size, direction = found.fitted if found.eccentric else (0.0, 0.0)
-    eccentric = eccentric_deviations(size, direction, wheel.z)
+    _, eccentric = displaced(np.ones(wheel.z), np.arange(wheel.z) * wheel.pitch, np.array(size), np.array(direction))
     behind, tables = eccentric.copy(), dict(wheel.tables)
     behind[found.numbers] = found.off
     if measured.use == "eccentric" and found.eccentric:

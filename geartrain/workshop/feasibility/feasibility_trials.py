@@ -162,9 +162,9 @@ class FeasibilityResult(Pictured, Result):
         """Probability of an outcome with each cause, most frequent first: the pairs that cannot be cut or jam (several
         may jam in a trial), and the part whose stress is highest in proportion to its strength.
         """
-        names, weakest = [pair.name for pair in self.plan.cutting.pairs], self.excess.argmax(axis=1, keepdims=True)
+        names = [pair.name for pair in self.plan.cutting.pairs]
         masks = dict(zip(OUTCOMES, (self._marked(UNCUT), self._marked(JAM)), strict=False))
-        masks["breaks"] = weakest == np.arange(len(self.plan.parts)) if self.plan.parts else np.zeros((1, 0), bool)
+        masks["breaks"] = self.excess == self.excess.max(axis=1, initial=0.0, keepdims=True)
         found: dict[str, dict[str, ProbabilityEstimate]] = {}
         for kind, mask in masks.items():
             parts = [part.name for part in self.plan.parts] if kind == "breaks" else names

@@ -8,6 +8,7 @@ from typing import Any
 def answers() -> dict[str, Any]:
     """Return the result type of each workshop command that prints JSON, by name of the command."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
+    from geartrain.workshop.cutting.wheel_report import MeasuredWheels
     from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
@@ -18,5 +19,6 @@ def answers() -> dict[str, Any]:
         "feasibility": FeasibilityResult,
         "budget": TrainBudget,
         "optimise": BestTrainSizes,
+        "inspect wheels": MeasuredWheels,
         "mesh --form triangular --objective": BestToothSizes,
     }

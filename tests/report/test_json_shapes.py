@@ -61,6 +61,11 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("geartrain.analysis.accuracy._ENOUGH", 0.0)  # no shape depends on how well it is timed
     monkeypatch.setattr("geartrain.analysis.accuracy._LONG", 0.0)
+    for name, off in {"measured": 0.0, "stepped": 0.3}.items():
+        # even angles, and two groups of teeth apart from each other
+        angles = ", ".join(f"{18 * tooth + off * (tooth > 9)} deg" for tooth in range(20))
+        text = RIGHT.replace("x: 20", f"x: {{teeth: 20, cutting: {{measured: {{angles: [{angles}]}}}}}}")
+        (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
     for name, text in {**KINDS, "heavy": HEAVY, "hand": HAND}.items():
         (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "cube.txt").write_text("a b\nb c\nc d\nd a\ne f\nf g\ng h\nh e\na e\nb f\nc g\nd h\n", encoding="utf-8")
@@ -164,6 +169,7 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
         (*DOUBT, "--method", "sample", "--samples", "500"),
         (*DOUBT, "--scale", "0"),
     ],
+    "inspect wheels": [("inspect", "wheels", "measured.yaml"), ("inspect", "wheels", "stepped.yaml")],
     "inspect bench": [
         ("inspect", "bench", "moon-triangular", "--samples", "50"),
         ("inspect", "bench", "lantern-mill", "--samples", "50"),

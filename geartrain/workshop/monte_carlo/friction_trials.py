@@ -51,12 +51,7 @@ _MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of i
 
 
 class FrictionSpread(NamedTuple):
-    """Normal or uniform distribution of a friction coefficient.
-
-    See Also
-    --------
-    FrictionTrials.spreads : Spreads used in trials.
-    """
+    """Normal or uniform distribution of a friction coefficient."""
 
     sliding: float
     """Declared sliding friction coefficient, the mean of a normal distribution [1]."""
@@ -200,12 +195,7 @@ def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: 
 
 @dataclass(frozen=True)
 class TrialFigure(Result):
-    """Distribution of one result over the trials.
-
-    See Also
-    --------
-    FrictionTrials : All results of the trials.
-    """
+    """Distribution of one result over the trials."""
 
     KEYS = ("mean", "deviation", "percentiles")
 
@@ -232,12 +222,7 @@ class TrialFigure(Result):
 
 @dataclass(frozen=True)
 class FrictionTrials(Result):
-    """Results of trials with random friction coefficients: the torque and the efficiency over a run.
-
-    See Also
-    --------
-    try_frictions : Run the trials.
-    """
+    """Results of trials with random friction coefficients: the torque and the efficiency over a run."""
 
     PAGE = "workshop.monte_carlo.friction_trials:trials_document"
 

@@ -214,8 +214,11 @@ class FeasibilityResult(Pictured, Result):
         ):
             if values:
                 yield f"{name} {min(values):.4g} to {max(values):.4g}"
+        texts = (
+            f"of {'bearings' if name.startswith('bearing of ') else name} {each}" for name, each in spreads.items()
+        )
         fixed = "none" if declared.friction is None else "without spread"
-        yield "friction " + ("; ".join(f"of {name} {each}" for name, each in spreads.items()) or fixed)
+        yield "friction " + ("; ".join(dict.fromkeys(texts)) or fixed)
         yield "filed to fit" if self.plan.cutting.files else "no filing"
         if spreads or any(part.spread for part in self.plan.parts):
             yield f"spreads drawn once per {'part' if self.plan.per_part else 'workshop'}"

@@ -287,7 +287,7 @@ def run_feasibility(
 
     Notes
     -----
-    The outcomes are examined in the order of `OUTCOMES`: docs/cut-by-hand.md, section 9.
+    The outcomes are examined in the order of `OUTCOMES`: docs/cut-by-hand.md, section 10.
 
     Examples
     --------

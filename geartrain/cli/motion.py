@@ -111,7 +111,8 @@ def run(
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            title = f"{train.name}: motion over {requested.turns:g} {'turn' if requested.turns == 1 else 'turns'} of {motion._problem.driving_link}"
+            unit = "turn" if requested.turns == 1 else "turns"
+            title = f"{train.name}: motion over {requested.turns:g} {unit} of {motion._problem.driving_link}"
             draw(motion_figure(requested, bar.advance, title), picture)
 
 

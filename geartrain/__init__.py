@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain as GearTrain
@@ -26,35 +26,17 @@ if TYPE_CHECKING:
     from geartrain.train.declaration_files import shipped as shipped
 
 __version__ = "0.1.0"
-__all__ = [
-    "Answer",
-    "DeclarationError",
-    "GearTrain",
-    "GearTrainError",
-    "MissingExtraError",
-    "Problem",
-    "QuestionError",
-    "RangeError",
-    "Verdict",
-    "__version__",
-    "load",
-    "shipped",
-]
 
-__getattr__ = lazy_names(
+__getattr__, _names = public_names(
     __name__,
     {
-        "Answer": "kinematics.answer",
-        **dict.fromkeys(
-            ("DeclarationError", "GearTrainError", "MissingExtraError", "Problem", "QuestionError", "RangeError"),
-            "errors",
-        ),
-        "GearTrain": "analysis.gear_train",
-        "Verdict": "kinematics.answer",
-        "load": "analysis.gear_train",
-        "shipped": "train.declaration_files",
+        "analysis.gear_train": "GearTrain load",
+        "errors": "DeclarationError GearTrainError MissingExtraError Problem QuestionError RangeError",
+        "kinematics.answer": "Answer Verdict",
+        "train.declaration_files": "shipped",
     },
 )
+__all__ = [*_names, "__version__"]
 
 
 def __dir__() -> list[str]:

@@ -34,7 +34,9 @@ def wing(name: str) -> Any:
     package = name.partition(".")[0]
     if not has_wing(package):
         what = f"the optional package geartrain.{package} is not installed"
-        raise GearTrainError(Problem(what, "this feature needs it", "install geartrain with all its packages"))
+        raise GearTrainError(
+            Problem(what, "this feature needs it", "reinstall geartrain, because this copy is incomplete")
+        )
     return import_module(f"geartrain.{name}")
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from jsonschema import Draft202012Validator
 
-from geartrain.report import answer_schema
+from geartrain.report.json_schema import answer_schema
 
 
 def closed(schema: Any) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.report import collect_torque_report
+from geartrain.report.torque_report import collect_torque_report
 
 PAIR = """
 links:

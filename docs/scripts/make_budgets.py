@@ -16,7 +16,8 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.drawing import render
 from geartrain.errors import GearTrainError
-from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, budget_figure, find_budget
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
+from geartrain.workshop.budget.budget_bars import budget_figure
 
 DOCS = Path(__file__).resolve().parents[1]
 PAGE, PICTURE = DOCS / "budgets.md", DOCS / "images" / "budget.svg"

@@ -14,28 +14,15 @@ from tempfile import TemporaryDirectory
 from stills import can_draw, gif, stills
 
 import geartrain
-from geartrain.drawing import (
-    motion_figure,
-    picture,
-    power_figure,
-    render,
-    sphere_figure,
-    teeth_figure,
-    torque_cycle_figure,
-    triangular_figure,
-)
+from geartrain.drawing import picture, render, sphere_figure, teeth_figure, triangular_figure
+from geartrain.drawing.output_error_plots import motion_figure, torque_cycle_figure
+from geartrain.drawing.power_sankey import power_figure
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.scene import build_scene
 from geartrain.spherical import GearSphere, from_polyhedron
-from geartrain.workshop import (
-    MonteCarloResult,
-    find_train_sizes,
-    find_trial_plan,
-    monte_carlo_figure,
-    read_error_overrides,
-    run_trials,
-    train_sizes_figure,
-)
+from geartrain.workshop import MonteCarloResult, find_train_sizes, find_trial_plan, read_error_overrides, run_trials
+from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure
+from geartrain.workshop.sizes.tooth_sizes_plot import train_sizes_figure
 
 IMAGES = Path(__file__).resolve().parents[1] / "images"
 

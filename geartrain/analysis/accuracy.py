@@ -103,7 +103,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train on which the methods are measured.
     state : str, optional
         A declared state; None only if the train has no states.
     positions : int

@@ -260,7 +260,7 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
-"""Number of series, the series with maximum spread, and the series with minimum deviation; None without any series."""
+"""Number of series, the series with maximum spread, and the series with minimum deviation; None if no series exists."""
 _Way = tuple[float, int, tuple[int, ...]]
 """Sum of squares or variance of the logarithms of steps, number of double shifts, indices of the gears of a series."""
 

@@ -216,7 +216,9 @@ class GearTrain:
         >>> [line for line in str(document).splitlines() if line.startswith("| carrier | 2/7")]
         ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
         """
-        return imported_function("report", "describe_train")(imported_function("report", "collect_report")(self))
+        return imported_function("report.train_report", "describe_train")(
+            imported_function("report.train_data", "collect_report")(self)
+        )
 
     def draw(
         self,
@@ -233,7 +235,7 @@ class GearTrain:
         kind : {"plan", "stick", "graph", "lever", "dials"}
             Kind of picture.
         state : str, optional
-            Name of a state; by default the first, for "lever" all states.
+            Name of a state; by default the first state, or for "lever" all states.
         turns : Fraction
             Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
         labels : bool
@@ -244,7 +246,7 @@ class GearTrain:
         return imported_function("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
 
     def view(self, state: str | None = None, height: int = 620) -> Any:
-        """Return an animated view of the train for a notebook, a `geartrain.viewer.EmbeddedPage`.
+        """Return an animated view of the train for a notebook.
 
         Parameters
         ----------
@@ -253,7 +255,7 @@ class GearTrain:
         height : int
             Height of the frame [px].
         """
-        return imported_function("viewer", "EmbeddedPage")(self, state, height)
+        return imported_function("viewer.viewer_page", "EmbeddedPage")(self, state, height)
 
     # -------------------------------------------------------------------------------------------- what is declared
 
@@ -298,7 +300,7 @@ class GearTrain:
         """Kinematic graph of the first state, for networkx: links are nodes; turning pairs, gear pairs and couplings
         are edges.
 
-        `geartrain.analysis.build_train_graph` documents the attributes, and builds the graph of any state.
+        See docs/library.md for the attributes.
         """
         from geartrain.analysis.train_graph import build_train_graph
 
@@ -659,16 +661,16 @@ class GearTrain:
         return GearTrain(with_counts(self.declaration, {**(counts or {}), **more}))
 
     def with_changes(self, changes: Mapping[str, Any] | None = None, **more: Any) -> GearTrain:
-        """Return a copy of the train with other values of any keys of its declaration.
+        """Return a copy of the train with some keys of its declaration changed.
 
         Parameters
         ----------
         changes : mapping, optional
-            Keys of a declaration with their values, applied in the same way as by `extends`. Entries of `links`,
-            `gears`, `outputs` and the like are merged by name, other values such as `inputs` and `tooth_form` are
-            replaced, None deletes a key, and `remove` deletes entries.
+            New values by key, merged in the same way as by `extends`: entries of `links`, `gears`, `outputs` and the
+            like are merged by name; other values, such as `inputs` and `tooth_form`, are replaced; None deletes a key;
+            `remove` deletes entries.
         **more : object
-            Keys that are Python identifiers with their values, applied in the same way as `changes`.
+            Further changes, as keyword arguments.
 
         Returns
         -------

@@ -7,7 +7,7 @@ declarations    `init`, `format`, `list`, `periods`; `check`, `solve`, `gearbox`
 inspection      a group of commands: `equations`, `formula`, `graph`, `bench`, `schema`
 report          `report`, `compare`; `draw` writes pictures, `view` has `view` and `watch`
 torques, motion, sphere
-mesh            a pair of wheels of any tooth form, with `pair_options` and `triangular_pair`; `pin` in a slot
+mesh            a pair of wheels of any tooth form, with `pair_options`; `pin` in a slot
 
 Commands of optional parts of the package are in their own folders.
 """

@@ -59,9 +59,6 @@ def run(
         int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of additional runs with random tooth phases.")
     ] = 0,
     seed: Seed = 1,
-    estimates: Annotated[
-        bool, typer.Option("--estimates", help="Add first-order estimates of peak and rms values, and their errors.")
-    ] = False,
     spectrum: Annotated[
         bool, typer.Option("--spectrum", help="Add the spectral lines of each output, with exact orders and sources.")
     ] = False,
@@ -106,9 +103,9 @@ def run(
         from geartrain.report.motion_report import separation_rates
 
         of = train.name, state, partial(separation_rates, train, state, without or ())
-        _report(requested, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
+        _report(requested, json, (to, cut), of, phases, seed, spectrum, bool(wide or outputs))
     if plot is not None:
-        from geartrain.drawing import motion_figure
+        from geartrain.drawing.output_error_plots import motion_figure
 
         with progress("drawing", samples) as bar:
             unit = "turn" if requested.turns == 1 else "turns"
@@ -141,7 +138,6 @@ def _report(
     of: tuple[str, str | None, Callable[[], Any]],
     phases: int,
     seed: int,
-    estimates: bool,
     spectrum: bool,
     every_output: bool,
 ) -> None:
@@ -149,14 +145,12 @@ def _report(
     from geartrain.report.motion_report import collect_motion, describe_motion
 
     # each analysis evaluates all positions once
-    work = requested.samples * (1 + phases + estimates + spectrum)
+    work = requested.samples * (1 + phases + spectrum)
     stopped = False
     with progress("motion", work) as bar:
         try:
             requested.run(bar.advance)
             requested.run_random_phases(phases, seed, bar.advance)
-            if estimates:
-                requested.find_estimates(bar.advance)
             if spectrum:
                 requested.find_spectra(bar.advance)
         except KeyboardInterrupt:

@@ -80,7 +80,7 @@ def _shared(train: GearTrain, view: bool) -> Document:
     pictures, notes = _pictures(train)
     if not view:
         return describe_shared_page(collect_report(train), pictures, "", notes)
-    from geartrain.viewer import train_page
+    from geartrain.viewer.viewer_page import train_page
 
     return describe_shared_page(collect_report(train), pictures, train_page(train), notes)
 

@@ -200,7 +200,8 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
 
     The power flow is computed for the declared loads; without loads, for a unit of power from input to output.
     """
-    from geartrain.drawing import power_figure, torque_cycle_figure
+    from geartrain.drawing.output_error_plots import torque_cycle_figure
+    from geartrain.drawing.power_sankey import power_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
     from geartrain.report.torque_report import summary_text, turns_text

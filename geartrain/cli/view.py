@@ -112,7 +112,7 @@ def view(
 
 
 def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, teeth: bool) -> None:
-    from geartrain.viewer import frame_of, page
+    from geartrain.viewer.viewer_page import frame_of, page
 
     data = page(scenes, compare=compare, teeth=teeth, shown=shown).encode("utf-8")
     to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
@@ -211,8 +211,8 @@ def _pages(path: Path) -> LivePages:
     from geartrain.report.html_page import to_html
     from geartrain.report.train_data import collect_report
     from geartrain.report.train_report import describe_shared_page
-    from geartrain.viewer import train_page
     from geartrain.viewer.live_server import LivePages
+    from geartrain.viewer.viewer_page import train_page
 
     train = load(path)
     return LivePages(to_html([describe_shared_page(collect_report(train), [], "", [])]), train_page(train))

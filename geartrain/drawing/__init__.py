@@ -34,10 +34,7 @@ from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.drawing.flat_files import outline_text as outline_text
-    from geartrain.drawing.output_error_plots import motion_figure as motion_figure
-    from geartrain.drawing.output_error_plots import torque_cycle_figure as torque_cycle_figure
     from geartrain.drawing.parameter_sweep_plot import sweep_figure as sweep_figure
-    from geartrain.drawing.power_sankey import power_figure as power_figure
     from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
     from geartrain.drawing.style import render as render
     from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
@@ -50,9 +47,7 @@ __getattr__, __all__ = public_names(
     __name__,
     {
         "flat_files": "outline_text",
-        "output_error_plots": "motion_figure torque_cycle_figure",
         "parameter_sweep_plot": "sweep_figure",
-        "power_sankey": "power_figure",
         "spherical_gears": "sphere_figure",
         "style": "render",
         "tooth_contact": "teeth_figure",

@@ -134,7 +134,7 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths of shortest paths between items (n, n) (Floyd-Warshall); 0 between components."""
+    """Return the lengths of shortest paths between items (n, n) (Floyd-Warshall); 0 for unconnected items."""
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)

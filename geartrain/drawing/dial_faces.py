@@ -28,10 +28,11 @@ from geartrain.drawing.style import (
 )
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import decimal, is_short
-from geartrain.scene import Pointer, Scene
+from geartrain.scene import Scene
 from geartrain.scene.dial_scale import DialScale, clock_point, engrave, plain_circle
 from geartrain.scene.pose import body_errors, turns_of
 from geartrain.scene.stroke_letters import HANDS
+from geartrain.scene.train_scene import Pointer
 
 _MOST = 60  # maximum number of faces on a page
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
@@ -77,7 +78,7 @@ class DialPicture:
     scale: DialScale
     pointers: tuple[int, ...]
     title: str = ""
-    """Text above the face; empty if it is the name."""
+    """Text above the face; empty to use the name."""
     ball: bool = False
     """True for a half-black ball that shows the Moon's phase."""
 
@@ -139,8 +140,8 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, for none to draw, or for more than 60
-    faces.
+    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, if there are none to draw, or for more
+    than 60 faces.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:

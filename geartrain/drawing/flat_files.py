@@ -141,14 +141,14 @@ OUTLINES = (".svg", ".dxf", ".csv")
 
 
 def outline_text(wheel: WheelOutline, suffix: str) -> str:
-    """Return the outline of a wheel as the text of an SVG, DXF or CSV file, at scale 1:1 in mm.
+    """Return the outline of a wheel as the text of an SVG, DXF or CSV file, at full scale (1:1), in mm.
 
     Parameters
     ----------
     wheel : WheelOutline
         Outline of the wheel, from `GearMesh.wheel_outline`.
     suffix : {".svg", ".dxf", ".csv"}
-        File format. DXF contains closed polylines with arcs, CSV one row per point.
+        File format. DXF contains closed polylines with arcs; CSV contains one row per point.
 
     Returns
     -------

@@ -188,7 +188,7 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return start, control point and end (3, 2) of an edge, bent only to keep off other vertices."""
+    """Return start, control point and end (3, 2) of an edge, bent only as far as needed to avoid other vertices."""
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend

@@ -77,30 +77,6 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     target, or for all outputs, if there is none). It shows the transmission error of the teeth less its mean, without
     the anomaly of couplings; if no tooth form with variable ratio is declared, it shows the anomaly. The curves of one
     output are its angle with any backward motion, the same error, and the speed.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run that defines outputs, turns and positions. The motion is computed again, so `run.run` need not have been
-        called.
-    on_done : callable
-        Called with the number of positions computed since the previous call.
-    title : str
-        Title above the picture.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Errors [deg, or mm for links that slide] of at most `MOST_ROWS` outputs, the largest error at the top, with
-        their ranges also in days if the train has a unit of time. Curves are plotted against turns of the input.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.dynamics import MotionRun
-    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=0.1, samples=51)
-    >>> [label.get_text() for label in motion_figure(run).axes[0].get_yticklabels()]
-    ['moon', 'sun']
     """
     motion = run.motion._of(run.motion._shown)
     if len(motion.outputs) == 1:
@@ -279,36 +255,10 @@ _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    r"""Return a figure of the requested torque over a run, with its mean and extremes.
+    """Return a figure of the requested torque over a run, with its mean and extremes.
 
     A chart below the torque shows the mean and the range of the losses of gear pairs, couplings and bearings, if there
     are any, the largest at the top.
-
-    Parameters
-    ----------
-    found : TorqueCycle
-        Result of `GearTrain.torques` over some turns.
-    title : str
-        Title above the picture.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Torque against turns of the input, and losses as equivalent torque (power divided by the mean speed of the
-        link), in N m with the decimal prefix of the axis, or dimensionless if the torque has no unit. Intervals in
-        which the train locks are shaded.
-
-    Raises
-    ------
-    QuestionError
-        If the torque is unknown at all positions.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("extends: planetary-24-18-60\nloads: {carrier: -10 N m}\nname: loaded")
-    >>> torque_cycle_figure(train.torques(turns=1, samples=20)).axes[0].get_ylabel()
-    'torque at sun (N m)'
     """
     if found.turns is None or found.torque is None or not np.isfinite(found.torque).any():
         what, fix = "the torque over a turn is not known", "declare loads that the input can drive"

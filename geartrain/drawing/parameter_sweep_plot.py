@@ -89,8 +89,8 @@ def sweep_figure(
     Parameters
     ----------
     parameters : mapping of str to array
-        One or two parameters: name, which labels the axis, and values, of shape (n,), or as grids (n, m) in which each
-        parameter is constant along one axis.
+        Values of one or two parameters by name, which labels the axis: arrays of shape (n,), or grids (n, m) in which
+        each parameter is constant along one axis.
     columns : mapping of str to array
         Results of the same shape. `efficiency_mean`, `error_pp_deg` [deg] and `tau_min` with `tau_max` are shown, or
         all columns if none of these is given.

@@ -53,7 +53,8 @@ from geartrain.drawing.style import (
     title_of,
     write,
 )
-from geartrain.scene import Scene, SceneCoupling, SceneWheel
+from geartrain.scene import Scene
+from geartrain.scene.elements import SceneCoupling, SceneWheel
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -373,7 +374,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
 
 @dataclass(frozen=True, slots=True)
 class _PlanSize:
-    """Dimensions of a plan on paper, in inches except for its depth."""
+    """Dimensions of a plan on paper [in]; `bottom` and `depth` are in mm, before scaling."""
 
     scale: float
     """Inches per millimetre."""

@@ -42,37 +42,7 @@ _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a qua
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """Return a Sankey diagram of the power flow, in which bands of recirculating power return above the other bands.
-
-    Parameters
-    ----------
-    flow : PowerFlow or Torques
-        Power flow, or the torques that cause it. Power is torque times absolute speed (docs/torques.md, 7).
-    title : str
-        Title above the picture.
-    watts : float, optional
-        Watts per unit of power, if known. By default powers are printed as fractions of the power input.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure whose size depends on the number of bands.
-
-    Raises
-    ------
-    GearTrainError
-        If no power flows, or if there are too many nodes for a legible figure.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
-    ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
-    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
-    >>> figure = power_figure(train.torques(), "A pair")
-    >>> {"a", "b", "A pair"} <= {text.get_text() for text in figure.axes[0].texts}
-    True
-    """
+    """Return a Sankey diagram of the power flow, in which bands of recirculating power return above the other bands."""
     if isinstance(flow, Torques):
         flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:

@@ -33,7 +33,8 @@ from geartrain.drawing.style import (
     Rectangle,
 )
 from geartrain.numerics.polylines import simplified
-from geartrain.scene import Scene, SceneCoupling, ScenePart, SceneWave, SceneWheel
+from geartrain.scene import Scene
+from geartrain.scene.elements import SceneCoupling, ScenePart, SceneWave, SceneWheel
 from geartrain.scene.layout.wheel_reach import CROWN, height_on_cone, taper
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.fixed_teeth import bent_line
@@ -155,7 +156,7 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return height along the axis [mm] and scale of a wheel's ends, the wide end of a bevel wheel first."""
+        """Return height along the axis [mm] and scale of a wheel's ends, the large end of a bevel wheel first."""
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
             return (half, 1.0), (-half, 1.0)
@@ -431,7 +432,8 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw the train from its left side, as high as the plan, layers side by side, with the reader on the right."""
+    """Draw a train from its left side, as high as the plan, with its layers side by side and the reader on the
+    right."""
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: -float(projected.seen(projected.centre(each))[0])):

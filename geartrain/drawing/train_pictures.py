@@ -37,7 +37,7 @@ def picture(
     kind : {"plan", "stick", "graph", "lever", "dials"}
         Kind of picture; "lever" is the speed diagram.
     state : str, optional
-        Name of a state; by default the first, or all states for "lever".
+        Name of a state; by default the first state, or for "lever" all states.
     turns : Fraction
         Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
     labels : bool

@@ -119,9 +119,9 @@ def triangular_figure(transmission: TriangularTransmission, friction: PairFricti
     """Draw driven angle, speed ratio, sliding efficiency and moment arms of a pair with triangular teeth against
     the angle of the driver.
 
-    Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11), thick lines the real path of
-    all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position of
-    the instant centre. Moment arms are relative to the pitch radii of the mean ratio; the moment arm of the driven
+    Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11); thick lines show the real path
+    of all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position
+    of the instant centre. Moment arms are relative to the pitch radii of the mean ratio; the moment arm of the driven
     wheel is dashed.
 
     Parameters
@@ -295,7 +295,7 @@ def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return ticks for the instant centre between two speed ratios: round values that do not crowd."""
+    """Return ticks for the instant centre between two speed ratios: round values that are not too close together."""
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_run import SpectrumLine as SpectrumLine
     from geartrain.dynamics.motion.pair_impacts import ToothImpact as ToothImpact
     from geartrain.dynamics.motion.run_statistics import RunningStatistics as RunningStatistics
-    from geartrain.dynamics.motion.superposition import ErrorEstimates as ErrorEstimates
     from geartrain.dynamics.torques.power_flow import PowerFlow as PowerFlow
     from geartrain.dynamics.torques.power_flow import PowerLoss as PowerLoss
     from geartrain.dynamics.torques.power_flow import PowerNode as PowerNode
@@ -46,7 +45,6 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.torque_cycle import PlaceInRun as PlaceInRun
     from geartrain.dynamics.turn.torque_cycle import TorqueCycle as TorqueCycle
     from geartrain.dynamics.turn.torque_cycle import TorqueExtreme as TorqueExtreme
-    from geartrain.dynamics.turn.train_turn import find_torque_period as find_torque_period
 
 __getattr__, __all__ = public_names(
     __name__,
@@ -57,12 +55,10 @@ __getattr__, __all__ = public_names(
         "motion.motion_run": "MotionRun SpectrumLine",
         "motion.pair_impacts": "ToothImpact",
         "motion.run_statistics": "RunningStatistics",
-        "motion.superposition": "ErrorEstimates",
         "torques.power_flow": "PowerFlow PowerLoss PowerNode PowerStream RecirculatingPower find_power_flow",
         "torques.torque_results": "BearingTorque DrivenWay HoldingTorque NeglectedEffect PairTorque TorqueVerdict "
         "Torques",
         "train_mechanics": "TrainMechanics",
         "turn.torque_cycle": "CycleEnergy PairCycle PlaceInRun TorqueCycle TorqueExtreme",
-        "turn.train_turn": "find_torque_period",
     },
 )

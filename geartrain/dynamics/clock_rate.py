@@ -80,7 +80,7 @@ class Timekeeping(Result):
     power: float
     """Power at this link [W]."""
     efficiency: float
-    """Part of the power that reaches the escape wheel; 0 if friction stops the train."""
+    """Fraction of the power that reaches the escape wheel; 0 if friction stops the train."""
     beat_energy: float
     """Energy of the escape wheel per beat [J]."""
     amplitude: float | None

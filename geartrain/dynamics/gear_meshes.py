@@ -60,8 +60,8 @@ class PinMesh(CouplingMesh):
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
     """Return all gear pairs with a declared tooth form, by name.
 
-    The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built when the
-    pair is first read, which raises `GearTrainError` if they cannot be built.
+    The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built on first
+    access to the pair, which raises `GearTrainError` if they cannot be built.
 
     shaft_angle   function that returns the shaft angle of a pair, called only if its tooth form needs the angle
     """

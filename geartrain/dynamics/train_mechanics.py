@@ -72,7 +72,7 @@ class TrainMechanics(Shown):
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """Train in which each equal planet is a separate link, so that the planets share loads; this train if no link
+        """Train in which each equal planet is a separate link, so that the planets share loads; self if no link
         represents several planets.
         """
         # not cached if it is the train itself, because that would be a reference cycle
@@ -84,7 +84,7 @@ class TrainMechanics(Shown):
 
     @property
     def planets_as_one(self) -> TrainMechanics:
-        """Train in which one planet has the inertia and stiffness of all its copies; this train if it has no copies."""
+        """Train in which one planet has the inertia and stiffness of all its copies; self if there are no copies."""
         return self._as_one if has_copies(self.declaration) else self
 
     @cached_property
@@ -95,8 +95,8 @@ class TrainMechanics(Shown):
 
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
-        """Gear pairs with a declared tooth form by name, with the first wheel driving. The teeth of a pair are computed
-        when the pair is first read.
+        """Gear pairs that declare a tooth form, by name of the pair, with the first wheel as driver. Their teeth are
+        computed on first access.
         """
         if not any(map(self.declaration.form_of, self.declaration.gears)):
             return {}  # avoids importing tooth forms for a train without any
@@ -109,7 +109,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def teeth(self) -> tuple[GearMesh, ...]:
-        """All gear pairs with a declared tooth form, first wheel driving, with their computed tooth geometry.
+        """All gear pairs that declare a tooth form, with computed tooth geometry and the first wheel as driver.
 
         Raises
         ------
@@ -182,7 +182,7 @@ class TrainMechanics(Shown):
 
     @property
     def pins(self) -> tuple[PinMesh, ...]:
-        """Couplings of `couplings` by pin and slot."""
+        """Pin-and-slot couplings among `couplings`."""
         if not self.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import PinMesh
@@ -233,7 +233,7 @@ class TrainMechanics(Shown):
         Parameters
         ----------
         case : StateCase
-            Prescriptions with locks joint by joint, as in `TrainKinematics.cases`.
+            Prescriptions, with locks given joint by joint, as in `TrainKinematics.cases`.
         """
         from geartrain.dynamics.torques.load_case import LoadCase, speed_forms
 

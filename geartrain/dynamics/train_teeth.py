@@ -194,7 +194,7 @@ class _Toothing:
 
     def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
         """Yield the tooth requirements of the pairs with a declared form on a wheel. Mates that are not spur wheels
-        count only if it has no spur mate.
+        count only if the wheel has no spur mate.
         """
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]

@@ -35,19 +35,12 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
     from geartrain.kinematics.circuits.fundamental import WillisEquation as WillisEquation
-    from geartrain.kinematics.graph import adjacency_labels as adjacency_labels
-    from geartrain.kinematics.graph import adjacency_matrix as adjacency_matrix
-    from geartrain.kinematics.graph import to_dot as to_dot
-    from geartrain.kinematics.graph import to_graphml as to_graphml
-    from geartrain.kinematics.graph import to_json as to_json
     from geartrain.kinematics.gridlock.removal import Gridlock as Gridlock
     from geartrain.kinematics.gridlock.removal import LockedSubgraph as LockedSubgraph
     from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
     from geartrain.kinematics.judged_outputs import OutputResult as OutputResult
     from geartrain.kinematics.judged_outputs import Sensitivity as Sensitivity
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
-    from geartrain.kinematics.levers import Lever as Lever
-    from geartrain.kinematics.levers import find_levers as find_levers
     from geartrain.kinematics.phasing.mesh_phasing import DivisibilityRule as DivisibilityRule
     from geartrain.kinematics.phasing.mesh_phasing import LoopPhase as LoopPhase
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
@@ -63,10 +56,8 @@ __getattr__, __all__ = public_names(
     {
         "answer": "Answer Loop Verdict",
         "circuits.fundamental": "Circuit WillisEquation",
-        "graph": "adjacency_labels adjacency_matrix to_dot to_graphml to_json",
         "gridlock.removal": "Gridlock LockedSubgraph MeshRemoval",
         "judged_outputs": "OutputResult Sensitivity TargetResult",
-        "levers": "Lever find_levers",
         "phasing.mesh_phasing": "DivisibilityRule LoopPhase MeshPhasing find_divisibility_rule",
         "speeds.float_speeds": "FloatSpeeds",
         "speeds.mobility": "Mobility",

@@ -96,7 +96,7 @@ class Verdict(Result):
     empty.
     """
     fixes: tuple[str, ...] = ()
-    """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds; the first 12."""
+    """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds; at most 12."""
     prescriptions: tuple[str, ...] = ()
     """Statements of the inputs, brakes and locks that cause a lock or a contradiction, such as `sun = 1`."""
     loops: tuple[Loop, ...] = ()

@@ -69,22 +69,6 @@ def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
 def adjacency_labels(train: Train) -> list[list[str]]:
     """Return the adjacency matrix as text: `R(axis)` for a turning pair, `P(axis)` for a sliding pair, the name of a
     gear pair or coupling, or "".
-
-    Parameters
-    ----------
-    train : Train
-        `GearTrain.declaration`.
-
-    Returns
-    -------
-    list of list of str
-        One row and one column for each link, in the order of the declaration. Several joints are separated by blanks.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> adjacency_labels(geartrain.load("planetary-24-18-60").declaration)[1]
-    ['R(main)', '', 's~p', '']
     """
     at = {link: position for position, link in enumerate(train.links)}
     cells: list[list[list[str]]] = [[[] for _ in at] for _ in at]
@@ -108,27 +92,7 @@ def adjacency_kinds(train: Train) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
-    """Return the adjacency matrix of the links: the number of edges between each pair of links.
-
-    Parameters
-    ----------
-    graph : networkx.MultiGraph
-        `GearTrain.graph`.
-    kinds : iterable of str
-        Kinds of edges to count: revolute, prismatic, gear, or kinds of couplings; by default all.
-
-    Returns
-    -------
-    LabelledArray
-        Matrix with axes (link, neighbour); integers.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> graph = geartrain.load("planetary-24-18-60").graph
-    >>> int(adjacency_matrix(graph)["frame", "sun"]), int(adjacency_matrix(graph, ["gear"])["frame", "sun"])
-    (1, 0)
-    """
+    """Return the adjacency matrix of the links: the number of edges between each pair of links."""
     import numpy as np
 
     from geartrain.numerics.labelled_array import labelled_array
@@ -144,24 +108,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Return the graph as Graphviz text: turning pairs thin, gear pairs thick, couplings dashed, the frame as a box.
-
-    Parameters
-    ----------
-    graph : networkx.MultiGraph
-        `GearTrain.graph`.
-
-    Returns
-    -------
-    str
-        Graph in the DOT language.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> print(to_dot(geartrain.load("planetary-24-18-60").graph).splitlines()[-2])
-      "planet" -- "carrier" [label="planet", penwidth=1];
-    """
+    """Return the graph as Graphviz text: turning pairs thin, gear pairs thick, couplings dashed, the frame as a box."""
     lines = [f"graph {_quoted(graph.name)} {{", "  node [shape=circle];"]
     for link, data in graph.nodes(data=True):
         lines.append(f"  {_quoted(link)}{' [shape=box]' if data['frame'] else ''};")
@@ -176,23 +123,6 @@ def to_dot(graph: Graph) -> str:
 def to_graphml(graph: Graph) -> str:
     """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also name their wheels, couplings
     their pin and slot.
-
-    Parameters
-    ----------
-    graph : networkx.MultiGraph
-        `GearTrain.graph`.
-
-    Returns
-    -------
-    str
-        GraphML document for `networkx.parse_graphml`.
-
-    Examples
-    --------
-    >>> import geartrain, networkx
-    >>> text = to_graphml(geartrain.load("planetary-24-18-60").graph)
-    >>> sorted(networkx.parse_graphml(text, force_multigraph=True))
-    ['carrier', 'frame', 'planet', 'sun']
     """
     import networkx as nx
 
@@ -202,23 +132,6 @@ def to_graphml(graph: Graph) -> str:
 def to_json(graph: Graph) -> str:
     """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also name their wheels, couplings
     their pin and slot.
-
-    Parameters
-    ----------
-    graph : networkx.MultiGraph
-        `GearTrain.graph`.
-
-    Returns
-    -------
-    str
-        JSON with `nodes` and `edges`, in the form of `networkx.node_link_data`.
-
-    Examples
-    --------
-    >>> import geartrain, json
-    >>> edges = json.loads(to_json(geartrain.load("planetary-24-18-60").graph))["edges"]
-    >>> sorted(edge["label"] for edge in edges if edge["kind"] == "gear")
-    ['p~ring', 's~p']
     """
     import networkx as nx
 

@@ -62,7 +62,7 @@ class TargetResult(Result):
 
     Examples
     --------
-    The Moon pointer of the Antikythera mechanism makes 254 revolutions in 19 years, the Moon 13.36826 in one year:
+    The Moon pointer of the Antikythera mechanism makes 254 revolutions in 19 years, and the Moon 13.36826 per year:
 
     >>> import geartrain
     >>> target = geartrain.load("freeth-2008").solve().outputs["moon"].targets[0]
@@ -132,7 +132,7 @@ class TargetResult(Result):
 
     @property
     def days_to_one_day(self) -> float | None:
-        """Time after which the error is one day [d]; None without an error, or if `days_per_century` is None."""
+        """Time after which the error is one day [d]; None if the error is 0, or if `days_per_century` is None."""
         return abs(1 / self.days_per_century) * DAYS_PER_CENTURY if self.days_per_century else None
 
 
@@ -228,8 +228,8 @@ class OutputResult(Result):
     ratio: SpeedValue | None
     """Output speed divided by input speed; None unless exactly one input has a non-zero speed."""
     expect_holds: bool | None
-    """True if the speed agrees with the declared `expect`, False also if it is not determined; None if no `expect` is
-    declared.
+    """True if the speed agrees with the declared `expect`; False if it differs or is not determined; None if no
+    `expect` is declared.
     """
     targets: tuple[TargetResult, ...]
     """Comparisons with the declared targets; empty if the speed is not determined."""
@@ -245,7 +245,7 @@ class OutputResult(Result):
 
     @property
     def period(self) -> SpeedValue | None:
-        """Time of one turn [s]; None for a link that rests or slides, an undetermined speed or no unit of time."""
+        """Time of one turn [s]; None if the link rests or slides, or if its speed or the unit of time is unknown."""
         if self.slides or not self.unit_seconds or not self.speed:
             return None
         return self.unit_seconds / magnitude(self.speed)
@@ -270,8 +270,8 @@ class OutputResult(Result):
 
     @property
     def published_holds(self) -> bool | None:
-        """True if the output agrees with the declared `published` value, False also if it is not determined; None if
-        no value is published.
+        """True if the output agrees with the declared `published` value; False if it differs or is not determined; None
+        if no value is published.
         """
         return self._holds_published(sign=1)
 

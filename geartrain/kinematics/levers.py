@@ -24,10 +24,6 @@ if TYPE_CHECKING:
 class Lever(Shown):
     """Lever diagram of one epicyclic gear set: each member m is a point x_m on a line. Its speed is w_m = w_k + x_m u,
     where w_k is the speed of the carrier and u is common to all members.
-
-    See Also
-    --------
-    find_levers : Contains an example.
     """
 
     carrier: str
@@ -41,35 +37,7 @@ class Lever(Shown):
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:
-    """Return the lever of every elementary epicyclic set: coaxial links that mesh relative to one moving carrier.
-
-    Parameters
-    ----------
-    train : Train
-        Declaration of the train.
-    tree : Tree
-        Turning pairs as a tree, `GearTrain.kinematics.tree`.
-    circuits : sequence of Circuit
-        Fundamental circuits, `GearTrain.circuits`.
-
-    Returns
-    -------
-    list of Lever
-        Lever of each set. Planets are members only if the set has fewer than two coaxial links.
-
-    References
-    ----------
-    Benford and Leising, "The lever analogy", SAE 810102 (1981); Kutzbach (1927).
-
-    Examples
-    --------
-    Sun and ring have distances from the carrier in the ratio 1 to -24/60:
-
-    >>> import geartrain
-    >>> train = geartrain.load("planetary-24-18-60")
-    >>> find_levers(train.declaration, train.kinematics.tree, train.circuits)[0].abscissae["frame"]
-    Fraction(-2, 5)
-    """
+    """Return the lever of every elementary epicyclic set: coaxial links that mesh relative to one moving carrier."""
     parts = find_components(tuple(train.links), train.frame, circuits)
     found = []
     for group, carrier in enumerate(parts.group_carrier):

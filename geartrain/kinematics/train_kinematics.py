@@ -187,8 +187,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """Prescriptions (inputs, brakes and locks) of each state, by name, None for a train without states; locks are
-        expressed joint by joint.
+        """Prescriptions (inputs, brakes and locks) of each state, by name of the state (None for a train without
+        states). Locks are expressed joint by joint.
         """
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
@@ -278,7 +278,7 @@ class TrainKinematics(Shown):
         Parameters
         ----------
         case : StateCase
-            Prescriptions with locks joint by joint, as in `cases`.
+            Prescriptions, with locks given joint by joint, as in `cases`.
         """
         return self._system(self.whole, case)
 
@@ -543,8 +543,8 @@ class TrainKinematics(Shown):
         )
 
     def _seen(self, relative: Relative) -> Relative:
-        """Return the function for relative speeds with the comparable motion of the second link: a turning link turns
-        relative to a sliding one as it does relative to what carries that.
+        """Return the function for relative speeds in which the second link is replaced by the nearest link with a
+        comparable motion (`Tree.reference`): for a turning link, the nearest link that turns.
         """
         return lambda of, base: relative(of, self.tree.reference(of, base))
 

@@ -85,7 +85,7 @@ class WillisSystem(Shown):
     redundant: tuple[str, ...] = ()
     """Names of redundant pairs, which close loops with ratio product 1; empty if not determined."""
     sliding: frozenset[str] = frozenset()
-    """Links of couplings that slide; their speeds x are travels in mm."""
+    """Sliding links of couplings; their speeds x are travels in mm."""
 
     def __str__(self) -> str:
         """Return the equations as printed by `geartrain inspect equations`."""

@@ -10,7 +10,6 @@ Exact numbers
     rational_angles                       angles as fractions of a turn
 Floats
     rounding_bounds, bounded_polynomials  error-free transformations; quotients of polynomials with error bounds
-    sparse_least_squares                  least squares with a few entries per row
     roots                                 bracketed roots, one by one and vectorised
     chebyshev, polynomial_pieces          Chebyshev series and piecewise polynomials
     periodic_function                     periodic functions through points and of harmonics, with their extremes

@@ -54,7 +54,7 @@ def products_of(columns: Sequence[Floats]) -> Product:
 
 
 def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[Floats, Floats]:
-    """Return the sum of arrays in their order, and the sum of their absolute values; zeros of `shape` for no arrays."""
+    """Return the sum of arrays in order, and the sum of their absolute values; zeros of `shape` without any array."""
     each = list(terms)
     if not each:
         return np.zeros(shape), np.zeros(shape)

@@ -1,4 +1,4 @@
-"""Immutable mappings, mappings that are created when they are read, and a pause of the garbage collector."""
+"""Immutable mappings, mappings that are created on access, and a pause of the garbage collector."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class FrozenDict(dict[K, V]):
 
 
 class LazyMapping(Mapping[K, V]):
-    """Mapping that is created when it is first read; it compares and pickles like the dictionary that it contains.
+    """Mapping that is created on first access; it compares and pickles like the dictionary that it contains.
 
     >>> requested = []
     >>> found = LazyMapping(lambda: requested.append("made") or {"a": 1})
@@ -73,9 +73,9 @@ class LazyMapping(Mapping[K, V]):
 
 
 class ItemwiseMapping(Mapping[K, V]):
-    """Mapping with given keys, whose values are created one by one when they are first read.
+    """Mapping with given keys, whose values are created one by one on first access.
 
-    With `keep` False, each value is created at every reading; for long numbers this saves memory.
+    With `keep` False, each value is created anew on every access; for long numbers this saves memory.
 
     >>> requested = []
     >>> found = ItemwiseMapping("ab", lambda key: requested.append(key) or key.upper())

@@ -239,7 +239,7 @@ def touches_pi(value: Fraction) -> bool:
 
 
 def _factor(value: Fraction) -> tuple[Fraction, int]:
-    """Return the rational factor of a multiple of a power of pi, 1 or -1, and the power; (value, 0) for others."""
+    """Return the rational factor of a multiple of a power of pi, 1 or -1, and the power; (value, 0) otherwise."""
     if value and value.numerator % PI.numerator == 0 and value.denominator % PI.denominator == 0:
         return value / PI, 1
     if value and value.numerator % PI.denominator == 0 and value.denominator % PI.numerator == 0:

@@ -1,4 +1,4 @@
-"""Numbers stored as a short ratio to another number, and multiplied out when they are read.
+"""Numbers stored as a short ratio to another number, and multiplied out on access.
 
 Along a train every speed is the speed of a neighbouring link times a ratio of tooth counts. If the factors do not
 cancel, the speed after a thousand links has thousands of digits, and storage of all speeds takes quadratic memory. Each
@@ -16,7 +16,7 @@ _SHORT = 256
 """Maximum number of bits of numerator and denominator for which a number is multiplied out immediately."""
 
 _KEPT = 64
-"""Maximum number of long numbers that are kept; numbers that are read one after another are usually near each other."""
+"""Maximum number of long numbers that are kept; numbers accessed one after another are usually near each other."""
 
 
 class FactoredRatios:

@@ -1,4 +1,4 @@
-"""Multigraph of networkx with attributes that are computed when they are first read.
+"""Multigraph of networkx with attributes that are computed on first access.
 
 An attribute of an edge may take longer to compute than the graph. It is stored as `Lazy(make)`, and networkx returns
 the result of `make` whenever the attribute is read.
@@ -13,7 +13,7 @@ import networkx as nx
 
 
 class Lazy:
-    """Value that is computed once, when it is first read; stored as an attribute of a graph."""
+    """Value that is computed once, on first access; stored as an attribute of a graph."""
 
     __slots__ = ("_make", "_value")
 
@@ -30,7 +30,7 @@ class Lazy:
 
 
 class LazyDict(MutableMapping[str, Any]):
-    """Mapping that computes its `Lazy` values when they are read; callers get only computed values.
+    """Mapping that computes its `Lazy` values on access; callers get only computed values.
 
     >>> requested = []
     >>> data = LazyDict(id="a", cost=Lazy(lambda: requested.append("cost") or 7))

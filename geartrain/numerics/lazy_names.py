@@ -7,24 +7,17 @@ from importlib import import_module
 from typing import Any
 
 
-def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
-    """Return the `__getattr__` function of a package.
+def public_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], list[str]]:
+    """Return the function `__getattr__` and the sorted names `__all__` of a package.
 
-    homes   name -> module below `package` that defines it; with leading dots, relative to a package above it
+    modules   module below `package` -> names that it defines, separated by blanks; with leading dots, relative to a
+              package above it
     """
+    homes = {name: module for module, names in modules.items() for name in names.split()}
 
     def find(name: str) -> Any:
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         return getattr(import_module(f".{homes[name]}", package), name)
 
-    return find
-
-
-def public_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], list[str]]:
-    """Return the function `__getattr__` and the sorted names `__all__` of a package.
-
-    modules   module below `package` -> names that it defines, separated by blanks; dots as in `lazy_names`
-    """
-    homes = {name: module for module, names in modules.items() for name in names.split()}
-    return lazy_names(package, homes), sorted(homes)
+    return find, sorted(homes)

@@ -58,7 +58,7 @@ class PeriodicFunction(ABC):
 
     @property
     def waves(self) -> float:
-        """Number of the shortest waves in a period; 0 if only the breakpoints limit the sampling."""
+        """Number of oscillations of the fastest component per period; 0 if only the breakpoints limit the sampling."""
         return self.period / self.resolution / _PER_WAVE
 
     @abstractmethod
@@ -71,7 +71,7 @@ class PeriodicFunction(ABC):
 
     @cached_property
     def _samples(self) -> Floats:
-        """Ascending positions over one period, beside every breakpoint and between, at most `resolution` apart."""
+        """Ascending positions over one period, close to both sides of every breakpoint, at most `resolution` apart."""
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
         counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)
@@ -234,7 +234,7 @@ def check_points(
 def periodic_integral(
     slope: Callable[[Floats], Floats], period: float, breakpoints: Sequence[float] | Floats = ()
 ) -> tuple[PeriodicPieces, float]:
-    """Return the integral of a periodic slope less its mean, 0 at the first breakpoint or at 0, and the mean slope.
+    """Return the integral of a periodic slope minus its mean slope, from the first breakpoint or from 0, and this mean.
 
     Parameters
     ----------

@@ -417,8 +417,8 @@ class Quantity:
         raw : str, int, float, Fraction or Quantity
             A quantity such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
-            length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure, torsional stiffness,
-            stiffness, torsional damping, damping or fraction; "time or length" allows two.
+            Required dimension: length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure,
+            torsional stiffness, stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
             True to allow a number without a unit; 0 is always allowed.
 
@@ -490,7 +490,7 @@ def millimetres(length: Quantity) -> Fraction:
 
 
 TRAVEL_ARM = 1 / (2000 * PI)
-"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is calculated as a link that turns once for each
+"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is treated as a link that turns once for each
 millimetre of its travel, with its forces at this arm."""
 
 

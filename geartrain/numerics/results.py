@@ -317,12 +317,11 @@ def imported_function(module: str, name: str) -> Callable[..., Any]:
 
 
 class Pictured:
-    """Result with a picture, drawn by the function `FIGURE` of the package `DRAWN_IN`."""
+    """Result with a picture, drawn by the function `FIGURE`, written `package.module:function`."""
 
     __slots__ = ()
 
     FIGURE: ClassVar[str]
-    DRAWN_IN: ClassVar[str] = "drawing"
 
     def plot(self, *how: Any) -> Any:
         """Plot the result as a matplotlib figure, which notebooks show.
@@ -342,7 +341,7 @@ class Pictured:
         MissingExtraError
             If matplotlib, which the extra `plot` installs, is missing.
         """
-        return imported_function(self.DRAWN_IN, self.FIGURE)(self, *how)
+        return imported_function(*self.FIGURE.split(":"))(self, *how)
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,41 +37,18 @@ if TYPE_CHECKING:
     from geartrain.report.document import Picture as Picture
     from geartrain.report.document import Section as Section
     from geartrain.report.document import Table as Table
-    from geartrain.report.formula_report import FormulaReport as FormulaReport
-    from geartrain.report.formula_report import collect_formulas as collect_formulas
-    from geartrain.report.formula_report import describe_formulas as describe_formulas
-    from geartrain.report.gearbox_report import describe_gear_search as describe_gear_search
-    from geartrain.report.gearbox_report import describe_gearbox as describe_gearbox
     from geartrain.report.html_page import to_html as to_html
-    from geartrain.report.json_schema import answer_schema as answer_schema
-    from geartrain.report.json_schema import describe_answer as describe_answer
-    from geartrain.report.motion_report import MotionFigures as MotionFigures
-    from geartrain.report.motion_report import collect_motion as collect_motion
-    from geartrain.report.motion_report import describe_motion as describe_motion
-    from geartrain.report.reconstruction_comparison import describe_comparison as describe_comparison
     from geartrain.report.text import to_markdown as to_markdown
     from geartrain.report.text import to_text as to_text
-    from geartrain.report.torque_report import TorqueReport as TorqueReport
-    from geartrain.report.torque_report import collect_torque_report as collect_torque_report
-    from geartrain.report.torque_report import describe_torques as describe_torques
     from geartrain.report.train_data import TrainReport as TrainReport
     from geartrain.report.train_data import collect_report as collect_report
-    from geartrain.report.train_report import describe_shared_page as describe_shared_page
-    from geartrain.report.train_report import describe_train as describe_train
 
 __getattr__, __all__ = public_names(
     __name__,
     {
         "document": "Branch Document Picture Section Table",
-        "formula_report": "FormulaReport collect_formulas describe_formulas",
-        "gearbox_report": "describe_gear_search describe_gearbox",
         "html_page": "to_html",
-        "json_schema": "answer_schema describe_answer",
-        "motion_report": "MotionFigures collect_motion describe_motion",
-        "reconstruction_comparison": "describe_comparison",
         "text": "to_markdown to_text",
-        "torque_report": "TorqueReport collect_torque_report describe_torques",
         "train_data": "TrainReport collect_report",
-        "train_report": "describe_shared_page describe_train",
     },
 )

@@ -116,8 +116,7 @@ def _pointers(train: GearTrain, answer: Answer) -> Section:
 
 def _is_pointer(result: OutputResult) -> bool:
     """Return True if an output has a dial, a target or a published figure, or fails an expectation."""
-    output = result.output
-    return bool(output.dial or output.published or result.targets or not result.holds)
+    return result.output.is_pointer or not result.holds
 
 
 def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
@@ -138,7 +137,7 @@ def _is_clock(declared: Train) -> bool:
 
 
 def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, str, str]:
-    """Return a target as a string, the error in ppm, and the error in days a century (for clocks, in seconds a day)."""
+    """Return a target as a string, the error in ppm, and the error in days per century (in s/day for clocks)."""
     if target is None:
         return "", "", ""
     wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)
@@ -179,7 +178,7 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 
 
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
-    """Return the error of an output in seconds a day and seconds a year, and the days after which it is a day off.
+    """Return the error of an output in seconds per day and seconds per year, and the days after which it is a day off.
 
     The first two are "" unless the output has a hand of a clock or a target of about a day, the third is "" for shorter
     targets.

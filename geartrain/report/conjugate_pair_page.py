@@ -137,7 +137,7 @@ def _friction(design: PairDesign) -> Section:
 
 
 def pair_name(path: PathOfContact) -> str:
-    """Return the tooth counts and the kind of a pair as a string, `24/18 spur`."""
+    """Return the tooth counts and the kind of a pair as a string, such as `24/18 spur`."""
     pitch = path.pitch
     kind = f"bevel, {degrees(pitch.R1 + pitch.R2):.6g} deg" if pitch.bevel else "internal" if pitch.R2 < 0 else "spur"
     return f"{pitch.z1}/{pitch.z2} {kind}"

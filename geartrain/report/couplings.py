@@ -58,9 +58,9 @@ class VaryingCoupling(Result):
     speed_ratio: tuple[float, float]
     """Minimum and maximum speed ratio, with the sign of the mean ratio taken as positive."""
     at_once: bool
-    """True if the driven link moves in instantaneous steps; its speed ratio is then the ratio between the steps."""
+    """True if the driven link moves in instantaneous steps; its speed ratio is then the value between the steps."""
     formula: str
-    """Driven angle q as a function of the driver's angle S; empty without a closed form."""
+    """Driven angle q as a function of the driver's angle S; empty if there is no closed form."""
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:
@@ -82,7 +82,7 @@ def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:
 
 
 def varying_couplings(train: GearTrain) -> Iterator[VaryingCoupling]:
-    """Yield the couplings of a train with a variable ratio, without pins in slots."""
+    """Yield the couplings of a train with a variable ratio, except pins in slots."""
     # the mechanics of a train import numpy
     if not train.declaration.couplings:
         return

@@ -66,7 +66,7 @@ class SceneText(str):
 
 @dataclass(frozen=True, slots=True)
 class Table(Shown):
-    """Table of text cells with a header; the first column names the row.
+    """Table of text cells with a header. The cells of the first column name the rows.
 
     Examples
     --------
@@ -85,7 +85,7 @@ class Table(Shown):
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return a document of one table with the first `most` rows of a result's columns, and the number of others."""
+    """Return a document of one table: the first `most` rows of a result's columns, and the number of omitted rows."""
     count = len(next(iter(columns.values()), ()))
     rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
     more = [f"{count - most:,} more rows."] if count > most else []
@@ -193,7 +193,7 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, and else shows its text."""
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, else it prints `url`."""
 
     cite: str
     url: str = ""

@@ -36,12 +36,7 @@ class RatioElasticity(Result):
 
 @dataclass(frozen=True)
 class FormulaReport(Result):
-    """Formulas of the outputs of a train in each requested state.
-
-    See Also
-    --------
-    describe_formulas : Return the document of a formula report.
-    """
+    """Formulas of the outputs of a train in each requested state."""
 
     PAGE = "report.formula_report:describe_formulas"
 
@@ -60,31 +55,7 @@ class FormulaReport(Result):
 def collect_formulas(
     train: GearTrain, states: Sequence[str | None], outputs: Sequence[str] = (), sensitivities: bool = False
 ) -> FormulaReport:
-    """Return the formulas of a train's outputs in the given states.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train whose outputs are described.
-    states : sequence of str or None
-        Names of states; None for a train without states.
-    outputs : sequence of str
-        Names of outputs; by default all.
-    sensitivities : bool
-        True to include all elasticities.
-
-    Returns
-    -------
-    FormulaReport
-        Formulas of the outputs that the inputs determine.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> found = collect_formulas(geartrain.load("wolfrom-175"), [None], ["arm"], sensitivities=True)
-    >>> [(each.wheel, each.elasticity.text) for each in found.sensitivities]
-    [('s12', 'z_r72/(z_s12 + z_r72)'), ('r72', '-z_r72/(z_s12 + z_r72)')]
-    """
+    """Return the formulas of a train's outputs in the given states."""
     formulas = tuple(each for state in states for each in _formulas(train, state, outputs))
     found = (
         RatioElasticity(each.state, each.output, share.input, wheel, share.ratio.elasticity(wheel))
@@ -103,28 +74,6 @@ def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
     """Return a document with the formula, value and locking condition of each output, and with the elasticities if
     `found` contains them.
-
-    Parameters
-    ----------
-    found : FormulaReport
-        Formulas of a train.
-    latex : bool
-        True to write formulas as LaTeX.
-    inverse : bool
-        True to add the inverse ratios, input divided by output.
-
-    Returns
-    -------
-    Document
-        Document with one section for each state; speeds are in the train's unit.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("planetary-24-18-60")
-    >>> page = describe_formulas(collect_formulas(train, [None]))
-    >>> page.sections[0].paragraphs[1]
-    'carrier = z_s/(z_s + z_ring) · sun = 2/7'
     """
     states = dict.fromkeys(each.state for each in found.formulas)
     sections = [section for state in states for section in _state(found, state, latex, inverse)]

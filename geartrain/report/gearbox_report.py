@@ -28,23 +28,6 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 def describe_gearbox(found: Gearbox) -> Document:
     """Return a document on the states of a gearbox: ratios, speeds, slip and torques, and the maximum load of each
     element.
-
-    Parameters
-    ----------
-    found : Gearbox
-        Result of `GearTrain.gearbox`.
-
-    Returns
-    -------
-    Document
-        Document with speeds relative to the input speed and torques relative to the input torque.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> page = describe_gearbox(geartrain.load("simpson-set").gearbox())
-    >>> [section.title for section in page.sections]
-    ['Gears', 'Speeds', 'Slip of open elements', 'Torques of closed elements', 'Elements']
     """
     return Document(f"Gearbox {found.name}", (found.title,) if found.title else (), tuple(gearbox_sections(found)))
 
@@ -116,26 +99,7 @@ def _elements(found: Gearbox) -> Table:
 
 
 def describe_gear_search(found: GearSearch) -> Document:
-    """Return a document on all possible gears of a gearbox, and on the requested series of gears.
-
-    Parameters
-    ----------
-    found : GearSearch
-        Result of `geartrain.analysis.find_gears`.
-
-    Returns
-    -------
-    Document
-        Document with ratios defined as input speed divided by output speed.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.analysis import find_gears
-    >>> page = describe_gear_search(find_gears(geartrain.load("simpson-set")))
-    >>> page.sections[0].tables[0].rows[0]
-    ('forward, low', '2.4545', '1')
-    """
+    """Return a document on all possible gears of a gearbox, and on the requested series of gears."""
     summary = (
         f"From '{found.input}' to '{found.output}': {found.combinations} combinations of {found.closed} closed "
         f"elements, of which {len(found.gears)} determine the output (exhaustive exact search)."

@@ -100,20 +100,7 @@ def _of_any_form(kind: type) -> Schema:
 
 
 def answer_schema() -> Schema:
-    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/QUESTION` is the schema of one answer.
-
-    Returns
-    -------
-    dict
-        Schema. Keys and types come from the result classes, and descriptions are the docstrings of their fields.
-        QUESTION is a command, or a use of a command whose answer has another structure.
-
-    Examples
-    --------
-    >>> answer = answer_schema()["$defs"]["solve"]
-    >>> answer["required"]
-    ['name', 'title', 'unit', 'mobility', 'states']
-    """
+    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/QUESTION` is the schema of one answer."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Answers of geartrain",
@@ -127,26 +114,6 @@ def describe_answer(question: str) -> Document:
 
     In the keys, `states[]` represents the entries of a list, and `outputs.*` the values of an object with arbitrary
     keys.
-
-    Parameters
-    ----------
-    question : str
-        Key of `answer_schema()["$defs"]`.
-
-    Returns
-    -------
-    Document
-        Document with one table.
-
-    Raises
-    ------
-    QuestionError
-        If the question does not exist.
-
-    Examples
-    --------
-    >>> describe_answer("solve").sections[0].tables[0].rows[0]
-    ('name', 'string', 'Name of the train.')
     """
     known = answers()
     check_choice("question", question, known)

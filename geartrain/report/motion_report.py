@@ -17,7 +17,7 @@ from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ErrorEstimates, Motion, MotionRun, RunningStatistics, SpectrumLine
+    from geartrain.dynamics import Motion, MotionRun, RunningStatistics, SpectrumLine
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
 
@@ -55,7 +55,7 @@ class PartialRun(NamedTuple):
 class OutputMotion:
     """Motion of one output over a run. Results that were not requested are None."""
 
-    KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "estimates", "spectrum")
+    KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "spectrum")
 
     tally: RunningStatistics
     """Extreme values and moments of the deviation and of the speed over the run."""
@@ -65,8 +65,6 @@ class OutputMotion:
     """Rotation of the output per rotation error of the driven side of each pair [rad/rad], by pair."""
     phases: PhaseRange | None
     """Range of the deviation over runs with random tooth phases; None unless requested."""
-    estimates: ErrorEstimates | None
-    """Approximations of the deviation by sums over the pairs; None unless requested."""
     spectrum: Sequence[SpectrumLine] | None
     """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None unless requested."""
 
@@ -75,10 +73,6 @@ class OutputMotion:
 class MotionFigures(Result):
     """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state;
     angles in rad, and travels of links that slide in mm.
-
-    See Also
-    --------
-    collect_motion : Return the results of a motion run.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -120,7 +114,7 @@ class MotionFigures(Result):
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
     advances: Mapping[str, float]
-    """Mean speed of the link that one-way clutches drive in steps, divided by the speed of the input [1], by name."""
+    """Mean speed of each link that one-way clutches drive in steps, per unit speed of the input [1], by link."""
 
 
 @dataclass(frozen=True)
@@ -143,36 +137,7 @@ class UnfollowedMotion:
 
 
 def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any = None) -> MotionFigures:
-    """Return the results of a motion run for each output.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run after a call of `run` and, if their results are wanted, of `run_random_phases`, `find_estimates` or
-        `find_spectra`.
-    name : str
-        Name of the train.
-    state : str or None
-        Name of the requested state.
-    separation : geartrain.simulation.SeparationRates, optional
-        Speeds of the input at which teeth first separate.
-
-    Returns
-    -------
-    MotionFigures
-        Results whose `to_dict` is the answer of `geartrain motion --json`.
-
-    Examples
-    --------
-    Teeth change the speed of the moon within a turn of the crank, but never its mean, 254/19 in a year of 5 turns:
-
-    >>> import geartrain
-    >>> from geartrain.dynamics import MotionRun
-    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=1.0, samples=101)
-    >>> run.run()
-    >>> collect_motion(run, "moon-triangular", None).to_dict()["outputs"]["moon"]["ratio"]
-    '254/95'
-    """
+    """Return the results of a motion run for each output."""
     motion = run.motion
     # pairs that drive no output are not reported
     used = {source.id for source in motion._forward.used}
@@ -182,7 +147,6 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
             motion.pointer_offsets[tally.name],
             motion.sensitivity[tally.name],
             _phase_range([tallies[at] for tallies in run.phase_statistics]),
-            run.estimates.get(tally.name),
             run.spectra.get(tally.name),
         )
         for at, tally in enumerate(run.statistics)
@@ -260,33 +224,7 @@ _ROUNDING = 1e-13  # rad: smaller deviations are rounding errors
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
-    """Return a document on the deviation and speed of each output over a run, with the further requested results.
-
-    Parameters
-    ----------
-    found : MotionFigures
-        Result of `collect_motion`.
-    every_output : bool
-        True to show the contributions of each pair to all outputs, in several tables if necessary. By default they are
-        shown for the first eight outputs that are affected by pairs, and the other outputs are named.
-
-    Returns
-    -------
-    Document
-        Document with deviations in degrees, mean speeds relative to the input speed, and minimum and maximum speeds
-        relative to the mean.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.dynamics import MotionRun
-    >>> from geartrain.report import collect_motion
-    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=1.0, samples=101)
-    >>> run.run()
-    >>> page = describe_motion(collect_motion(run, "moon-triangular", None))
-    >>> [section.title for section in page.sections]
-    ['Outputs', 'Pairs']
-    """
+    """Return a document on the deviation and speed of each output over a run, with the further requested results."""
     run = found.run
     train, period = run.motion._problem, run.motion.period
     summary = [
@@ -335,8 +273,6 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
         yield Section("Pairs that keep their ratio", (rigid,))
     if run.phase_statistics:
         yield _random_phases(run)
-    if run.estimates:
-        yield _estimates(run.estimates, run.motion._problem.deviation)
     for name, lines in run.spectra.items():
         if lines:
             yield _spectrum(name, lines, name in run.motion._sliding)
@@ -360,7 +296,11 @@ def moving_sections(
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
         rippling = [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
-        yield Section(head, (text, *holds, *_remarks(run)), _outputs(rippling, run.motion._problem.deviation))
+        declared = train.declaration.outputs
+        pointers = [tally for tally in rippling if tally.name in declared and declared[tally.name].is_pointer]
+        yield Section(
+            head, (text, *holds, *_remarks(run)), _outputs(pointers or rippling, run.motion._problem.deviation)
+        )
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
@@ -480,7 +420,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
-    """Yield a section on the couplings that move by steps; nothing if there are none."""
+    """Yield a section on the couplings that move in steps; nothing if there are none."""
     rows = []
     for source in motion._forward.used:
         transmission = source.transmission
@@ -508,30 +448,6 @@ def _random_phases(run: MotionRun) -> Section:
         lambda tally: [row(tally)],
     )
     return Section("Random phases", (text,), tables)
-
-
-def _estimates(found: dict[str, ErrorEstimates], deviation: str) -> Section:
-    def rows(true: RunningStatistics) -> list[tuple[str, ...]]:
-        each, slides = found[true.name], true.slides
-        lines: list[tuple[str, ...]] = [
-            (true.name, "composed", *_amounts(slides, true.peak_to_peak, true.rms), "0", "0"),
-            ("", "bound by the sum", *_amounts(slides, each.bound), "-", "-", "-"),
-            ("", "independent phases", "-", *_amounts(slides, each.independent), "-", "-"),
-        ]
-        for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
-            own, off = superposed.own, superposed.off
-            lines.append(("", how, *_amounts(slides, own.peak_to_peak, own.rms, superposed.maximum, off.rms)))
-        return lines
-
-    def head(unit: str) -> tuple[str, ...]:
-        differences = (f"maximum difference ({unit})", f"rms difference ({unit})")
-        return ("output", "method", f"{deviation} p-p ({unit})", f"rms ({unit})", *differences)
-
-    text = (
-        "Approximations compared with the composed motion, all at the sampled positions only. Differences are "
-        "pointwise, after subtraction of each mean."
-    )
-    return Section("Estimates", (text,), _by_unit([each.true for each in found.values()], head, rows))
 
 
 def _amounts(slides: bool, *values: float) -> tuple[str, ...]:

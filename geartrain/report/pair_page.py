@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FormedPair(Result):
-    """Pair of wheels with any tooth form, with the results on its mesh."""
+    """Pair of wheels with any tooth form, with the results for its mesh."""
 
     KEYS = (
         *(Key("form", "mesh.form"), Key("driver", "mesh.driver"), Key("gears", "mesh.gears"), Key("note", "mesh.note")),
@@ -147,7 +147,7 @@ def _outline(wheel: WheelOutline) -> Section:
 
 
 def describe_pin(transmission: PinTransmission) -> Document:
-    """Return a document on a pin in a slot, with either one driving: mean ratio, amplitude, speeds and friction."""
+    """Return a document on a pin in a slot, with pin or slot driving: mean ratio, amplitude, speeds and friction."""
     from geartrain.teeth.pair_results import pin_figures
 
     found = pin_figures(transmission)
@@ -277,7 +277,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of contact intervals."""
+    """Return a section on speed ratio, instant centre and moment arms at the ends of contact intervals and inside."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))

@@ -10,28 +10,7 @@ from geartrain.report.document import Document, ExactText, Section, Table, exact
 
 
 def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -> Document:
-    """Return a document that compares trains in columns: output speeds, errors against targets, and tooth counts.
-
-    Parameters
-    ----------
-    trains : sequence of GearTrain
-        Trains to compare. Each state of a train has a column.
-    everything : bool
-        True to show all outputs. By default only pointers (outputs with a dial or a target) are shown, if there are
-        any.
-
-    Returns
-    -------
-    Document
-        Document with sections on outputs, errors [ppm, positive if fast] and wheels that differ.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> page = describe_comparison([geartrain.load("freeth-2008"), geartrain.load("price-1974")])
-    >>> page.sections[0].tables[0].rows[1]
-    ('moon', '254/19 = 13.36842', '-254/19 = -13.36842')
-    """
+    """Return a document that compares trains in columns: output speeds, errors against targets, and tooth counts."""
     columns = [
         (train.name if answer.state is None else f"{train.name} {answer.state}", train, answer)
         for train in trains

@@ -106,12 +106,7 @@ class TorqueFigures(Result):
 
 @dataclass(frozen=True)
 class TorqueReport(Result):
-    """Torque report of a train: torques, power flow and losses in each requested state.
-
-    See Also
-    --------
-    collect_torque_report : Return the torque report of a train in one or more states.
-    """
+    """Torque report of a train: torques, power flow and losses in each requested state."""
 
     PAGE = "report.torque_report:describe_torques"
 
@@ -135,34 +130,6 @@ def collect_torque_report(
 ) -> TorqueReport:
     """Return the torque report of a train in one or more states: torques, power flow, losses, and efficiency in both
     directions.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train to which the torques belong.
-    found : sequence of Torques
-        Results of `train.torques`, one for each state.
-    over_turn : TorqueCycle, optional
-        Result of `train.torques` over some turns.
-    friction_trials : geartrain.workshop.FrictionTrials, optional
-        Result of `try_frictions`.
-
-    Returns
-    -------
-    TorqueReport
-        Report whose `to_dict` is the answer of `geartrain torques --json`.
-
-    Examples
-    --------
-    A wheel of 20 teeth needs half of the torque on its mate of 40 (docs/torques.md, equation 1):
-
-    >>> import geartrain
-    >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
-    ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
-    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
-    >>> data = collect_torque_report(train, [train.torques()]).to_dict()
-    >>> data["states"][0]["links"]["a"]
-    {'torque': 1.5, 'power': 1.5, 'requested': True}
     """
     states = tuple(collect_torques(train, each) for each in found)
     return TorqueReport(train.name, train.declaration.title, states, over_turn, friction_trials)
@@ -215,27 +182,6 @@ def describe_torques(found: TorqueReport) -> Document:
     """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
 
     If requested, the torque over a run and trials with random friction follow.
-
-    Parameters
-    ----------
-    found : TorqueReport
-        Result of `collect_torque_report`.
-
-    Returns
-    -------
-    Document
-        Document with torques in the unit of the loads, and powers in watts if loads and speeds have units.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.report import collect_torque_report
-    >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
-    ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
-    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
-    >>> page = describe_torques(collect_torque_report(train, [train.torques()]))
-    >>> page.sections[0].tables[0].rows[1]
-    ('a (solved for)', '1.5', '1', '1.5')
     """
     sections = [section for each in found.states for section in torque_sections(each)]
     if found.over_turn is not None:
@@ -417,7 +363,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a loss with its shares of the power in and of all losses, then the power of impacts and its share."""
+    """Return a table row: a loss, its shares of input power and of all losses, the power of impacts and its share."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")

@@ -152,7 +152,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
         Train to report on, in all its states. Teeth, torques and motion are computed only if the train declares data
         for them.
     whole : bool
-        True to include teeth, pins, torques, strength, motion and closure of loops, which need numpy.
+        True to include the parts that need numpy: teeth, pins, torques, strength, motion and closure of loops.
 
     Returns
     -------

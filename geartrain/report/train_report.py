@@ -62,24 +62,6 @@ _SIDES = ("above", "below", "behind")  # viewing sides that are written without 
 def describe_train(found: TrainReport) -> Document:
     """Return the report on a train: outputs, speeds, torques, strength and motion; then structure, fundamental
     circuits, and errata of the published sources.
-
-    Parameters
-    ----------
-    found : TrainReport
-        Result of `collect_report`.
-
-    Returns
-    -------
-    Document
-        Document with the results first, followed by the structure of the train. Sections without data are omitted.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.report import collect_report
-    >>> page = describe_train(collect_report(geartrain.load("planetary-24-18-60")))
-    >>> [section.title for section in page.sections][:6]
-    ['Outputs', 'All outputs', 'Speeds', 'Mobility', 'Adjacency matrix', 'Formulas']
     """
     train, answers = found.train, found.states
     declared = train.declaration
@@ -434,32 +416,7 @@ def describe_edges(train: GearTrain) -> Document:
 def describe_shared_page(
     found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """Return the report on a train as a document for an HTML page, with pictures, viewer, badge and linked sources.
-
-    Parameters
-    ----------
-    found : TrainReport
-        Result of `collect_report`.
-    pictures : sequence of Picture
-        Pictures that are shown before the sections.
-    viewer : str
-        Complete HTML page with the animated train, which is embedded unchanged; "" for no viewer.
-    notes : sequence of str
-        Remarks that are shown below the summary.
-
-    Returns
-    -------
-    Document
-        Document of `describe_train` with its `aside` filled, for `to_html`.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.report import collect_report
-    >>> page = describe_shared_page(collect_report(geartrain.load("worm")), notes=["Not to scale."])
-    >>> page.aside.badge, page.aside.notes
-    ('determined', ('Not to scale.',))
-    """
+    """Return the report on a train as a document for an HTML page, with pictures, viewer, badge and linked sources."""
     document, declared = describe_train(found), found.train.declaration
     badge, sound = _badge(found)
     wheels = tuple(_wheels_with_sources(declared))

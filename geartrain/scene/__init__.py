@@ -32,96 +32,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.scene.construction import make_scene as make_scene
-    from geartrain.scene.count_formulas import CountCondition as CountCondition
-    from geartrain.scene.count_formulas import CountFormula as CountFormula
-    from geartrain.scene.count_formulas import SceneFormulas as SceneFormulas
-    from geartrain.scene.elements import SceneBody as SceneBody
-    from geartrain.scene.elements import SceneCoupling as SceneCoupling
-    from geartrain.scene.elements import SceneHanger as SceneHanger
-    from geartrain.scene.elements import ScenePair as ScenePair
-    from geartrain.scene.elements import ScenePart as ScenePart
-    from geartrain.scene.elements import SceneWave as SceneWave
-    from geartrain.scene.elements import SceneWheel as SceneWheel
-    from geartrain.scene.elements import ToothProfile as ToothProfile
     from geartrain.scene.layout.train_layout import AxisPlace as AxisPlace
     from geartrain.scene.layout.train_layout import Layout as Layout
     from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
     from geartrain.scene.layout.train_layout import lay_out as lay_out
-    from geartrain.scene.movement import ErrorSource as ErrorSource
-    from geartrain.scene.movement import ErrorStep as ErrorStep
-    from geartrain.scene.movement import ErrorTable as ErrorTable
-    from geartrain.scene.movement import Movement as Movement
-    from geartrain.scene.scene_run import LinkCourse as LinkCourse
-    from geartrain.scene.scene_run import SceneContact as SceneContact
-    from geartrain.scene.scene_run import SceneRun as SceneRun
     from geartrain.scene.solids.built_scene import build_scene as build_scene
     from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes as ManufacturingSizes
     from geartrain.scene.solids.solid_assembly import SolidModel as SolidModel
     from geartrain.scene.solids.solid_part import SolidPart as SolidPart
-    from geartrain.scene.train_scene import DialFace as DialFace
-    from geartrain.scene.train_scene import Pointer as Pointer
-    from geartrain.scene.train_scene import PointerTarget as PointerTarget
     from geartrain.scene.train_scene import Scene as Scene
-    from geartrain.scene.train_scene import SceneEpoch as SceneEpoch
-    from geartrain.scene.train_scene import SceneSetting as SceneSetting
-    from geartrain.scene.train_scene import TourStop as TourStop
 
-__all__ = [
-    "AxisPlace",
-    "CountCondition",
-    "CountFormula",
-    "DialFace",
-    "ErrorSource",
-    "ErrorStep",
-    "ErrorTable",
-    "Layout",
-    "LinkCourse",
-    "ManufacturingSizes",
-    "Movement",
-    "Pointer",
-    "PointerTarget",
-    "Scene",
-    "SceneBody",
-    "SceneContact",
-    "SceneCoupling",
-    "SceneEpoch",
-    "SceneFormulas",
-    "SceneHanger",
-    "ScenePair",
-    "ScenePart",
-    "SceneRun",
-    "SceneSetting",
-    "SceneWave",
-    "SceneWheel",
-    "SolidModel",
-    "SolidPart",
-    "ToothProfile",
-    "TourStop",
-    "WheelPlace",
-    "build_scene",
-    "lay_out",
-    "make_scene",
-]
-
-_PLACES = {
-    "make_scene": "construction",
-    **dict.fromkeys(("CountCondition", "CountFormula", "SceneFormulas"), "count_formulas"),
-    **dict.fromkeys(("SceneBody", "SceneCoupling", "SceneHanger", "ScenePair", "ScenePart"), "elements"),
-    **dict.fromkeys(("SceneWave", "SceneWheel", "ToothProfile"), "elements"),
-    **dict.fromkeys(("AxisPlace", "Layout", "WheelPlace", "lay_out"), "layout.train_layout"),
-    **dict.fromkeys(("ErrorSource", "ErrorStep", "ErrorTable", "Movement"), "movement"),
-    **dict.fromkeys(("LinkCourse", "SceneContact", "SceneRun"), "scene_run"),
-    "build_scene": "solids.built_scene",
-    "ManufacturingSizes": "solids.manufacturing_sizes",
-    "SolidModel": "solids.solid_assembly",
-    "SolidPart": "solids.solid_part",
-    **dict.fromkeys(
-        ("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch", "SceneSetting", "TourStop"), "train_scene"
-    ),
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "construction": "make_scene",
+        "layout.train_layout": "AxisPlace Layout WheelPlace lay_out",
+        "solids.built_scene": "build_scene",
+        "solids.manufacturing_sizes": "ManufacturingSizes",
+        "solids.solid_assembly": "SolidModel",
+        "solids.solid_part": "SolidPart",
+        "train_scene": "Scene",
+    },
+)

@@ -137,7 +137,7 @@ def _root(z: float) -> float:
 
 
 def bevel(z: int, cone: float) -> ToothProfile:
-    """Return a nominal tooth of a bevel wheel at its wide end, from the virtual spur wheel of its back cone (Tredgold).
+    """Return a nominal tooth of a bevel wheel at its large end, by Tredgold's virtual spur wheel on the back cone.
 
     Each radius of the profile is 1 plus the height above the pitch cone along the back cone; `cone` is the half angle
     of the pitch cone [rad].

@@ -68,7 +68,7 @@ class SceneContext:
 
     @cached_property
     def crank(self) -> str | None:
-        """Link that is turned by hand: the declared crank or the driving link; None if it slides, or without one."""
+        """Link that is turned by hand: the declared crank or the driving link; None if it slides or neither exists."""
         link = self.train.declaration.crank or self.driving_link
         return None if link in self.train.declaration.sliding else link
 

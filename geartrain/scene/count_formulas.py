@@ -10,29 +10,19 @@ from geartrain.numerics.results import Shown
 
 @dataclass(frozen=True, slots=True)
 class CountFormula(Shown):
-    """Ratio of two polynomials in the tooth counts, with integer coefficients, which gives one speed or one condition.
-
-    See Also
-    --------
-    SceneFormulas : contains the formulas of a scene.
-    """
+    """Ratio of two polynomials in the tooth counts, with integer coefficients, for one speed or one condition."""
 
     wheels: Sequence[int]
-    """Tooth counts of the formula as indices into `SceneFormulas.wheels`, repeated if equal planets share one."""
+    """Indices in `SceneFormulas.wheels` of the counts in the formula, repeated for equal planets that share a count."""
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the numerator: a coefficient as a string, and exponents parallel to `wheels`, all 0 or more."""
+    """Terms of the numerator: a coefficient as a string, and the power of each entry of `wheels`, 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
     """Terms of the denominator, in the same form as the numerator."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCondition(Shown):
-    """Condition on tooth counts under which the formulas of a scene are valid.
-
-    See Also
-    --------
-    SceneFormulas : contains the conditions of a scene.
-    """
+    """Condition on tooth counts under which the formulas of a scene are valid."""
 
     formula: CountFormula
     """Function of the tooth counts that must be 0, or must not be 0."""
@@ -46,12 +36,7 @@ class CountCondition(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneFormulas(Shown):
-    """Speeds of a scene as functions of tooth counts, at the declared inputs and in the train's unit.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.formulas`.
-    """
+    """Speeds of a scene as functions of tooth counts, at the declared inputs and in the train's unit."""
 
     wheels: Sequence[str]
     """Names of the declared wheels whose counts may be changed."""

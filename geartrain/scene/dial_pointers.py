@@ -4,8 +4,8 @@ depend.
 An output depends on the pairs whose errors would change it; this dependence is computed exactly. An error in one pair
 is a right-hand side in the row of that pair. Its effect on an output is the weight of that row in the only combination
 of rows that gives the output, so that one elimination of the transposed system gives the dependence of all outputs. The
-mean speed of a follower does not depend on the speed of its pin, but its position does: the pairs that turn the pin are
-included too.
+mean speed of a pin follower, which oscillates, does not depend on the speed of its pin, but its position does: the
+pairs that turn the pin are included too.
 
 The module also gives dates of the driving link's turns, and the mean motions that pointers should show.
 """
@@ -73,7 +73,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the pairs on which an output depends, with the pairs that turn the pins of its followers."""
+    """Return the pairs on which an output depends, with the pairs that turn the pins of its pin followers."""
     found, left = set(used), set(swings)
     # repeated, because another follower may turn the link of a pin
     while met := found & left:
@@ -368,7 +368,7 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
 def _orbit(stage: SceneContext, name: str, face: DialFace) -> tuple[float, float]:
     """Return the outer reach and the radius of a bead, relative to the radius of the scale.
 
-    The beads of a dial have equidistant rings within the scale, the first output innermost.
+    The beads of a dial move on equidistant rings within the scale; the ring of the first output is innermost.
     """
     dial = stage.outputs[name].dial
     rings = [each for each, output in stage.outputs.items() if output.hand == "bead" and output.dial == dial]
@@ -474,7 +474,7 @@ def angles_at_start(
 
 
 def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator[tuple[str, float]]:
-    """Yield the angle at 0 turns [rad] of each slot that has no own angle although its pin has one."""
+    """Yield the angle at 0 turns [rad] of each slot that has no angle of its own although its pin has one."""
     for coupling in stage.train.declaration.pin_couplings:
         pin, slot = coupling.pin, coupling.slot
         if coupling.kind == "pin_and_slot" and pin in angles and slot not in angles:

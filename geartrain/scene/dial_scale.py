@@ -91,9 +91,9 @@ class DialScale:
     radial: bool = False
     """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
     cells: tuple[str, ...] = ()
-    """Name of every division; empty if divisions have no own names."""
+    """Name of every division; empty if divisions have no names of their own."""
     inscriptions: tuple[tuple[str, str], ...] = ()
-    """Names that are engraved as another text, each with this text."""
+    """Pairs of a name and a different text that is engraved for it."""
     counted: int = 0
     """Number of divisions after which declared numerals restart; 0 if no numerals are declared and cells are counted
     from 1.

@@ -37,7 +37,7 @@ _TYRE = 0.1  # thickness of a road wheel divided by its radius
 
 
 def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weight"]:
-    """Return the drive of a train: as declared, a motor for a speed in real time, otherwise a hand."""
+    """Return the drive of a train: as declared; by default a motor for a speed in real time, otherwise a hand."""
     drive = stage.case.drive
     declared = stage.train.declaration
     if drive is None:
@@ -110,7 +110,7 @@ def _road_wheel(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart
 
 
 def _window(radius: float, number: int) -> list[tuple[float, float]]:
-    """Return the outline of the window between two spokes of a road wheel."""
+    """Return the outline of the opening between two spokes of a road wheel."""
     found, pitch = [], 2 * pi / _SPOKES
     for r, ways in ((_HUB * radius, (0, 1)), (_FELLOE * radius, (1, 0.75, 0.5, 0.25, 0))):
         aside = _SPOKE * pitch * _FELLOE * radius / r / 2  # spokes have parallel sides

@@ -22,10 +22,6 @@ class ScenePart(Shown):
     """Structural part as manufactured, such as an arbor or a plate: a turned part or a flat part.
 
     The z axis of the part passes through `place`, which is at mid-height of a flat part.
-
-    See Also
-    --------
-    build_scene : returns it in `Scene.parts`.
     """
 
     body: int
@@ -34,8 +30,8 @@ class ScenePart(Shown):
     """Name of the part in the list of parts."""
     kind: str
     """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, drum, foot, cock, pin,
-    plate. A plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials
-    is `dial`.
+    plate. Plates of the frame have the kind `frame`, plates that turn with a carrier or a ring `carrier`, and plates of
+    dials `dial`.
     """
     place: Vector
     """Position of the origin of the part in the zero pose [mm]."""
@@ -55,10 +51,6 @@ class ScenePart(Shown):
 class SceneHanger(Shown):
     """Part that hangs from a train, such as a pendulum, the line of a weight or the weight, or that connects two
     bodies.
-
-    See Also
-    --------
-    build_scene : returns it in `Scene.hangers`.
     """
 
     kind: Literal["pendulum", "line", "weight", "rod"]
@@ -82,7 +74,7 @@ class SceneHanger(Shown):
     parts: Sequence[ScenePart] = ()
     """Turned parts in their positions in the zero pose: rod and bob, or the weight."""
     to: int | None = None
-    """Index of the body at the end of a rod, which is `point` + `length` `down` in the zero pose; otherwise None."""
+    """Index of the body at the end of a rod, at `point` + `length` * `down` in the zero pose; None for other parts."""
 
 
 # Not in every train: `SceneCoupling.slot_turn` (starting angles), heights instead of radii in the profiles of bevel
@@ -94,12 +86,7 @@ class SceneHanger(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneBody(Shown):
-    """Link of a scene as a rigid body, with the axis about which it turns.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.bodies`.
-    """
+    """Link of a scene as a rigid body, with the axis about which it turns."""
 
     id: str
     """Name of the link."""
@@ -123,7 +110,7 @@ class SceneBody(Shown):
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
-    """Starting angle of the link [rad]: as declared, or from the epoch."""
+    """Starting angle of the link [rad]: declared, or computed from the epoch."""
     role: str
     """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False
@@ -146,10 +133,6 @@ class ToothProfile(Shown):
     """Profile of one tooth of a wheel, from the middle of a tooth space to the middle of the next.
 
     The middle of the tooth is at angle 0.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.profiles`.
     """
 
     form: str
@@ -169,12 +152,7 @@ class ToothProfile(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneWheel(Shown):
-    """Wheel in a scene: its position, dimensions, teeth and declared data.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.wheels`.
-    """
+    """Wheel in a scene: its position, dimensions, teeth and declared data."""
 
     id: str
     """Name of the wheel."""
@@ -199,7 +177,7 @@ class SceneWheel(Shown):
     root: float
     """Root radius [mm]."""
     module: float
-    """Module [mm]: transverse, or the axial module of a worm."""
+    """Transverse module [mm]; for a worm, its axial module."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     cone: float
@@ -221,8 +199,8 @@ class SceneWheel(Shown):
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at the wheel's meshes; None if it is not known, as without declared
-    loads.
+    """Fraction of the input power that is lost at the wheel's meshes; None if it is not known, for example without
+    declared loads.
     """
     helix: float = 0.0
     """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right-hand
@@ -247,12 +225,7 @@ class SceneWheel(Shown):
 
 @dataclass(frozen=True, slots=True)
 class ScenePair(Shown):
-    """Gear pair of a scene: two wheels that mesh, with the equation of their speeds.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.pairs`.
-    """
+    """Gear pair of a scene: two wheels that mesh, with the equation of their speeds."""
 
     id: str
     """Name of the gear pair."""
@@ -276,12 +249,7 @@ class ScenePair(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneCoupling(Shown):
-    """Coupling of two links in a scene: a pin in a slot, or pins in round holes.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.couplings`.
-    """
+    """Coupling of two links in a scene: a pin in a slot, or pins in round holes."""
 
     id: str
     """Name of the coupling."""
@@ -345,10 +313,6 @@ class SceneShiftElement:
 class SceneWave(Shown):
     """Strain wave that deflects a flexible wheel (flexspline) into mesh with its ring (circular spline). Wheel, cup
     wall and wave generator are coaxial.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.waves`.
     """
 
     wheel: int

@@ -30,12 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ErrorTable(Result):
-    """Periodic transmission error of a gear pair or of a pin in a slot, as piecewise polynomials.
-
-    See Also
-    --------
-    Movement : contains the tables of a scene.
-    """
+    """Periodic transmission error of a gear pair or of a pin in a slot, as piecewise polynomials."""
 
     KEYS = ("pair", "period", packed_key("breaks"), packed_key("coefficients"), "uncertainty")
 
@@ -64,10 +59,6 @@ class ErrorSource(Shown):
 
     with the coefficients of the step that contains the source (`ErrorStep`). The error of the pair is delta = sense
     e(S), where e is the error table, and every body in `bodies` has this error times its weight.
-
-    See Also
-    --------
-    Movement : contains the sources of a scene.
     """
 
     pair: str
@@ -88,12 +79,7 @@ class ErrorSource(Shown):
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Step in the composition of errors, which computes the errors of some sources from the errors of earlier sources.
-
-    See Also
-    --------
-    Movement : contains the steps of a scene.
-    """
+    """Step in the composition of errors: the errors of some sources follow from the errors of earlier sources."""
 
     sources: Sequence[int]
     """Indices of the sources whose errors are computed in this step."""
@@ -113,10 +99,6 @@ class Movement(Shown):
     """Motion of a scene: the angular errors of bodies as functions of the turns of the driving link.
 
     The steps are evaluated in order, and constant offsets are then added.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.movement`.
     """
 
     kind: str
@@ -128,7 +110,7 @@ class Movement(Shown):
     why: str = ""
     """Reason why the motion has the kind `mean` or `still`; otherwise empty."""
     period: str | None = None
-    """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
+    """Exact number of turns of the driving link after which the pose repeats; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
     """Transmission-error tables; identical pairs share one table."""
     sources: Sequence[ErrorSource] = ()
@@ -155,8 +137,8 @@ def tables_and_sources(
     """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
     table.
 
-    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, a scene
-          about declared axes
+    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, and
+          a scene counts them about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     sources = []

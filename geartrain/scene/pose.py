@@ -49,12 +49,12 @@ class ScenePose:
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the exact turns of a body at a relative speed, 0 if it is None, after `turns` of the driving link."""
+    """Return the exact turns of a body at a relative speed (None counts as 0) after `turns` of the driving link."""
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
-    """Return the pose of a scene after `turns` of the driving link.
+    """Return the pose of a scene after `turns` turns of the driving link.
 
     Mean angles are exact, and errors of teeth and pins are computed from the scene's tables.
 

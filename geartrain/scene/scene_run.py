@@ -37,12 +37,7 @@ TimeRun: TypeAlias = Any
 
 @dataclass(frozen=True, slots=True)
 class LinkCourse(Result):
-    """Angle of a link as a function of time, stored as a mean speed and the deviations from uniform motion.
-
-    See Also
-    --------
-    SceneRun : contains one for each body.
-    """
+    """Angle of a link as a function of time, stored as a mean speed and the deviations from uniform motion."""
 
     KEYS = ("rate", packed_key("samples", "<u4"), packed_key("angles", "<f4"))
 
@@ -56,12 +51,7 @@ class LinkCourse(Result):
 
 @dataclass(frozen=True, slots=True)
 class SceneContact(Result):
-    """Contact of a gear pair, a pin or an escapement as a function of time.
-
-    See Also
-    --------
-    SceneRun : contains the contacts of a run.
-    """
+    """Contact of a gear pair, a pin or an escapement as a function of time."""
 
     KEYS = (
         *("name", "kind", "body", "at", "apart", "coast", "impact_rate", "hardest"),
@@ -96,12 +86,7 @@ class SceneContact(Result):
 
 @dataclass(frozen=True, slots=True)
 class SceneRun(Result):
-    """Simulated motion of a train, ready to be replayed; angles in rad, times in s.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.run`.
-    """
+    """Simulated motion of a train, ready to be replayed; angles in rad, times in s."""
 
     driven: str
     """Drive that supplies power to the train."""

@@ -39,12 +39,7 @@ FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class DialFace(Shown):
-    """Dial of a scene: a scale over which pointers turn, or a ball in a pointer.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.dials`.
-    """
+    """Dial of a scene: a scale over which pointers turn, or a ball in a pointer."""
 
     id: str
     """Name of the dial."""
@@ -86,12 +81,7 @@ class DialFace(Shown):
 
 @dataclass(frozen=True, slots=True)
 class PointerTarget(Shown):
-    """Target speed of an output, with which the speed of its pointer is compared.
-
-    See Also
-    --------
-    make_scene : returns it in `Pointer.targets`.
-    """
+    """Target speed of an output, with which the speed of its pointer is compared."""
 
     label: str
     """Name of the target speed."""
@@ -103,12 +93,7 @@ class PointerTarget(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneSetting(Shown):
-    """Angle to which a pointer is set at a date, as a polynomial of the time.
-
-    See Also
-    --------
-    make_scene : returns it in `SceneEpoch.settings`.
-    """
+    """Angle to which a pointer is set at a date, as a polynomial of the time."""
 
     pointer: int
     """Index of the pointer."""
@@ -122,12 +107,7 @@ class SceneSetting(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneEpoch(Shown):
-    """Date that corresponds to a number of turns of the driving link, and the duration of one turn.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.epoch`.
-    """
+    """Date that corresponds to a number of turns of the driving link, and the duration of one turn."""
 
     julian_day: str
     """Julian day of the date, exact [d]."""
@@ -142,23 +122,18 @@ class SceneEpoch(Shown):
     note: str
     """Note on the date, as declared."""
     settings: Sequence[SceneSetting] = ()
-    """Pointers that are set at that date; a pointer is after the pointer that sets its base."""
+    """Pointers that are set at that date. Each pointer is listed after the pointer that sets its base."""
     unset: Sequence[str] = ()
-    """Outputs on a zodiac that are not set."""
+    """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
-    """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body ->
-    longitude, perihelion (of the Moon perigee and node) [deg], eccentricity, distance [au]; empty without settings.
+    """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body -> longitude,
+    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty without settings.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class TourStop(Shown):
-    """Step of the tour of a scene.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.tour`.
-    """
+    """Step of the tour of a scene."""
 
     kind: str
     """Kind of the part: output, link, wheel, dial or coupling."""
@@ -170,12 +145,7 @@ class TourStop(Shown):
 
 @dataclass(frozen=True, slots=True)
 class Pointer(Shown):
-    """Pointer of a scene, which shows one output of the train.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.pointers`.
-    """
+    """Pointer of a scene, which shows one output of the train."""
 
     output: str
     """Name of the output."""
@@ -248,7 +218,7 @@ class Scene(Shown):
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     drive: Literal["hand", "motor", "spring", "weight"]
-    """Drive of the body of the crank: as declared, a motor for a speed in real time, otherwise a hand."""
+    """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
     fusee: Sequence[float]
     """Radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
     up: Vector
@@ -288,7 +258,7 @@ class Scene(Shown):
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link, and for a run.
+    """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
     """
     tour: Sequence[TourStop] = ()
     """Tour of the train, as declared."""

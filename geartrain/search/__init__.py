@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from geartrain.search.posterior.inference import infer_counts as infer_counts
     from geartrain.search.posterior.inference import joint_posterior as joint_posterior
     from geartrain.search.posterior.inference import most_informative_wheels as most_informative_wheels
-    from geartrain.search.posterior.posterior_report import describe_posterior as describe_posterior
     from geartrain.search.posterior.posterior_result import CountCombination as CountCombination
     from geartrain.search.posterior.posterior_result import CountProbability as CountProbability
     from geartrain.search.posterior.posterior_result import ToothCountPosterior as ToothCountPosterior
@@ -70,7 +69,6 @@ __getattr__, __all__ = public_names(
         "orrery.orrery_search": "Orrery find_orrery",
         "posterior.corner_plot": "counts_figure",
         "posterior.inference": "infer_counts joint_posterior most_informative_wheels",
-        "posterior.posterior_report": "describe_posterior",
         "posterior.posterior_result": "CountCombination CountProbability ToothCountPosterior WheelPosterior",
         "ratio.stage_problem": "StageConstraints",
         "ratio.stage_search": "StageFindings find_stages",

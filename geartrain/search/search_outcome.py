@@ -101,7 +101,7 @@ class GearStages(CountSizes, Result):
     error: Fraction
     """Relative error: `ratio` divided by the magnitude of the requested ratio, minus 1; exact."""
     pairs: tuple[tuple[int, int], ...]
-    """Tooth counts (numerator, denominator) of each stage in the best pairing."""
+    """Tooth counts (numerator, denominator) of each stage, in the feasible pairing with the most coprime stages."""
 
     def _summary(self) -> str:
         teeth = " ".join(f"{top}/{beneath}" for top, beneath in self.pairs)

@@ -50,7 +50,7 @@ class Approximant(Result):
 
 @dataclass(frozen=True, slots=True)
 class Approximants(Tabular, Result):
-    """Fractions that approximate a ratio: the path of the Stern-Brocot tree to it."""
+    """Fractions that approximate a ratio: those on the path to the ratio in the Stern-Brocot tree."""
 
     ROWS = "search.tooth_numbers_report:approximant_rows"
     ROW = "Approximant"

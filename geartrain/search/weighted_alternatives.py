@@ -16,9 +16,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import accumulate
 from math import log2, prod
-from random import Random
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -101,15 +99,6 @@ class WeightedAlternatives(Generic[Table]):
                 beside = prod(inside[:at] + inside[at + 1 :], start=around * way.weight)
                 outside[part] = outside[part] + sums_by(rows, beside, len(self._inside[part]))
         return found
-
-
-def draw_index(weights: list[int], probability: Random) -> int:
-    """Draw an index with a probability proportional to its integer weight, without rounding. One weight must be
-    positive.
-    """
-    # integers, because floats would round the probabilities of large weights
-    left = probability.randrange(sum(weights))
-    return next(at for at, reached in enumerate(accumulate(weights)) if left < reached)
 
 
 def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:

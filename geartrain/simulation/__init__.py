@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from geartrain.simulation.contacts.separation_rate import find_tooth_impacts as find_tooth_impacts
     from geartrain.simulation.fmu.co_simulation import CoSimulationCase as CoSimulationCase
     from geartrain.simulation.fmu.co_simulation import fmu_file as fmu_file
-    from geartrain.simulation.strength.strength_report import StrengthReport as StrengthReport
-    from geartrain.simulation.strength.strength_report import collect_strength_report as collect_strength_report
-    from geartrain.simulation.strength.strength_report import describe_strength as describe_strength
     from geartrain.simulation.strength.strength_results import ArborStrength as ArborStrength
     from geartrain.simulation.strength.strength_results import FlankStrength as FlankStrength
     from geartrain.simulation.strength.strength_results import FlankWear as FlankWear
@@ -39,9 +36,6 @@ if TYPE_CHECKING:
     from geartrain.simulation.strength.strength_results import TrainStrength as TrainStrength
     from geartrain.simulation.strength.strength_results import WheelStrength as WheelStrength
     from geartrain.simulation.time.stepwise_simulation import Simulation as Simulation
-    from geartrain.simulation.time.time_report import TimeReport as TimeReport
-    from geartrain.simulation.time.time_report import collect_time_report as collect_time_report
-    from geartrain.simulation.time.time_report import describe_time_run as describe_time_run
     from geartrain.simulation.time.time_run import ContactInTime as ContactInTime
     from geartrain.simulation.time.time_run import ConvergedFigure as ConvergedFigure
     from geartrain.simulation.time.time_run import EnergyAccount as EnergyAccount
@@ -49,7 +43,6 @@ if TYPE_CHECKING:
     from geartrain.simulation.time.time_run import OutputDeviation as OutputDeviation
     from geartrain.simulation.time.time_run import SpectrumPeak as SpectrumPeak
     from geartrain.simulation.time.time_run import TimeRun as TimeRun
-    from geartrain.simulation.time.time_run_plot import time_run_figure as time_run_figure
     from geartrain.simulation.time.train_in_time import VibrationModes as VibrationModes
     from geartrain.simulation.time.train_in_time import find_vibration_modes as find_vibration_modes
 
@@ -59,13 +52,10 @@ __getattr__, __all__ = public_names(
         "contacts.link_inertia": "LinkInertia find_link_inertias",
         "contacts.separation_rate": "PairSeparation SeparationRates find_separation find_tooth_impacts",
         "fmu.co_simulation": "CoSimulationCase fmu_file",
-        "strength.strength_report": "StrengthReport collect_strength_report describe_strength",
         "strength.strength_results": "ArborStrength FlankStrength FlankWear PairStrength PinContact PointContact "
         "TrainStrength WheelStrength",
         "time.stepwise_simulation": "Simulation",
-        "time.time_report": "TimeReport collect_time_report describe_time_run",
         "time.time_run": "ContactInTime ConvergedFigure EnergyAccount ImpactList OutputDeviation SpectrumPeak TimeRun",
-        "time.time_run_plot": "time_run_figure",
         "time.train_in_time": "VibrationModes find_vibration_modes",
     },
 )

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from geartrain.spherical.configuration import Configuration as Configuration
     from geartrain.spherical.configuration import to_train as to_train
     from geartrain.spherical.gear_sizes import SphereSizing as SphereSizing
-    from geartrain.spherical.gear_sizes import one_pitch as one_pitch
     from geartrain.spherical.gear_sizes import size_gears as size_gears
     from geartrain.spherical.gear_sphere import GearSphere as GearSphere
     from geartrain.spherical.graph_set import GraphSet as GraphSet
@@ -54,7 +53,7 @@ __getattr__, __all__ = public_names(
     {
         "assembly": "spherical_divisibility_rule spherical_phasing",
         "configuration": "Configuration to_train",
-        "gear_sizes": "SphereSizing one_pitch size_gears",
+        "gear_sizes": "SphereSizing size_gears",
         "gear_sphere": "GearSphere",
         "graph_set": "GraphSet from_graph",
         "polyhedra": "Polyhedron polyhedron solid solid_names",

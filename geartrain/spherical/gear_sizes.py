@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.spherical.configuration import (
     Configuration,
@@ -60,52 +60,6 @@ module.
 """
 _SAME = 1e-11
 """Relative difference below which pitches are equal: the rounding of axes in floats."""
-
-
-def one_pitch(configuration: Configuration) -> float:
-    """Return half the module, lambda, that all meshes have in common for the chosen tooth numbers, by equation (1)
-    of docs/sphere.md.
-
-    Parameters
-    ----------
-    configuration : Configuration
-        Set with a tooth number for every kind.
-
-    Returns
-    -------
-    float
-        Half the common module [radii of the sphere].
-
-    Raises
-    ------
-    RangeError
-        If the meshes require different pitches. The message cites the theorem if no tooth numbers give one pitch
-        (docs/sphere.md, section 4).
-    QuestionError
-        If a tooth number is missing, or no gears mesh.
-
-    Examples
-    --------
-    >>> from geartrain.spherical import from_polyhedron
-    >>> round(one_pitch(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12})), 10)
-    0.0199553931
-    """
-    sizing = size_gears(configuration)
-    if sizing.exact:
-        return sizing.pitch
-    minimum, most = int(np.argmin(sizing.pitches)), int(np.argmax(sizing.pitches))
-    raise RangeError(
-        Problem(
-            f"the meshes do not have the same pitch: {sizing.label(most)} requires {sizing.pitches[most]:.12g} and "
-            f"{sizing.label(minimum)} requires {sizing.pitches[minimum]:.12g}, "
-            f"a mismatch of {100 * sizing.mismatch:.4g} %",
-            impossibility_theorem(configuration)
-            or "the pitch of each kind of mesh is determined by its own axes and tooth numbers",
-            "size_gears() gives operating cones and pressure angles of involutes on one base pitch; "
-            "suggest_tooth_counts() finds better teeth; from_graph() or idlers on the edges give an exact pitch with "
-            "other axes",
-        )
-    )
 
 
 def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:

@@ -26,7 +26,7 @@ _SPREAD = Key("pitch_spread", "spread")
 
 @dataclass(frozen=True)
 class GearSphere(Result):
-    """Set of gears on a sphere, with its analyses. Each analysis is computed when its property is first read.
+    """Set of gears on a sphere, with its analyses. Each analysis is computed when its property is first accessed.
 
     Examples
     --------

@@ -128,8 +128,9 @@ def _ranges(
     if count > _MOST_SETS:
         raise RangeError(
             Problem(
-                f"the search would examine {count:.2g} tooth sets",
-                f"{len(kinds)} kinds of gear have up to {most} teeth, and the maximum is {_MOST_SETS:.2g} sets",
+                f"the search would examine {count:.2g} combinations of tooth numbers",
+                f"{len(kinds)} kinds of gear have up to {most} teeth, and at most {_MOST_SETS:.2g} combinations "
+                "are examined",
                 f"lower `most`, or fix the teeth of some kinds: fixed={{{kinds[0]!r}: 20}}",
             )
         )
@@ -247,7 +248,7 @@ class ToothCountSuggestions(Result):
 
     def _summary(self) -> str:
         best = f", best {self.found[0]}" if self.found else ""
-        return f"{len(self.found)} of {self.considered} tooth sets{best}"
+        return f"{len(self.found)} of {self.considered} combinations of tooth numbers{best}"
 
     def __len__(self) -> int:
         return len(self.found)

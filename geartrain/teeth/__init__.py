@@ -12,7 +12,7 @@ uniform_stress, uniform_temperature, least_friction
                               conjugate forms that are optimal (calculus of variations)
 circular_arc, pin_ring        clock teeth of BS 978; cycloidal reducers
 triangular                    triangular teeth of antiquity
-table, given_transmission     transmission errors given by a table, by runout, or by an object of Python
+table, given_transmission     transmission errors given by a table, by runout, or by a Python object
 eccentric_wheels              runout of involute wheels
 standard_teeth                involutes for pairs that declare no form
 

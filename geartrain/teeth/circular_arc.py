@@ -9,8 +9,8 @@ with k = 1 + 2 u,
 
 The tip is 0.95 f_a modules above the pitch circle, and the arc has a radius of 1.40 f_a modules. The arc passes through
 the end of the tooth's thickness on the pitch circle and through the tip on the centre line of the tooth. The flank
-below is the tangent to the arc from the axis of the wheel. The leaves of a pinion are thinner than half a pitch, the
-teeth of a wheel exactly half a pitch thick.
+below is the tangent to the arc from the axis of the wheel. The leaves of a pinion are thinner than half a pitch; the
+teeth of a wheel are exactly half a pitch thick.
 
 Sources: the iteration is H. Sparks's, "Designing Cycloidal Gears" (2013), who found it to agree with the standard's
 tables. The tables of f = 0.95 f_a and of the radius for the wheel, the three profiles of leaves and the tangent flank
@@ -158,7 +158,7 @@ class CircularArc(ToothForm):
         z1, z2 : int
             Numbers of teeth of the first and of the second wheel, 5 to 10000.
         module : float, optional
-            Module [m], for lengths with a unit.
+            Module [m], required for lengths that are declared with a unit.
 
         Returns
         -------
@@ -215,7 +215,7 @@ class CircularArc(ToothForm):
         z1, z2 : int
             Numbers of teeth of both wheels.
         module : float, optional
-            Module [m], for a distance with a unit.
+            Module [m], required for a distance that is declared with a unit.
 
         Returns
         -------
@@ -242,7 +242,7 @@ class CircularArc(ToothForm):
         direction : {1, -1}
             Direction of rotation; with -1 the coast flanks drive.
         module : float, optional
-            Module [m], for lengths with a unit.
+            Module [m], required for lengths that are declared with a unit.
 
         Returns
         -------

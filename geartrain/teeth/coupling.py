@@ -91,7 +91,7 @@ def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRo
 
 
 class Coupling(BaseModel):
-    """Coupling of two or more links as declared, base class of all kinds."""
+    """Declared coupling of two or more links; base class of all kinds of couplings."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
@@ -142,7 +142,7 @@ class Coupling(BaseModel):
 
     @property
     def name(self) -> str:
-        """Declared id; default the names of its first two ends, joined by `~`."""
+        """Declared id; by default the names of its first two ends, joined by `~`."""
         return self.id or "~".join(self.ends[:2])
 
     @property

@@ -61,7 +61,7 @@ class CycloidalDisc:
     deflection: float | None = None
     """Deflection of one pin under the whole force on the pitch circle of the disc [module].
 
-    None: all pins that push are loaded in proportion to their lever arms, as if there were no clearance.
+    If it is None, all pins that push are loaded in proportion to their lever arms, as if there were no clearance.
     """
 
     @property
@@ -275,8 +275,8 @@ class CycloidalDisc:
 class DiscTransmission(ExactRatio, ToothTransmission):
     """Transmission function of a disc in its ring of pins, in the frame of the eccentric, with the exact ratio.
 
-    `driver` is 1 if the disc drives, 2 if the ring drives; `direction` -1 reverses the motion, in which the coast
-    flanks drive.
+    `driver` is 1 if the disc drives, 2 if the ring drives; `direction` -1 reverses the motion, so that the coast flanks
+    are in contact.
     """
 
     def __init__(self, disc: CycloidalDisc, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -361,7 +361,7 @@ class DiscMesh(GearMesh):
         return PairSize(1.0, 0.5, 1.0)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return a lobe if the wheel is the disc, a pin if it is the ring."""
+        """Return a lobe if the wheel is the disc, or a pin if it is the ring."""
         del scale
         return self.transmission.disc.lobe(tolerance) if wheel == self.gears[0] else self.transmission.disc.pin_tooth()
 

@@ -184,9 +184,9 @@ class BuckinghamFriction(FrictionLaw):
 class DokosFriction(FrictionLaw):
     """Friction of dry steel on dry steel as a function of the sliding speed.
 
-    The coefficient falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, and is constant below and above
-    these speeds. Smith prints only both end values and the ratio of speeds ("gradually"). Linear interpolation in log
-    v is an assumption, and so is any value of `slowest`.
+    The coefficient falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, and is constant below and above these
+    speeds. Smith gives only the two end values and the ratio of the speeds, and states that the coefficient falls
+    "gradually". Linear interpolation in log v and the value of `slowest` are assumptions.
 
     Examples
     --------
@@ -307,7 +307,7 @@ class PairFriction(Shown):
 
     Examples
     --------
-    Teeth that slide at a fifth of the pitch line's 50 mm/s:
+    Teeth that slide at one fifth of the pitch-line speed, which is 50 mm/s:
 
     >>> from geartrain.teeth import StribeckFriction
     >>> law = StribeckFriction(law="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")

@@ -286,8 +286,8 @@ class GearMesh(Shown, ABC):
 
     @property
     def cut_sizes(self) -> Any:
-        """Nominal `TriangularSizes`, the mean values of random manufacturing errors. Raises `RangeError` for other
-        tooth forms.
+        """Nominal `TriangularSizes`, about which random manufacturing errors vary. Raises `RangeError` for other tooth
+        forms.
         """
         why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
@@ -430,8 +430,8 @@ class GearMesh(Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Meshes to examine, as a tuple: this mesh; if the driver is not determined, the mesh with each of the two
-        wheels driving.
+        """Meshes to examine: this mesh, or, if the driver is not determined, one mesh for each of the two possible
+        drivers.
         """
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 

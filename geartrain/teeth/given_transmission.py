@@ -1,5 +1,5 @@
 """Gear pairs whose transmission function is given instead of the shape of their teeth: as a table of transmission
-errors, or as an object of Python.
+errors, or as a Python object.
 """
 
 from __future__ import annotations
@@ -234,7 +234,7 @@ class GivenMesh(GearMesh):
 
 
 def given_mesh(wheels: MeshingWheels, form: NamedForm, transmission: GivenTransmission) -> GivenMesh:
-    """Return the mesh of a pair with a given transmission function, its first wheel driving.
+    """Return the mesh of a pair with a given transmission function, with its first wheel driving.
 
     Raises `GearTrainError` if the speed ratio is not above 0 everywhere, or if friction is declared on the pair.
     """
@@ -260,7 +260,7 @@ def given_mesh(wheels: MeshingWheels, form: NamedForm, transmission: GivenTransm
 
 
 def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> PeriodicFunction:
-    """Return the error of a transmission function of Python as a periodic function.
+    """Return the error of a transmission function written in Python as a periodic function.
 
     counts   tooth counts of the wheel to whose angle it refers, and of the other wheel
 
@@ -311,7 +311,7 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
 
 
 def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
-    """Return the efficiency of a transmission function of Python, equal for both driving wheels; None without losses.
+    """Return the efficiency of a transmission function given in Python, for both driving wheels; None without losses.
 
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """

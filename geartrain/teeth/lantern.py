@@ -32,7 +32,7 @@ class Lantern(ConjugateToothForm):
 
     See Also
     --------
-    geartrain.teeth.Cycloidal : teeth of the mate in the limit of pins without a diameter.
+    geartrain.teeth.Cycloidal : teeth of the mate in the limit of zero pin diameter.
 
     Examples
     --------

@@ -122,12 +122,12 @@ class SlidingEfficiency(Result):
     transmission function.
 
     The torques on both sides cannot be constant at the same time. `mean` is the efficiency at constant torque of the
-    driver, `at_constant_load` the efficiency at constant torque of the driven side. All efficiencies are None if
+    driver; `at_constant_load` is the efficiency at constant torque of the driven side. All efficiencies are None if
     friction locks the pair.
 
     See Also
     --------
-    geartrain.teeth.GearMesh.efficiency : the efficiency of a pair of a train, either wheel driving.
+    geartrain.teeth.GearMesh.efficiency : the efficiency of a pair of a train, with either wheel as driver.
 
     Examples
     --------

@@ -87,7 +87,7 @@ class PinRing(ToothForm):
         lobes : int
             Number of lobes of the disc, 3 or more.
         module : float, optional
-            Module [m], for lengths with a unit.
+            Module [m], required for lengths that are declared with a unit.
 
         Returns
         -------
@@ -155,7 +155,7 @@ class PinRing(ToothForm):
         driver : {1, 2}
             Number of the driving wheel, in the reference frame of the eccentric.
         module : float, optional
-            Module [m], for lengths with a unit.
+            Module [m], required for lengths that are declared with a unit.
 
         Returns
         -------
@@ -195,7 +195,7 @@ class PinRing(ToothForm):
 
     def own_backlash(self, pair: str) -> Problem | None:
         """Return the reason why the backlash of the manufacturing options does not apply: a declared clearance above 0;
-        None without one.
+        None if no such clearance is declared.
         """
         return super().own_backlash(pair) if self.clearance.value else None
 

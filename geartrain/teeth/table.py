@@ -50,7 +50,7 @@ Position = Annotated[Quantity, Dimension("angle", plain=True)]
 
 
 class PeriodicPoints(BaseModel):
-    """Points of a periodic quantity of a gear pair, base class."""
+    """Base class of periodic quantities of a gear pair that are given by points."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
@@ -161,8 +161,8 @@ class EfficiencyTable(PeriodicPoints):
 
 
 class LiveFunction:
-    """Transmission function of Python in a tooth form. A declaration as plain data contains its name, which can be read
-    only while the object exists.
+    """Transmission function written in Python, as part of a tooth form. A declaration as plain data contains its name,
+    which can be read only while the object exists.
     """
 
     _living: ClassVar[WeakValueDictionary[str, LiveFunction]] = WeakValueDictionary()
@@ -178,7 +178,7 @@ class LiveFunction:
 
     @classmethod
     def read(cls, raw: object) -> LiveFunction:
-        """Return a function given as an object of Python, or by its name in plain data."""
+        """Return a function given as a Python object, or by its name in plain data."""
         from geartrain.teeth.given_transmission import TransmissionProtocol
 
         found = cls._living.get(raw, raw) if isinstance(raw, str) else raw
@@ -208,16 +208,16 @@ class _OneOrSeveral:
 class GivenError(ToothForm):
     """Given transmission error of a gear pair, from a measurement or a calculation, instead of the shape of its teeth.
 
-    Errors are added. They refer to the angle of the wheel `driver`. If the other wheel drives, its transmission
-    function is the inverse function.
+    All given errors are added. They are functions of the angle of the wheel `driver`. If the other wheel drives, its
+    transmission function is the inverse function.
 
     See Also
     --------
-    geartrain.GearTrain.with_tooth_form : also accepts a transmission function of Python.
+    geartrain.GearTrain.with_tooth_form : also accepts a transmission function written in Python.
 
     Examples
     --------
-    A pinion of 20 teeth with its centre 0.2 modules off its axis drives a wheel of 60.
+    A pinion of 20 teeth, whose centre is 0.2 modules off its axis, drives a wheel of 60 teeth.
 
     >>> from math import degrees
     >>> runout = GivenError(form="table", eccentricity=["0.2", "0"])

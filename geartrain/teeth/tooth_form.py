@@ -157,12 +157,12 @@ class ToothForm(BaseModel, ABC):
         wheels : MeshingWheels
             The two wheels as declared.
         shaft_angle : callable
-            Returns the shaft angle [rad], None for parallel axes. It is called only if the form needs it.
+            Function that returns the shaft angle [rad], or None for parallel axes. It is called only if it is needed.
 
         Returns
         -------
         GearMesh or None
-            None for teeth that add nothing to the ratio.
+            Mesh; None for teeth that are completely described by the ratio.
 
         Raises
         ------

@@ -126,7 +126,7 @@ class TransmissionFunction(Shown, ABC):
 
     Examples
     --------
-    A pin at 2 from its axis in a slot whose axis is 1 away has the maximum error asin(1/2).
+    A pin at a distance of 2 from its axis drives a slot. The axes are 1 apart, so that the maximum error is asin(1/2).
 
     >>> from math import degrees, pi
     >>> from geartrain.teeth import PinToSlotTransmission
@@ -143,13 +143,13 @@ class TransmissionFunction(Shown, ABC):
     pitch_count: int = 1
     """Number of pitches of the driver in one period of the transmission function of a gear pair."""
     waves: int = 1
-    """Number of periods of the fastest component of the transmission error between kinks, in one period."""
+    """Number of oscillations per period of the fastest component of the transmission error between kinks."""
     slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
     dwell: Fraction = Fraction(0)
-    """Fraction of the period during which the driven side is at rest; 1 for steps at once."""
+    """Fraction of the period during which the driven side is at rest; 1 if it moves in instantaneous steps."""
     at_once: bool = False
-    """True if the driven side moves at once, so that the transmission error is discontinuous."""
+    """True if the driven side moves in instantaneous steps, so that the transmission error is discontinuous."""
 
     @property
     def pitch(self) -> float:

@@ -314,7 +314,7 @@ class Train(Declared):
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
         """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. If several parts have
-        the same name, the first of these kinds.
+        the same name, the kind that is first in this list is used.
         """
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)
@@ -669,8 +669,8 @@ class Train(Declared):
 
     @property
     def travel_unit(self) -> str:
-        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm` per turn without units
-        of speeds.
+        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm` (per turn) if speeds
+        have no unit.
         """
         name = self.unit_name.replace("rpm", "turn/min")
         return re.sub("^turns?", "mm", name) or "mm"
@@ -692,7 +692,7 @@ class Train(Declared):
 
     @property
     def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
-        """The train and its states with their paths: both have inputs, loads, fixed links, locks and outputs."""
+        """Train and its states with their paths; each can declare inputs, loads, fixed links, locks and outputs."""
         yield (), self
         for name, state in self.states.items():
             yield ("states", name), state

@@ -17,13 +17,13 @@ class FuseeRun(NamedTuple):
     """Torque of a spring at its fusee over the whole run, in SI units."""
 
     first: float
-    """Torque with the spring fully wound [N m]; `last` at the end of the run."""
+    """Torque with the spring fully wound [N m]; `last` is the torque at the end of the run."""
     last: float
     maximum: float
-    """Maximum torque [N m], after `maximum_at` turns of the fusee."""
+    """Maximum torque [N m], reached after `maximum_at` turns of the fusee."""
     maximum_at: float
     minimum: float
-    """Minimum torque [N m], after `minimum_at` turns of the fusee."""
+    """Minimum torque [N m], reached after `minimum_at` turns of the fusee."""
     minimum_at: float
     mean: float
     """Mean torque over the angle of the fusee [N m]."""
@@ -32,13 +32,13 @@ class FuseeRun(NamedTuple):
     chain: float
     """Length of the chain that passes from the fusee to the barrel [m]."""
     left: float
-    """Turns of winding left on the spring at the end."""
+    """Turns by which the spring is still wound at the end of the run."""
     energy: float
-    """Energy that the spring gives [J]."""
+    """Energy that the spring delivers over the run [J]."""
 
 
 class ConicalSection(NamedTuple):
-    """Section of a fusee whose radius varies evenly with its angle."""
+    """Section of a fusee whose radius varies linearly with its angle."""
 
     start: float
     """Angle of the fusee at the beginning of the section [rad]; `width` is the angle of the section [rad]."""
@@ -84,9 +84,9 @@ class FuseeSpring(NamedTuple):
     turns: float
     """Turns of the fusee over the run."""
     constant: float | None
-    """Constant torque of the fusee [N m]; None if it is given by its radii."""
+    """Constant torque of the fusee [N m]; None if the fusee is given by its radii."""
     radii: tuple[float, ...] = ()
-    """Radii of the fusee at equal angles over the run [m]."""
+    """Radii of the fusee at equally spaced angles over the run [m]."""
 
     @property
     def angle(self) -> float:
@@ -112,7 +112,7 @@ class FuseeSpring(NamedTuple):
         return wound, self.constant * self.barrel / (self.stiffness * wound) if wound else inf
 
     def torque(self, phi: float) -> float:
-        """Return the torque at the fusee after it has turned by phi [rad] in its run [N m]."""
+        """Return the torque at the fusee [N m] after it has turned by phi [rad]."""
         if self.constant is not None:
             return self.constant
         wound, radius = self.state(phi)

@@ -144,7 +144,7 @@ def _coupling_name(node: YamlNode) -> str:
 
 
 def _coupling_ends(node: YamlNode) -> list[str]:
-    """Return the names of the links or wheels that a coupling joins, the first one driving."""
+    """Return the names of the links or wheels that a coupling joins, the driving one first."""
     given = (node.mapping[key] for key in COUPLING_ENDS if key in node.mapping)
     return [name for each in given for name in (each.mapping or texts(each))]
 

@@ -170,8 +170,8 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a single
-    string instead of a mapping is their style.
+    """Numerals at the lines between the divisions of a dial; the last numeral is at the zero mark. In a declaration, a
+    single string instead of a mapping is their style.
 
     See Also
     --------
@@ -326,7 +326,7 @@ DEPTH = 0.26
 """Depth of the engraving of a circle, relative to the radius of the dial."""
 
 Place = tuple[MeasuredLength, MeasuredLength]
-"""Point of a face as seen by its reader: to the right and upwards from the origin of the axis positions."""
+"""Position of a point on a face, to the right and upwards for its reader, from the origin of the axis positions."""
 
 
 class FacePlate(Declared):
@@ -384,7 +384,7 @@ class Dial(Graduation):
 
     @property
     def circle(self) -> tuple[float, float, float] | None:
-        """Centre (right, up) and radius [mm] on its face; None if one of them is not declared."""
+        """Centre (right, up) and radius of the dial on its face [mm]; None if one of these values is not declared."""
         if self.centre is None or self.diameter is None:
             return None
         x, y = (float(millimetres(each)) for each in self.centre)
@@ -674,6 +674,11 @@ class Output(Declared):
         "in these positions; an output on a zodiac without such an angle is not set to the sky",
     )
     note: str | None = Field(None, description="Remark for readers")
+
+    @property
+    def is_pointer(self) -> bool:
+        """True if the output has a dial, a target or a published figure."""
+        return bool(self.dial or self.published or self.targets)
 
     def links(self, name: str, frame: str) -> tuple[str, str]:
         """Return the link that turns, and the link to which its motion is relative.

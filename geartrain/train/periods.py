@@ -191,7 +191,7 @@ class Period:
     kind: Literal["period", "speed", "count"]
     """Kind of the value: a period [d], a speed [turns per year], or a count."""
     value: Fraction
-    """Value as a fraction as given by the source, or as the printed decimal number."""
+    """Exact value: a fraction as given by the source, or the decimal number as printed."""
     what: str
     """Subject of the motion or count; for a period that is used as a unit, its plain name. It may be empty."""
     source: str

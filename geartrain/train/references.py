@@ -126,7 +126,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
 
 
 def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem if a printed period needs a unit of time, or the length of its years, that the train has not."""
+    """Yield a problem if a printed period needs a unit of time, or a length of its years, that the train lacks."""
     printed = published.value
     if not isinstance(printed, PrintedPeriod):
         return
@@ -507,7 +507,7 @@ def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Ite
 
 
 def _dials(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each two dials of a face whose engravings overlap; a dial may be inside another scale."""
+    """Yield a problem for each pair of dials of a face whose engravings overlap; a dial may be inside another scale."""
     for (name, dial), (other, mate) in combinations(train.dials.items(), 2):
         one, two = dial.circle, mate.circle
         if one is None or two is None or (dial.face == "back") != (mate.face == "back"):

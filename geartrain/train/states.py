@@ -255,7 +255,7 @@ class Drive(Declared):
         """Constant torque of a weight, mass times gravity times its descent per radian, or of a spring at its equalised
         fusee [N m]; None for other drives.
 
-        For the link of the weight itself it is the torque equivalent to the force, see `as_torque`.
+        For a link that represents the weight itself, it is the torque equivalent to the force; see `as_torque`.
         """
         if self.spring is not None and self.spring.fusee is not None and self.spring.fusee.torque is not None:
             return self.spring.fusee.torque.si
@@ -433,7 +433,7 @@ class Clutch(Declared):
 
     @property
     def senses(self) -> frozenset[int]:
-        """Signs of the torques that it can exert on the last of `links`: 1, -1 or both."""
+        """Signs of the torques that the clutch can exert on the last of `links`: 1, -1 or both."""
         return frozenset((1, -1)) if self.one_way is None else frozenset((1 if self.one_way == "forward" else -1,))
 
 
@@ -586,7 +586,7 @@ class StateCase(Shown):
     locks: tuple[tuple[str, str], ...]
     """Pairs of links that are locked together."""
     outputs: Mapping[str, Output]
-    """Required outputs of this state by name."""
+    """Outputs in this state by name."""
     loc: Loc
     """Path of the keys that declare the inputs."""
     engaged: tuple[str, ...]

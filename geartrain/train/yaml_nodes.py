@@ -205,7 +205,7 @@ class _Reader:
         if not isinstance(key.value, str):
             text = "null" if key.value is None else "a list or mapping"
             self.problems.append(
-                Problem(f"{text} is used as a key", "keys are names", "quote it, or give a name", key.place)
+                Problem(f"{text} is used as a key", "keys must be strings", "quote it, or give a name", key.place)
             )
             return
         if key.value in mapping.value:

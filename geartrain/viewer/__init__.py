@@ -7,6 +7,6 @@ the page save pictures and films.
 
 from __future__ import annotations
 
-from geartrain.viewer.viewer_page import EmbeddedPage, frame_of, page, train_page
+from geartrain.viewer.viewer_page import page
 
-__all__ = ["EmbeddedPage", "frame_of", "page", "train_page"]
+__all__ = ["page"]

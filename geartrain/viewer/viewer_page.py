@@ -84,40 +84,14 @@ def page(
 
 
 def train_page(train: GearTrain, state: str | None = None) -> str:
-    """Build the HTML page of one train in one state, or with a choice of all states.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train to show.
-    state : str, optional
-        A declared state; by default all states can be selected.
-
-    Returns
-    -------
-    str
-        HTML document, as returned by `page`.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> "sun fixed" in train_page(geartrain.load("planetary"))
-    True
-    """
+    """Build the HTML page of one train in one state, or with a choice of all states."""
     states = (state,) if state is not None else train.states or (None,)
     return page([build_scene(train, each, formulas=True) for each in states])
 
 
 @dataclass(frozen=True)
 class EmbeddedPage:
-    """Animated page of a train that a notebook displays inside a frame.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> "<iframe" in EmbeddedPage(geartrain.load("worm"))._repr_html_()
-    True
-    """
+    """Animated page of a train that a notebook displays inside a frame."""
 
     train: GearTrain
     """Train that the page shows."""
@@ -134,27 +108,7 @@ class EmbeddedPage:
 
 
 def frame_of(address: str, title: str, height: int = 480) -> str:
-    """Return an HTML `iframe` element that shows the page of a train inside another page.
-
-    Parameters
-    ----------
-    address : str
-        URL of the page, relative to the page that contains the frame.
-    title : str
-        Description of the content for screen readers.
-    height : int
-        Height of the frame [px].
-
-    Returns
-    -------
-    str
-        An `iframe` element.
-
-    Examples
-    --------
-    >>> frame_of("worm.html", "A worm")
-    '<iframe src="worm.html" title="A worm" style="width:100%;height:480px;border:0" loading="lazy"></iframe>'
-    """
+    """Return an HTML `iframe` element that shows the page of a train inside another page."""
     style = f"width:100%;height:{height}px;border:0"
     return f'<iframe src="{escape(quote(address))}" title="{escape(title)}" style="{style}" loading="lazy"></iframe>'
 

@@ -16,8 +16,6 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.workshop.budget.budget_bars import budget_figure as budget_figure
-    from geartrain.workshop.budget.budget_report import describe_budget as describe_budget
     from geartrain.workshop.budget.crank_load import CrankLoad as CrankLoad
     from geartrain.workshop.budget.crank_load import WeightDrive as WeightDrive
     from geartrain.workshop.budget.pointer_budget import BudgetCause as BudgetCause
@@ -27,15 +25,11 @@ if TYPE_CHECKING:
     from geartrain.workshop.budget.train_budget import BudgetQuestion as BudgetQuestion
     from geartrain.workshop.budget.train_budget import find_budget as find_budget
     from geartrain.workshop.cutting.declared_errors import read_error_overrides as read_error_overrides
-    from geartrain.workshop.export.assembly_guide import AssemblyStep as AssemblyStep
-    from geartrain.workshop.export.assembly_guide import assembly_steps as assembly_steps
     from geartrain.workshop.export.file_set import ExportFile as ExportFile
     from geartrain.workshop.export.file_set import export_files as export_files
     from geartrain.workshop.export.file_set import notices as notices
     from geartrain.workshop.export.file_set import train_file as train_file
     from geartrain.workshop.export.file_set import wheel_file as wheel_file
-    from geartrain.workshop.export.parts_list import ListedPart as ListedPart
-    from geartrain.workshop.export.parts_list import parts_list as parts_list
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
     from geartrain.workshop.monte_carlo.clearance_study import jamming_map as jamming_map
     from geartrain.workshop.monte_carlo.friction_trials import FrictionPlan as FrictionPlan
@@ -43,8 +37,6 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.friction_trials import FrictionTrials as FrictionTrials
     from geartrain.workshop.monte_carlo.friction_trials import TrialFigure as TrialFigure
     from geartrain.workshop.monte_carlo.friction_trials import try_frictions as try_frictions
-    from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
-    from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult as MonteCarloResult
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices as SobolIndices
     from geartrain.workshop.monte_carlo.sobol_indices import find_sobol_indices as find_sobol_indices
@@ -63,8 +55,6 @@ if TYPE_CHECKING:
     from geartrain.workshop.sizes.size_design import ToothSizes as ToothSizes
     from geartrain.workshop.sizes.size_search import PairTrials as PairTrials
     from geartrain.workshop.sizes.size_search import ProbabilityLimit as ProbabilityLimit
-    from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
-    from geartrain.workshop.sizes.tooth_sizes_plot import train_sizes_figure as train_sizes_figure
     from geartrain.workshop.sizes.train_size_search import BestTrainSizes as BestTrainSizes
     from geartrain.workshop.sizes.train_size_search import PairSizes as PairSizes
     from geartrain.workshop.sizes.train_size_search import find_train_sizes as find_train_sizes
@@ -72,19 +62,13 @@ if TYPE_CHECKING:
 __getattr__, __all__ = public_names(
     __name__,
     {
-        "budget.budget_bars": "budget_figure",
-        "budget.budget_report": "describe_budget",
         "budget.crank_load": "CrankLoad WeightDrive",
         "budget.pointer_budget": "BudgetCause PointerBudget RatioDrift TrainBudget",
         "budget.train_budget": "BudgetQuestion find_budget",
         "cutting.declared_errors": "read_error_overrides",
-        "export.assembly_guide": "AssemblyStep assembly_steps",
         "export.file_set": "ExportFile export_files notices train_file wheel_file",
-        "export.parts_list": "ListedPart parts_list",
         "monte_carlo.clearance_study": "ClearanceCase jamming_map",
         "monte_carlo.friction_trials": "FrictionPlan FrictionSpread FrictionTrials TrialFigure try_frictions",
-        "monte_carlo.monte_carlo_plots": "monte_carlo_figure",
-        "monte_carlo.monte_carlo_report": "describe_monte_carlo",
         "monte_carlo.monte_carlo_result": "MonteCarloResult",
         "monte_carlo.sobol_indices": "SobolIndices find_sobol_indices",
         "monte_carlo.trial_plan": "TrialPlan find_trial_plan",
@@ -93,7 +77,6 @@ __getattr__, __all__ = public_names(
         "sizes.best_sizes": "BestToothSizes OutlineAgreement find_tooth_sizes",
         "sizes.size_design": "SizeLimit ToothSizes",
         "sizes.size_search": "PairTrials ProbabilityLimit",
-        "sizes.tooth_sizes_plot": "tooth_sizes_figure train_sizes_figure",
         "sizes.train_size_search": "BestTrainSizes PairSizes find_train_sizes",
     },
 )

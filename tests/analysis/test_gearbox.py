@@ -14,7 +14,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.analysis import find_gears
 from geartrain.errors import GearTrainError
-from geartrain.report import describe_gearbox
+from geartrain.report.gearbox_report import describe_gearbox
 from geartrain.train import State
 
 PUBLISHED = {

@@ -15,8 +15,9 @@ from viewing import contrast, listen, luminance
 from geartrain import load
 from geartrain.drawing import picture, render
 from geartrain.drawing.train_pictures import PictureKind
-from geartrain.report import Document, Picture, Section, Table, collect_report, describe_shared_page, to_html
+from geartrain.report import Document, Picture, Section, Table, collect_report, to_html
 from geartrain.report.document import Branch, PageExtras, SceneText
+from geartrain.report.train_report import describe_shared_page
 from geartrain.scene import build_scene
 from geartrain.viewer import page as viewer_page
 

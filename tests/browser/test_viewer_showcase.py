@@ -16,8 +16,9 @@ from viewing import LOCKED, SIMPLE, wait
 
 import geartrain
 from geartrain.scene import make_scene
-from geartrain.viewer import frame_of, page
+from geartrain.viewer import page
 from geartrain.viewer.viewer_page import Shown as Way
+from geartrain.viewer.viewer_page import frame_of
 
 Showing = Callable[..., Shown]
 CAMERA = "geartrain.stages.find(Boolean).camera.position.toArray()"

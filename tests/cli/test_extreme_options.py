@@ -79,7 +79,7 @@ pin 10 5 | friction driver
 pin 10 12 --driver slot | friction
 mesh 24 36 --compare | p=arcs p=pressure_angle:angle shaft-angle:angle form
 motion {pair} --samples 40 | turns seed phases output
-motion {pair} --samples 40 --turns 3 --spectrum --estimates | turns
+motion {pair} --samples 40 --turns 3 --spectrum | turns
 motion {pair} --turns 3 | samples:few
 montecarlo {pair} --trials 4 | seed set clearance workers:few
 montecarlo {pair} | trials:few

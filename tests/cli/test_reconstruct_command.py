@@ -230,20 +230,6 @@ def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:
     assert "<iframe" not in (tmp_path / "none.html").read_text(encoding="utf-8")
 
 
-def test_trains_are_drawn_anew_with_another_seed() -> None:
-    first, again, other = (answer("back-train-moon", "--sample", 30, "--seed", seed) for seed in (1, 1, 2))
-    assert first["drawn"] == again["drawn"] != other["drawn"]
-    assert [one["rank"] for one in first["drawn"]] == list(range(1, 31))
-    listed = [one["meshes"] for one in first["best"]]
-    assert all(one["meshes"] in listed for one in first["drawn"])
-
-
-def test_trains_that_are_weighed_by_themselves_are_not_drawn() -> None:
-    result = call("reconstruct", "back-train-modules", "--sample", 3)
-    assert isinstance(result.exception, QuestionError)
-    assert "weighted individually" in str(result.exception)
-
-
 def test_known_trains_are_ranked() -> None:
     known = answer("back-wheels-sure", "--count", "--rank", "freeth-2008", "--rank", "freeth-2006")["known"]
     first, second = known

@@ -45,7 +45,7 @@ teeth ratio 13.3683x | only one count
 teeth ratio months_per_yea | did you mean
 teeth ratio 3 --range 5:2 | reversed
 teeth set 3 --kind planetry | 'planetry' is not a kind
-teeth ratio 3 --sort size | not an order
+teeth ratio 3 --sort size | cannot be sorted
 teeth ratio 3 --tolerance -1 | tolerance
 teeth train hands.yaml --free nut,screw | screw
 teeth train hands.yaml --where nut | W=32

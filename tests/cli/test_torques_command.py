@@ -97,7 +97,7 @@ def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: P
 
 def test_what_is_lost_is_drawn_as_torque_at_the_link_that_is_requested() -> None:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing import torque_cycle_figure
+    from geartrain.drawing.output_error_plots import torque_cycle_figure
 
     train = geartrain.load("""
 links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {q: 60}, bearing: 3 N mm}}

@@ -21,7 +21,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from geartrain.drawing import power_figure, shapes_figure, sweep_figure, triangular_figure
+from geartrain.drawing import shapes_figure, sweep_figure, triangular_figure
+from geartrain.drawing.power_sankey import power_figure
 from geartrain.drawing.theme_colours import themed
 from geartrain.dynamics import find_power_flow
 from geartrain.scene.palette import THEMES
@@ -29,15 +30,9 @@ from geartrain.search.posterior.corner_plot import CountProbabilities, corner_fi
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.workshop import (
-    PointerErrorCourse,
-    ToothSizes,
-    find_tooth_sizes,
-    find_train_sizes,
-    tooth_sizes_figure,
-    train_sizes_figure,
-)
+from geartrain.workshop import PointerErrorCourse, ToothSizes, find_tooth_sizes, find_train_sizes
 from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, jam_map_figure
+from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure, train_sizes_figure
 
 GRID = np.linspace(0.0, 1.0, 5)
 

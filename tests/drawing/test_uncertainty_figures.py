@@ -30,7 +30,6 @@ from geartrain.workshop import (
     SobolIndices,
     find_trial_plan,
     jamming_map,
-    monte_carlo_figure,
     read_error_overrides,
     run_course,
     run_trials,
@@ -39,6 +38,7 @@ from geartrain.workshop.monte_carlo.monte_carlo_plots import (
     convergence_figure,
     course_figure,
     jam_map_figure,
+    monte_carlo_figure,
     share_figure,
 )
 from geartrain.workshop.monte_carlo.sobol_indices import SobolIndex

@@ -22,14 +22,9 @@ from models import torque_figures
 
 from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
-from geartrain.report import (
-    Document,
-    collect_report,
-    collect_torque_report,
-    describe_torques,
-    describe_train,
-    to_markdown,
-)
+from geartrain.report import Document, collect_report, to_markdown
+from geartrain.report.torque_report import collect_torque_report, describe_torques
+from geartrain.report.train_report import describe_train
 from geartrain.train import Train
 
 RING = """
@@ -494,7 +489,7 @@ def test_a_report_on_a_train_that_locks_itself_is_still_sound(tmp_path: Path) ->
 @cache
 def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing import power_figure
+    from geartrain.drawing.power_sankey import power_figure
 
     train = load(TRAINS[name])
     flow = find_power_flow(train.torques(state))

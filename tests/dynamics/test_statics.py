@@ -22,7 +22,9 @@ from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Torques
-from geartrain.report import collect_report, collect_torque_report, describe_torques, describe_train, to_markdown
+from geartrain.report import collect_report, to_markdown
+from geartrain.report.torque_report import collect_torque_report, describe_torques
+from geartrain.report.train_report import describe_train
 
 AXLE = """
 links:

@@ -18,7 +18,8 @@ from models import PAIR, PLANETARY
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import MotionRun
-from geartrain.report import collect_report, describe_train, to_markdown
+from geartrain.report import collect_report, to_markdown
+from geartrain.report.train_report import describe_train
 from geartrain.teeth import GearMesh
 from geartrain.teeth.conjugate import ConjugateTransmission
 
@@ -256,7 +257,6 @@ def test_no_position_is_requested_of_a_transmission_that_is_rigid(monkeypatch: p
     for turns in (5.0, -5.0):
         run = MotionRun(motion, turns, 1001)
         run.run()
-        run.find_estimates()
         run.find_spectra()
     assert calls == []
     assert motion._forward.sources == ()
@@ -335,7 +335,7 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
 
 
 def test_the_motion_of_a_train_where_nothing_ripples_can_be_requested_for_everything() -> None:
-    words = ("--samples", "50", "--spectrum", "--estimates", "--phases", "1", "--json")
+    words = ("--samples", "50", "--spectrum", "--phases", "1", "--json")
     result = call("motion", "planetary-24-18-60-involute", *words)
     assert result.exit_code == 0
     data = json.loads(result.output)

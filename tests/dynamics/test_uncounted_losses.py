@@ -20,7 +20,9 @@ from hypothesis import strategies as st
 from models import torque_figures
 
 from geartrain import load
-from geartrain.report import collect_report, collect_torque_report, describe_torques, describe_train, to_markdown
+from geartrain.report import collect_report, to_markdown
+from geartrain.report.torque_report import collect_torque_report, describe_torques
+from geartrain.report.train_report import describe_train
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 
 PIN = """

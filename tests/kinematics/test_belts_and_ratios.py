@@ -14,8 +14,9 @@ import pytest
 from commands import call
 
 from geartrain import GearTrainError, load
-from geartrain.report import collect_report, collect_torque_report
+from geartrain.report import collect_report
 from geartrain.report.answers import answer_text
+from geartrain.report.torque_report import collect_torque_report
 from geartrain.report.train_report import describe_train
 from geartrain.teeth.couplings.belt import belt_length
 from geartrain.train.declaration_style import with_long_forms, with_short_forms

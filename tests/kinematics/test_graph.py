@@ -15,7 +15,7 @@ from reference_solver import find_carrier, turning_graph
 from strategies import Data, trains
 
 from geartrain import GearTrain, load
-from geartrain.kinematics import adjacency_labels, adjacency_matrix, to_dot, to_graphml, to_json
+from geartrain.kinematics.graph import adjacency_labels, adjacency_matrix, to_dot, to_graphml, to_json
 
 PLANETARY = """
 frame: "0"

@@ -344,7 +344,7 @@ def test_what_random_trains_disengage_is_what_trying_all_sets_finds(rounds: int 
     """Without enough rounds for a proof the set is minimal, and the bound of its size is valid."""
     with pytest.MonkeyPatch.context() as patch:
         if rounds is not None:
-            patch.setattr("geartrain.kinematics.gridlock.removal_choice._ROUNDS", rounds)
+            patch.setattr("geartrain.kinematics.gridlock.locked_subgraphs._ROUNDS", rounds)
         found = GearTrain.declare(data).kinematics.gridlock
     names = [gear["id"] for gear in data["gears"]]
     sets = (some for size in range(len(names) + 1) for some in itertools.combinations(names, size))

@@ -9,7 +9,7 @@ import pytest
 from shipped import train
 
 from geartrain import GearTrain
-from geartrain.kinematics import Lever, find_levers
+from geartrain.kinematics.levers import Lever, find_levers
 
 
 def levers(of: GearTrain) -> list[Lever]:

@@ -8,7 +8,7 @@ import pytest
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 
 from geartrain import GearTrain, load
-from geartrain.kinematics import adjacency_labels
+from geartrain.kinematics.graph import adjacency_labels
 
 # exact, from the circuits of Tables 1 to 3 by hand; the paper prints four decimals
 SPEEDS = {

@@ -12,7 +12,8 @@ from fitters import passed, rules_of
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
-from geartrain.simulation import collect_time_report, find_link_inertias
+from geartrain.simulation import find_link_inertias
+from geartrain.simulation.time.time_report import collect_time_report
 
 SET = """
 name: planetary set

@@ -14,7 +14,7 @@ from commands import HEAVY, LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator, SchemaError
 from sampling import all_but
 
-from geartrain.report import answer_schema, describe_answer
+from geartrain.report.json_schema import answer_schema, describe_answer
 
 ANSWERS = answer_schema()["$defs"]
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
@@ -114,7 +114,7 @@ TRIANGULAR = ("mesh", "20", "30", "--form", "triangular")
 IN_TIME = ("--rate", "1", "--turns", "0.1", "--skip", "0", "--steps", "200", "--no-fast")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--of", "moon")
 REQUESTED: dict[str, list[tuple[str, ...]]] = {
-    "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
+    "motion": [MOTION, (*MOTION, "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
     "dynamics": [
         ("dynamics", "heavy.yaml", *IN_TIME),
         ("dynamics", "heavy.yaml", *IN_TIME, "--restitution", "0.3"),

@@ -5,7 +5,8 @@ from __future__ import annotations
 import shipped
 
 from geartrain.dynamics import MotionRun
-from geartrain.report import Section, collect_motion, describe_motion
+from geartrain.report import Section
+from geartrain.report.motion_report import collect_motion, describe_motion
 
 TRAIN = "pennestri-2002-teeth"
 

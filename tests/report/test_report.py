@@ -24,14 +24,9 @@ from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT
 
 from geartrain import load
-from geartrain.report import (
-    collect_report,
-    describe_comparison,
-    describe_train,
-    to_html,
-    to_markdown,
-    to_text,
-)
+from geartrain.report import collect_report, to_html, to_markdown, to_text
+from geartrain.report.reconstruction_comparison import describe_comparison
+from geartrain.report.train_report import describe_train
 
 Write = Callable[..., Path]
 Rows = list[list[str]]

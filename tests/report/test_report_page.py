@@ -16,20 +16,10 @@ from html_reader import Read
 from markdown_it import MarkdownIt
 
 from geartrain import load
-from geartrain.report import (
-    Branch,
-    Document,
-    Picture,
-    Section,
-    Table,
-    collect_report,
-    describe_comparison,
-    describe_shared_page,
-    describe_train,
-    to_html,
-    to_markdown,
-)
+from geartrain.report import Branch, Document, Picture, Section, Table, collect_report, to_html, to_markdown
 from geartrain.report.html_page import inline, is_web
+from geartrain.report.reconstruction_comparison import describe_comparison
+from geartrain.report.train_report import describe_shared_page, describe_train
 
 SVG = (
     '<?xml version="1.0"?><!DOCTYPE svg><svg xmlns="http://www.w3.org/2000/svg" width="10pt" height="5pt" '

@@ -89,14 +89,15 @@ def pin() -> Any:
 
 
 def reports(name: str) -> Any:
-    report, train = room("report"), load("longcase-clock-loaded")
+    train = load("longcase-clock-loaded")
     if name == "torques":
-        return report.collect_torque_report(train, [train.torques()])
+        return room("report.torque_report").collect_torque_report(train, [train.torques()])
     if name == "strength":
-        return room("simulation").collect_strength_report(train, [train.strength()])
+        return room("simulation.strength.strength_report").collect_strength_report(train, [train.strength()])
     if name == "motion":
-        return report.collect_motion(load("moon-triangular").motion().run(1.0, 64), "moon-triangular", None)
-    return report.collect_formulas(load("planetary-24-18-60"), [None])
+        run = load("moon-triangular").motion().run(1.0, 64)
+        return room("report.motion_report").collect_motion(run, "moon-triangular", None)
+    return room("report.formula_report").collect_formulas(load("planetary-24-18-60"), [None])
 
 
 MOTION = ("motion", "moon-triangular")
@@ -231,7 +232,7 @@ RESULTS: dict[str, Case] = {
         sizes,
         ("mesh", "48", "96", "--form", "triangular", "--friction", "0.2", "--objective", "loss"),
     ),
-    "parts": (lambda: room("workshop").parts_list(solid_model())[0], None),
+    "parts": (lambda: room("workshop.export.parts_list").parts_list(solid_model())[0], None),
     "files": (lambda: room("workshop").export_files(solid_model(), ["graphml"])[0], None),
     # wing: simulation
     "strength": (lambda: load("longcase-clock-loaded").strength(), ("strength", "longcase-clock-loaded")),
@@ -263,8 +264,7 @@ def solid_model() -> Any:
 
 
 def lever(train: GearTrain) -> Any:
-    kinematics = room("kinematics")
-    return kinematics.find_levers(train.declaration, train.kinematics.tree, train.circuits)[0]
+    return room("kinematics.levers").find_levers(train.declaration, train.kinematics.tree, train.circuits)[0]
 
 
 made = cache(lambda name: RESULTS[name][0]())

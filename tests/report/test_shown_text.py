@@ -21,7 +21,8 @@ from places import ROOT
 from geartrain import load
 from geartrain.errors import Problem, printable
 from geartrain.numerics.files import LongTable, csv_line, csv_lines, csv_text
-from geartrain.report import Document, Section, Table, collect_report, describe_train, to_markdown, to_text
+from geartrain.report import Document, Section, Table, collect_report, to_markdown, to_text
+from geartrain.report.train_report import describe_train
 
 EVIL = "\x1b]0;owned\x07\x1b[2J\x9b31m\u202etxt"
 STEERING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2028\u2029]")

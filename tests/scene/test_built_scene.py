@@ -13,7 +13,8 @@ import shipped
 from networkx.utils import UnionFind
 
 import geartrain
-from geartrain.scene import ManufacturingSizes, Scene, ScenePart, SolidModel, SolidPart, build_scene
+from geartrain.scene import ManufacturingSizes, Scene, SolidModel, SolidPart, build_scene
+from geartrain.scene.elements import ScenePart
 
 RUNS = 0.35  # mm: maximum gap of running and press fits
 # links without parts: parallel cranks carry them, or they have no wheels, and fingers and stars have no solids

@@ -16,8 +16,9 @@ import shipped
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.scene import Pointer, Scene, make_scene
+from geartrain.scene import Scene, make_scene
 from geartrain.scene.pose import body_errors, scene_pose
+from geartrain.scene.train_scene import Pointer
 
 TURNS = np.array([0.0, 1 / 3, 17.25, 1234.5678, 98765.4321, 1e6])
 AGREE = 1e-9  # rad

@@ -9,7 +9,8 @@ import pytest
 from test_scene_movement import Reader
 
 from geartrain import load
-from geartrain.scene import Scene, ScenePair, make_scene
+from geartrain.scene import Scene, make_scene
+from geartrain.scene.elements import ScenePair
 
 # two pairs in series; a third whose first wheel is driven; a pin; a pair driven by the pin
 CHAIN = """

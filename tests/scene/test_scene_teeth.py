@@ -15,7 +15,8 @@ from shapely.ops import unary_union
 from test_scene_movement import Reader
 
 from geartrain import GearTrain, load
-from geartrain.scene import Scene, SceneWheel, make_scene
+from geartrain.scene import Scene, make_scene
+from geartrain.scene.elements import SceneWheel
 
 
 def outline(scene: Scene, number: int, turned: float) -> Any:

@@ -7,13 +7,8 @@ from collections import Counter
 import pytest
 from concrete_trees import concrete, explanations, plain_prior, random_problem
 
-from geartrain.search.reconstruct import (
-    ExplanationCount,
-    RankedTrain,
-    ReconstructionAnswer,
-    describe_reconstruction,
-    find_reconstructions,
-)
+from geartrain.search.reconstruct import ExplanationCount, RankedTrain, ReconstructionAnswer, find_reconstructions
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 
 
 @pytest.mark.parametrize("seed", range(60, 100))

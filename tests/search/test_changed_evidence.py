@@ -15,12 +15,12 @@ from geartrain.search.reconstruct import (
     ReconstructionAnswer,
     ReconstructionProblem,
     ReconstructionRequest,
-    describe_reconstruction,
     dropped_facts,
     find_reconstructions,
     read_evidence,
     reconstruct,
 )
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 from geartrain.train import Train
 
 

@@ -17,8 +17,9 @@ from geartrain import load
 from geartrain.analysis import GearTrain
 from geartrain.errors import DeclarationError, GearTrainError, QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
-from geartrain.search import ToothCountPosterior, describe_posterior, infer_counts
+from geartrain.search import ToothCountPosterior, infer_counts
 from geartrain.search.posterior import inference
+from geartrain.search.posterior.posterior_report import describe_posterior
 
 CHAIN: dict[str, Any] = {
     "name": "chain",

@@ -23,10 +23,10 @@ from geartrain.search.reconstruct import (
     SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
-    describe_reconstruction,
     explained_facts,
     find_reconstructions,
 )
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 
 
 def survivor(name: str, **counts: tuple[int, ...]) -> SurvivingArbor:

@@ -24,12 +24,12 @@ from sampling import all_but, first_few
 from geartrain.search.reconstruct import (
     ReconstructionAnswer,
     ReconstructionProblem,
-    describe_reconstruction,
     evidence_question,
     explained_facts,
     find_reconstructions,
     read_evidence,
 )
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 
 Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
 

@@ -19,7 +19,9 @@ from shipped import every_train
 import geartrain
 from geartrain import GearTrain
 from geartrain.kinematics.formulas import with_counts
-from geartrain.report import collect_report, describe_comparison, describe_train, to_markdown
+from geartrain.report import collect_report, to_markdown
+from geartrain.report.reconstruction_comparison import describe_comparison
+from geartrain.report.train_report import describe_train
 from geartrain.search import infer_counts, search_train
 
 Counts = tuple[int, int]

@@ -743,7 +743,7 @@ def test_questions_that_cannot_be_requested_are_refused_in_words() -> None:
         ({}, "has no wheel whose tooth count is varied"),
         ({"free": ["a"]}, "the tooth count of wheel 'a' cannot be varied"),
         ({"free": ["x"]}, "has no wheel 'x'"),
-        ({"free": "uncertain", "by": "beauty"}, "'beauty' is not an order of solutions"),
+        ({"free": "uncertain", "by": "beauty"}, "solutions cannot be sorted by 'beauty'"),
         ({"free": "uncertain", "state": "up"}, "no state 'up'"),
     ):
         with pytest.raises(GearTrainError, match=said) as caught:

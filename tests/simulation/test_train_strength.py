@@ -16,7 +16,8 @@ from sampling import few_or_many
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report
-from geartrain.simulation import PairStrength, collect_strength_report, describe_strength
+from geartrain.simulation import PairStrength
+from geartrain.simulation.strength.strength_report import collect_strength_report, describe_strength
 from geartrain.simulation.strength.train_strength import maximum_moment
 
 PAIR = """

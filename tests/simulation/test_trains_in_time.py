@@ -11,13 +11,9 @@ import pytest
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.report import to_markdown
-from geartrain.simulation import (
-    TimeRun,
-    collect_time_report,
-    describe_time_run,
-    find_separation,
-)
+from geartrain.simulation import TimeRun, find_separation
 from geartrain.simulation.steps.simulation import StepPlan, simulate
+from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
 from geartrain.simulation.time.train_in_time import model_in_time
 
 GRAVITY = 9.80665  # m/s2

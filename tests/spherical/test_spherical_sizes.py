@@ -20,12 +20,12 @@ from geartrain.spherical import (
     Configuration,
     SphereSizing,
     from_polyhedron,
-    one_pitch,
     ratio_windows,
     size_gears,
     suggest_tooth_counts,
 )
 from geartrain.spherical.assembly import loop_rules, residue
+from geartrain.spherical.gear_sizes import impossibility_theorem
 
 Floats = NDArray[np.float64]
 S53 = atan(3 - sqrt(5))
@@ -196,22 +196,19 @@ def test_sizes_go_to_json() -> None:
         ("J37", {"4a": 52, "4b": 52, "4c": 52, "3": 30}, "ring of eight equal squares"),
     ],
 )
-def test_one_pitch_is_refused_with_the_theorem(solid: str, teeth: dict[str, int], says: str) -> None:
-    with pytest.raises(GearTrainError) as refused:
-        one_pitch(from_polyhedron(solid, teeth=teeth))
-    assert says in str(refused.value)
-    assert "mismatch" in str(refused.value)
+def test_different_pitches_are_reported_with_the_theorem(solid: str, teeth: dict[str, int], says: str) -> None:
+    configuration = from_polyhedron(solid, teeth=teeth)
+    assert not size_gears(configuration).exact
+    assert says in impossibility_theorem(configuration)
 
 
 def test_one_pitch_is_given_where_the_teeth_allow_it() -> None:
-    assert one_pitch(from_polyhedron("6-antiprism", teeth={"6": 18, "3": 6})) == pytest.approx(
-        sin(radians(63.711516786140)) / 18, abs=1e-13
-    )
-    with pytest.raises(GearTrainError, match=r"6-1-3-\d+ requires .* mismatch") as refused:
-        one_pitch(from_polyhedron("6-antiprism", teeth={"6": 18, "3": 7}))
-    assert "the pitch of each kind of mesh is determined by its own axes" in str(refused.value), (
-        "no theorem is against it"
-    )
+    found = size_gears(from_polyhedron("6-antiprism", teeth={"6": 18, "3": 6}))
+    assert found.exact
+    assert found.pitch == pytest.approx(sin(radians(63.711516786140)) / 18, abs=1e-13)
+    other = from_polyhedron("6-antiprism", teeth={"6": 18, "3": 7})
+    assert not size_gears(other).exact
+    assert impossibility_theorem(other) == "", "no theorem is against it"
 
 
 # compromises ---------------------------------------------------------------------------------------------------------
@@ -334,7 +331,7 @@ def test_an_empty_search_says_what_removed_how_many() -> None:
 def test_suggestions_give_sets_with_teeth() -> None:
     found = suggest_tooth_counts(from_polyhedron("icosidodecahedron"), 60, 5, order="teeth")
     assert found[0].teeth == {"5": 10, "3": 6}
-    assert one_pitch(replace(found.configuration, teeth=dict(found[0].teeth))) > 0
+    assert size_gears(replace(found.configuration, teeth=dict(found[0].teeth))).exact
     assert found.beyond > 0
 
 
@@ -348,7 +345,7 @@ def test_too_many_kinds_are_refused_before_the_search() -> None:
     axes /= np.linalg.norm(axes, axis=1)[:, None]
     names = tuple("abcdef")
     chain = tuple((i, i + 1) for i in range(5))
-    with pytest.raises(GearTrainError, match="tooth sets"):
+    with pytest.raises(GearTrainError, match="combinations of tooth numbers"):
         suggest_tooth_counts(Configuration(names, axes, chain, names, (0,) * 6), 60)
 
 

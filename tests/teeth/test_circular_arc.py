@@ -20,7 +20,8 @@ import geartrain
 from geartrain import GearTrain, load
 from geartrain.dynamics.motion.pair_impacts import PairOperation, find_pair_impacts
 from geartrain.errors import GearTrainError
-from geartrain.report import collect_report, describe_train, to_markdown
+from geartrain.report import collect_report, to_markdown
+from geartrain.report.train_report import describe_train
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth import CircularArc
 

@@ -192,7 +192,7 @@ def test_a_pin_and_its_slot_drive_each_other_by_one_name() -> None:
 @pytest.mark.parametrize(
     ("requested", "said", "place"),
     [
-        ((1.0, 9.0, 0.0, "slot"), "a follower cannot drive", "driver"),
+        ((1.0, 9.0, 0.0, "slot"), "an oscillating slot cannot drive", "driver"),
         ((9.0, 8.0, 0.6, "slot"), "locks the pin in its slot", "friction"),  # sqrt(81 - 64) / 8 = 0.515
         ((9.0, 9.0, 0.0, "pin"), "through the slot's axis", ""),
     ],

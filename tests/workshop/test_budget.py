@@ -12,9 +12,11 @@ from sorge import Pair, first_of_all
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.dynamics import find_torque_period
+from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.report import to_markdown
-from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, budget_figure, describe_budget, find_budget
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
+from geartrain.workshop.budget.budget_bars import budget_figure
+from geartrain.workshop.budget.budget_report import describe_budget
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}

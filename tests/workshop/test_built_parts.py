@@ -19,7 +19,8 @@ from shipped import train as load
 import geartrain
 from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.workshop import assembly_steps, export_files, notices
+from geartrain.workshop import export_files, notices
+from geartrain.workshop.export.assembly_guide import assembly_steps
 
 manifold3d = pytest.importorskip("manifold3d")
 

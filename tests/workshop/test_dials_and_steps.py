@@ -16,7 +16,9 @@ from shipped import train as load
 
 import geartrain
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.workshop import assembly_steps, export_files, parts_list
+from geartrain.workshop import export_files
+from geartrain.workshop.export.assembly_guide import assembly_steps
+from geartrain.workshop.export.parts_list import parts_list
 
 
 def model(name: str) -> SolidModel:

@@ -19,8 +19,9 @@ from geartrain.errors import GearTrainError, QuestionError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.workshop import parts_list, wheel_file
+from geartrain.workshop import wheel_file
 from geartrain.workshop.export.cut_sheets import Sheet, compensated, stock_sheets
+from geartrain.workshop.export.parts_list import parts_list
 
 shapely = pytest.importorskip("shapely")
 

@@ -70,7 +70,7 @@ def _frame(name: str) -> str:
     """A train that turns in the page; nothing where its page is not made."""
     if f"view/{name}.html" not in make():
         return ""
-    from geartrain.viewer import frame_of
+    from geartrain.viewer.viewer_page import frame_of
 
     line = frame_of(f"view/{name}.html", f"{name}, turning").replace(".html", ".html#embed", 1)
     return f'<div class="turning-frame">{line}</div>'
@@ -143,7 +143,8 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
     """As `geartrain draw`, `view` and `report` write them; each picture is drawn once."""
     import geartrain
     from geartrain.drawing import picture, render
-    from geartrain.report import Picture, collect_report, describe_shared_page, to_html
+    from geartrain.report import Picture, collect_report, to_html
+    from geartrain.report.train_report import describe_shared_page
     from geartrain.scene import build_scene
     from geartrain.viewer import page
 

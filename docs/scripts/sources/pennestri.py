@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.kinematics import adjacency_labels
+from geartrain.kinematics.graph import adjacency_labels
 from geartrain.search import search_train
 from geartrain.train import period_table
 from sources.row import Digits, Exactly, Finding, Found, Row, Source, Statements, declared, outside

@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING, Any
 import manifold3d
 import numpy as np
 
-from geartrain.scene import Scene, SceneCoupling, ScenePair, ScenePart, SceneWheel
+from geartrain.scene import Scene
+from geartrain.scene.elements import SceneCoupling, ScenePair, ScenePart, SceneWheel
 from geartrain.viewer import page
 from studies.tooth_solids import BentTeeth, DrawnTooth, Floats, about_z
 

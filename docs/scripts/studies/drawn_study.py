@@ -13,7 +13,8 @@ from stills import open_browser
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.scene import Scene, ScenePair, build_scene, lay_out
+from geartrain.scene import Scene, build_scene, lay_out
+from geartrain.scene.elements import ScenePair
 from studies.drawn_solids import DrawnTeeth, opened
 from studies.measurement import taken
 from studies.records import StudyRecords

@@ -9,7 +9,7 @@ import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.scene import SceneWheel
+from geartrain.scene.elements import SceneWheel
 
 Floats = NDArray[np.float64]
 

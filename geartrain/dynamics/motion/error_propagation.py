@@ -195,7 +195,7 @@ class ErrorPropagation:
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
-    """Links of each pair, by index; they are determined when they are first read."""
+    """Links of each pair, by index; they are determined on first access."""
     forms: Sequence[Mapping[int, Fraction]]
     """Error of each link per unit of the right-hand side c delta of each pair's equation (2), by index of the pair."""
     reached: frozenset[int]

@@ -65,7 +65,7 @@ class TransmissionErrorCurve(Tabular, Result):
     speed: Floats
     """Speed of the output divided by the input speed [1], shape (n,)."""
     slides: bool = False
-    """True for a link that slides, whose error is in mm, and its speed in mm per turn of the input."""
+    """True for a sliding output link; its error is then in mm, and its speed in mm per turn of the input."""
 
     def _meaning(self, column: str) -> str:
         text, unit = super()._meaning(column), {"error": "mm", "speed": "mm/turn"}.get(column)
@@ -121,7 +121,7 @@ class Motion(Shown):
     """Motion of a train including the errors of its teeth and pins, as a function of the revolutions of its input.
 
     Transmission functions are composed in the order in which the train is solved: equations (2) and (3) of
-    docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link the position that it
+    docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link has the position that it
     would have with ideal teeth (section 3 of that page).
 
     Parameters
@@ -216,7 +216,7 @@ class Motion(Shown):
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns against the declared sense, with the coast flanks driving."""
+        """Composition of the errors if the input turns against the declared sense, with the coast flanks in contact."""
         return self._composed(-1)
 
     @cached_property
@@ -324,7 +324,7 @@ class Motion(Shown):
 
     @cached_property
     def advances(self) -> Mapping[str, float]:
-        """Mean speed, divided by that of the input [1], of the link that one-way clutches drive in steps, by name."""
+        """Mean speed of each link that one-way clutches drive in steps, per unit speed of the input [1], by link."""
         stepped = self._problem.stepped
         if stepped is None:
             return {}
@@ -354,7 +354,7 @@ class Motion(Shown):
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
         """Yield the errors at equally spaced positions from 0 to `turns`, both included, in chunks that fit in memory.
 
-        turns   revolutions of the input; negative against the declared sense, with the coast flanks driving
+        turns   revolutions of the input; if negative, it turns against its declared sense, on the coast flanks
         first   index of the first position
         """
         sampler = self._sampler(turns)
@@ -365,7 +365,7 @@ class Motion(Shown):
             yield sampler.at(turns * (at / (samples - 1)))
 
     def _composition(self, turns: float) -> ErrorComposition:
-        """Return the error composition of a run, with the coast flanks driving if `turns` is negative."""
+        """Return the error composition of a run, with the coast flanks in contact if `turns` is negative."""
         return self._forward if turns >= 0 else self._backward
 
     def _sampler(self, turns: float) -> ErrorSampler:
@@ -400,7 +400,7 @@ class Motion(Shown):
         Parameters
         ----------
         start, end : float
-            Positions of the input [revolutions]. If `end` is less than `start`, the coast flanks drive.
+            Positions of the input [revolutions]. If `end` is less than `start`, the coast flanks are in contact.
 
         Returns
         -------
@@ -433,7 +433,8 @@ class Motion(Shown):
         Parameters
         ----------
         turns : float
-            Revolutions of the input from 0; negative against the declared sense, with the coast flanks driving.
+            Revolutions of the input from position 0. If negative, the input turns against its declared sense, and the
+            coast flanks are in contact.
         samples : int
             Number of positions including both ends, 2 or more.
         on_done : callable
@@ -546,13 +547,13 @@ class Motion(Shown):
         return motion
 
     def without_anomaly(self) -> Motion:
-        """Return the motion whose errors are caused by the teeth: the errors of the same couplings with ideal teeth, at
-        the same positions of the input, are subtracted.
+        """Return the motion with only the errors that the teeth cause. The errors of the same couplings with ideal
+        teeth, at the same positions of the input, are subtracted.
 
         Returns
         -------
         Motion
-            Motion with the same outputs; the same motion if it has no couplings, or only teeth with constant ratio.
+            Motion with the same outputs; self if the train has no couplings, or only teeth with a constant ratio.
         """
         if not (self._problem.couplings and self._problem.rippling):
             return self
@@ -585,7 +586,7 @@ class Motion(Shown):
         Returns
         -------
         matplotlib.figure.Figure
-            Figure drawn by `geartrain.drawing.motion_figure`.
+            Figure with a panel for each kind of curve.
 
         Raises
         ------
@@ -604,5 +605,5 @@ class Motion(Shown):
         for name in outputs:
             check_choice("output", name, list(self.outputs))
         shown = self._of(outputs or tuple(self.outputs))
-        run = imported_function("dynamics", "MotionRun")(shown, turns, samples)
-        return imported_function("drawing", "motion_figure")(run)
+        run = imported_function("dynamics.motion.motion_run", "MotionRun")(shown, turns, samples)
+        return run.plot()

@@ -38,8 +38,8 @@ class MotionProblem:
     frame: str
     driving_link: str
     meshes: Mapping[str, GearMesh]
-    """Gear pairs with a declared tooth form as driven in this state, by name; the teeth of a pair are built when it is
-    first read.
+    """Gear pairs with a declared tooth form as driven in this state, by name; the teeth of a pair are built on first
+    access.
     """
     couplings: Sequence[CouplingMesh]
     drivers: Mapping[str, MeshDriver]

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     Complex = NDArray[np.complex128]
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
-    from geartrain.dynamics.motion.superposition import ErrorEstimates, Superposition
+    from geartrain.dynamics.motion.superposition import Superposition
 
     OnDone = Callable[[int], None]
 
@@ -189,7 +189,7 @@ class MotionRun(Tabular, Pictured):
     """Evaluation of a motion at positions from 0 to `turns` of the input; each result is computed when its method
     is called.
 
-    Results are filled in by `run`, `run_random_phases`, `find_estimates` and `find_spectra`.
+    Results are filled in by `run`, `run_random_phases` and `find_spectra`.
 
     Raises
     ------
@@ -224,13 +224,13 @@ class MotionRun(Tabular, Pictured):
 
     PAGE = "report.motion_report:motion_document"
 
-    FIGURE = "motion_figure"
+    FIGURE = "drawing.output_error_plots:motion_figure"
 
     motion: Motion
     """Motion that the run evaluates."""
     turns: float
     """Revolutions of the input, up to 1e12 in magnitude. If the number is negative, the input turns against its
-    declared sense, and the coast flanks drive.
+    declared sense, and the coast flanks are in contact.
     """
     samples: int
     """Number of positions, 2 or more, including both ends of the run."""
@@ -240,8 +240,6 @@ class MotionRun(Tabular, Pictured):
     """Peak values and moments of each output's error and speed, for each set of random phases."""
     seed: int | None = None
     """Random seed of the phases; None if no random phases were used."""
-    estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
-    """First-order estimates of each output's peak and rms errors."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
     """Spectral lines by output, in descending order of the first-order amplitude."""
     done: int = 0
@@ -345,19 +343,6 @@ class MotionRun(Tabular, Pictured):
             other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)
             other.run(on_done)
             self.phase_statistics.append(other.statistics)
-
-    def find_estimates(self, on_done: OnDone = _ignore) -> None:
-        """Compute first-order estimates of the peak and rms errors of each output, and compare them with the exact
-        composition.
-
-        Parameters
-        ----------
-        on_done : callable
-            Progress function, as in `run`.
-        """
-        from geartrain.dynamics.motion.superposition import find_estimates
-
-        self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
     def find_spectra(self, on_done: OnDone = _ignore) -> None:
         """Compute the spectrum of every output at exact orders of the input.

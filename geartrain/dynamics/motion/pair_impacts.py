@@ -41,7 +41,7 @@ class ToothImpact(Shown):
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""
     rate: float
-    """Frequency of the periods of the transmission function [1/s]; a period is a pitch unless an error is given."""
+    """Periods of the transmission function per second [1/s]; one period is one pitch, except for a given error."""
     jumps: tuple[float, ...]
     """Increases of the driven wheel's speed at the impacts within one period [rad/s]."""
 

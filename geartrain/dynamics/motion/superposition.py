@@ -1,4 +1,4 @@
-"""First-order estimates of the transmission error, equation (6) of docs/motion.md, and their accuracy.
+"""First-order estimates of the transmission error, equation (6) of docs/motion.md.
 
 The estimates neglect the effect of pairs on each other. To first order an output's error is the sum over all pairs of
 its sensitivity times the pair's error. The sum of the ranges of these terms is an upper bound on the range of the
@@ -9,8 +9,6 @@ position 0 (lag).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from math import hypot
 from typing import TYPE_CHECKING
@@ -18,12 +16,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
-from geartrain.dynamics.motion.run_statistics import RunningStatistics
-from geartrain.numerics.results import Key, Result, group
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorComposition
-    from geartrain.dynamics.motion.motion_model import Motion
     from geartrain.numerics.arrays import Floats
 
 
@@ -79,89 +74,3 @@ class Superposition:
             S += source.start + self.lags[at] if lagged else source.phase
             found += (source.sense * self.response[:, at])[:, None] * source.transmission.error(S)
         return found
-
-
-@dataclass(frozen=True)
-class SuperpositionEstimate(Result):
-    """Estimate by superposition: statistics of the estimated error, and of its difference from the composed motion."""
-
-    KEYS = (
-        Key("peak_to_peak", "own.peak_to_peak"),
-        Key("rms", "own.rms"),
-        group("difference", "maximum", Key("rms", "off.rms")),
-    )
-
-    own: RunningStatistics
-    """Statistics of the estimated error [rad]; `off` has those of the estimated minus the composed error [rad]."""
-    off: RunningStatistics
-
-    @property
-    def maximum(self) -> float:
-        """Maximum magnitude of the difference from the composed motion, relative to the mean difference [rad]."""
-        return max(self.off.centre - self.off.minimum, self.off.most - self.off.centre)
-
-
-@dataclass(frozen=True)
-class ErrorEstimates(Result):
-    """First-order estimates of one output's error, compared with the exact result: equation (6) of docs/motion.md.
-
-    See Also
-    --------
-    MotionRun.find_estimates : computes them
-    """
-
-    KEYS = (
-        group("bound", Key("peak_to_peak", "bound"), Key("error", "bound_error")),
-        group("independent", Key("rms", "independent"), Key("error", "independent_error")),
-        Key("superposed", "nominal"),
-        Key("superposed_with_lag", "lagged"),
-    )
-
-    true: RunningStatistics
-    """Statistics of the output's error in the exact composition, at the same positions."""
-    bound: float
-    """Sum over all pairs of sensitivity times error range, an upper bound on the range of the error [rad]."""
-    independent: float
-    """Rms error of the output if the phases of the pairs are statistically independent [rad]."""
-    nominal: SuperpositionEstimate
-    """First-order superposition of the pairs' errors, with each driver at its mean angle."""
-    lagged: SuperpositionEstimate
-    """First-order superposition of the pairs' errors, with each driver displaced by the mean errors of all pairs."""
-
-    @property
-    def bound_error(self) -> float:
-        """Relative error of `bound`, compared with the exact peak-to-peak error [1]."""
-        return (self.bound - self.true.peak_to_peak) / (self.true.peak_to_peak or 1.0)
-
-    @property
-    def independent_error(self) -> float:
-        """Relative error of `independent`, compared with the exact rms value [1]."""
-        return (self.independent - self.true.rms) / (self.true.rms or 1.0)
-
-
-def find_estimates(
-    motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
-) -> dict[str, ErrorEstimates]:
-    """Return first-order estimates of every output's error, compared with the composition at `samples` positions."""
-    superposed = Superposition(motion._composition(turns))
-    true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))
-    for passage in motion._stretches(turns, samples):
-        for at, tally in enumerate(true):
-            tally.add(passage.error[at], passage.rate[at])
-        # statistics of the estimated error, and of its difference from the exact one
-        for counted, tallies in ((False, nominal), (True, lagged)):
-            error = superposed.at(passage.turns, counted)
-            for at, (own, off) in enumerate(zip(*tallies, strict=True)):
-                # rates are not estimated; the exact rates only complete the statistics
-                own.add(error[at], passage.rate[at])
-                off.add(error[at] - passage.error[at], passage.rate[at])
-        on_done(len(passage.turns))
-    return {
-        tally.name: ErrorEstimates(
-            tally,
-            superposed.bounds[at],
-            superposed.independent[at],
-            *(SuperpositionEstimate(own[at], off[at]) for own, off in (nominal, lagged)),
-        )
-        for at, tally in enumerate(true)
-    }

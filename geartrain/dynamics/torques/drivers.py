@@ -97,8 +97,8 @@ def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, 
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """Return the driving wheel of every pair and the driving link of every coupling in one state, computed when first
-    read.
+    """Return the driving wheel of every pair and the driving link of every coupling in one state, computed on first
+    access.
 
     circuits   circuits of the pairs and couplings to include
     setting    load case with the speeds of the state; None if they are undetermined: only declared drivers are then

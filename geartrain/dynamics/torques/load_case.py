@@ -133,7 +133,7 @@ class LoadCase:
     speeds: Mapping[str, Fraction]
     """Speed of each link whose speed is determined [unit of the train]."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
-    """Gear pairs with a declared tooth form, by name."""
+    """Meshing teeth of each gear pair that has a declared tooth form, by name of the pair."""
     varying: Sequence[CouplingMesh] = ()
     """Couplings with variable ratio and declared dimensions."""
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
@@ -148,7 +148,7 @@ class LoadCase:
 
     @cached_property
     def couplings(self) -> Mapping[str, Coupling]:
-        """Couplings by the names of their rows."""
+        """Couplings by name."""
         return {row.id: each for each in self.train.couplings for row in each.rows(self.train.wheels)}
 
     @cached_property

@@ -80,8 +80,8 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a coupling, first with the driven link of the declaration driving; 1 for a follower,
-    whose mean power is 0.
+    """Return the efficiencies of a coupling, first with the driven link of the declaration driving; 1 for a pin
+    follower, whose mean power is 0.
     """
     coupling = setting.couplings[circuit.id]
     if (losses := coupling.losses) is not None and circuit.b:

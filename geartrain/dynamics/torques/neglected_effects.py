@@ -77,7 +77,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the friction of pins in followers, and of pins in slots without declared dimensions."""
+    """Yield the friction of pin followers, and of pins in slots without declared dimensions."""
     bearing_friction = _rubbing_pins(setting, busy)
     if swinging := tuple(circuit.id for circuit in bearing_friction if not circuit.b):
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"

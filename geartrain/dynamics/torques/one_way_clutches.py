@@ -206,7 +206,7 @@ class _Decision:
         return {load: [each for each in self._moving if self._fits(each, load)] for load in self._loads}
 
     def _released(self) -> tuple[ClutchPattern, tuple[str, ...]]:
-        """Return the pattern with the minimum number of violations, without the clutches that let go, and these."""
+        """Return the pattern with the fewest violations, without the clutches that let go, and these clutches."""
         found = []
         for pattern in self._moving:
             kinds = [each.verdict for load in self._loads if (each := self._torques(pattern, load)) is not None]

@@ -167,7 +167,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a note on a load that puts power in but cannot drive the train alone; "" otherwise."""
+    """Return a note on a load that puts power in but cannot drive the train by itself; "" otherwise."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()

@@ -120,8 +120,8 @@ class PairTorque(Result):
     driver: str
     """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
     links: tuple[str, ...]
-    """Names of first link, second link and carrier of the pair. For a link that slides and a link that turns, the
-    links on which they react follow: the third takes the reaction of the force, the fourth that of the torque.
+    """Names of first link, second link and carrier of the pair. If one of them slides and the other turns, the third
+    link takes the reaction of the force, and a fourth link the reaction of the torque.
     """
     torques: tuple[Fraction, ...]
     """Torques on these links, each about its own axis, or forces on links that slide [N m or N, or number without a
@@ -346,16 +346,16 @@ class Torques(FrozenFields, Tabular, TrainResult):
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that the torques do not include."""
     reactions: Mapping[str, tuple[str, Fraction]] = field(default_factory=dict)
-    """Link of `requested` whose reaction does not act on the frame -> link of the reaction, and its torque, which
-    `external` includes. The pallets of an escapement are such a link.
+    """Reactions that do not act on the frame: link of `requested` -> link that takes the reaction, such as the pallets
+    of an escapement, and its torque, which `external` includes.
     """
     overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
     """Speed at which each one-way clutch overruns, without torque and loss [unit of the train], by clutch; None if
     undetermined.
     """
     arms: Mapping[str, Fraction] = field(default_factory=dict)
-    """Lever arm [m] of the force on each link that slides: force times arm times speed, a travel of 1 mm counted as one
-    turn, is the power.
+    """Lever arm [m] of the force on each link that slides. Its power is force times arm times speed, where a travel of
+    1 mm counts as one turn.
     """
 
     def power(self, link: str, load: Fraction) -> Fraction:
@@ -417,8 +417,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """Draw the power flow under these torques as a matplotlib figure, with `geartrain.drawing.power_figure`."""
-        return imported_function("drawing", "power_figure")(self, self.state or "")
+        """Draw the power flow under these torques as a matplotlib figure."""
+        return imported_function("drawing.power_sankey", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:

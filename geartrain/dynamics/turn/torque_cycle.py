@@ -151,8 +151,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     Examples
     --------
-    A pin at 10 mm drives a slot whose axis is offset by 8 mm, with friction, against 10 N m. The mean has a closed
-    form, 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
+    A pin at a radius of 10 mm drives a slot with an axis offset of 8 mm, with friction, against 10 N m. The mean has a
+    closed form, 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
 
     >>> import geartrain
     >>> found = geartrain.load('''
@@ -169,7 +169,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     PAGE = "report.torque_report:torques_document"
 
-    FIGURE = "torque_cycle_figure"
+    FIGURE = "drawing.output_error_plots:torque_cycle_figure"
 
     KEYS = (
         "state",
@@ -262,7 +262,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that the torques do not include."""
     force: bool = False
-    """True if `link` slides: its torques are forces [N, or numbers without a unit]."""
+    """True if `link` slides, so that its torques are forces [N, or numbers without a unit]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

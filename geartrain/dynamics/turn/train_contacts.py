@@ -3,10 +3,10 @@
 The theory is in section 17 of docs/torques.md.
 
 The multiplier x of a pair is the torque on its driven side in the forward sense. For x >= 0 the drive flanks are in
-contact, for x <= 0 the coast flanks. Let tau be the speed ratio of the flank in contact at this position. The torque on
-the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without friction. Friction
-reverses with the sliding velocity, so with a coefficient of friction f, a flank that is driven from the other side has
-the efficiency eta'(f) = 1/eta(-f) (23).
+contact, for x <= 0 the coast flanks are. Let tau be the speed ratio of the flank in contact at this position. The
+torque on the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without friction.
+Friction reverses with the sliding velocity, so with a coefficient of friction f, a flank that is driven from the other
+side has the efficiency eta'(f) = 1/eta(-f) (23).
 """
 
 from __future__ import annotations
@@ -109,7 +109,7 @@ class BasicEfficiency(ContactLosses):
     ) -> ContactTorques:
         """Return the torques, reduced by the efficiency for the side that drives.
 
-        Where the ratio is negative, as on the return stroke of a follower, the other side drives.
+        Where the ratio is negative, as on the return stroke of a pin follower, the other side drives.
         """
         del transmission, at, static
         ahead, back = way * tau > 0, way * tau < 0

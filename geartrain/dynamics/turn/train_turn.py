@@ -122,37 +122,7 @@ def solve(
 
 
 def find_torque_period(train: TrainMechanics, state: str | None = None, of: str | None = None) -> Fraction | None:
-    """Return the exact number of revolutions of the input after which the torque repeats.
-
-    Parameters
-    ----------
-    train : TrainMechanics
-        Train to analyse, `GearTrain.mechanics`.
-    state : str, optional
-        Name of a declared state. None is allowed only for a train without states.
-    of : str, optional
-        Link whose torque is requested, by default the crank or input.
-
-    Returns
-    -------
-    Fraction or None
-        Period [revolutions of the input]. None if torques are unknown, or if the torque is constant because no pair
-        that transmits it has a variable ratio or variable friction losses.
-
-    Examples
-    --------
-    Friction of teeth depends on the position of the contact. The torque in this clock repeats after a quarter of a
-    revolution of the input, a quarter of an hour:
-
-    >>> import geartrain
-    >>> train = geartrain.load('''
-    ... extends: longcase-clock-cycloidal
-    ... friction: 0.2
-    ... loads: {escape: -1 N mm}
-    ... ''')
-    >>> find_torque_period(train.mechanics)
-    Fraction(1, 4)
-    """
+    """Return the exact number of revolutions of the input after which the torque repeats."""
     train = train.unfolded
     loads = train.load_case(state)
     if loads is None:

@@ -549,7 +549,7 @@ def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
         if not 0 < count <= MOST_TEETH or count != int(count):
             fix = "give a whole number from 1 to 10^12"
             raise QuestionError(
-                Problem(f"{count} is not a tooth count of wheel '{name}'", "wheels have a whole number of teeth", fix)
+                Problem(f"wheel '{name}' cannot have {count} teeth", "a tooth count is a positive integer", fix)
             )
 
 

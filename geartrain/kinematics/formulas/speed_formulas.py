@@ -52,7 +52,7 @@ class OutputFormula(Result):
     shares: tuple[InputShare, ...]
     """Contribution of each input on which the output depends."""
     conditions: tuple[str, ...] = ()
-    """Equations between tooth counts that must be satisfied for the train to move, because they close its loops."""
+    """Equations between tooth counts that must be satisfied so that the loops of the train can turn."""
     poles: tuple[str, ...] = ()
     """Equations between tooth counts at which the output is locked or free."""
 

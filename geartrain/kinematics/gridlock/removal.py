@@ -64,7 +64,7 @@ class MeshRemoval(Result):
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """Pairs of which the removal of any one is enough, including the pair in `meshes`; empty if there are none."""
+    """Pairs of which the removal of any one is sufficient, including the pair in `meshes`; empty if there are none."""
     proofs: tuple[RemovalBound, ...] = ()
     """Loops that prove the lower bound; empty if only the method proves it."""
 
@@ -164,7 +164,7 @@ class Gridlock(Result):
     jams: tuple[LockedSubgraph, ...] = ()
     """Components with an inconsistent loop, equation (21) of docs/theory.md."""
     held: tuple[str, ...] = ()
-    """Links that are locked together by meshes of several carriers, although every loop can turn."""
+    """Links that are locked together by meshes on several carriers, although each loop by itself can turn."""
     release: MeshRemoval | None = None
     """Meshes whose removal frees the whole train; None if the train moves, or if no such set was found."""
 

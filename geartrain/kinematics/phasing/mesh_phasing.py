@@ -245,8 +245,8 @@ class LoopPhase(Result):
     other.
     """
     meshes: tuple[str, ...]
-    """Pairs in order around the loop; the last one closes it. If `together` is True, the pairs of several loops in any
-    order.
+    """Pairs in order around the loop; the last one closes it. If `together` is True, these are the pairs of several
+    loops, in any order.
     """
     weights: tuple[int, ...]
     """Integer weight of each pair in the sum of the phase equations; 1 or -1 except for compound wheels."""
@@ -376,7 +376,7 @@ _SHOWN = 10  # maximum number of loops listed in a text
 
 @dataclass(frozen=True)
 class MeshPhasing(Result):
-    """Assembly condition: whether the teeth of every loop mesh, and the angles at which the wheels are mounted.
+    """Assembly condition of a train: mesh phases around every loop, and angles at which the wheels are mounted.
 
     See equations (1) to (4) of docs/closure.md. The result is true unless a loop does not close or is unclear.
 
@@ -535,8 +535,8 @@ class MeshPhasing(Result):
     @cached_property
     def fits(self) -> bool | None:
         """True if all loops close, or the backlash of each pair absorbs its phase error in `errors`; False if a
-        backlash is too small. None if no loop misses but one is unclear, or if the backlash of a pair with a phase
-        error is unknown.
+        backlash is too small. None if no loop misses but at least one is unclear, or if the backlash of a pair with a
+        phase error is unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True

@@ -4,34 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.kinematics.speeds.exact_speeds import (
-    EXACT_BUDGET,
-    Solution,
-    exact_verdict,
-    solve,
-)
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats
-    from geartrain.kinematics.speeds.mobility import Mobility, find_mobility
+    from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET as EXACT_BUDGET
+    from geartrain.kinematics.speeds.exact_speeds import Solution as Solution
+    from geartrain.kinematics.speeds.exact_speeds import exact_verdict as exact_verdict
+    from geartrain.kinematics.speeds.exact_speeds import solve as solve
+    from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
+    from geartrain.kinematics.speeds.float_speeds import solve_floats as solve_floats
+    from geartrain.kinematics.speeds.mobility import Mobility as Mobility
+    from geartrain.kinematics.speeds.mobility import find_mobility as find_mobility
 
-__all__ = [
-    "EXACT_BUDGET",
-    "FloatSpeeds",
-    "Mobility",
-    "Solution",
-    "exact_verdict",
-    "find_mobility",
-    "solve",
-    "solve_floats",
-]
-
-# imported on first use: floats need numpy and scipy
-__getattr__ = lazy_names(
+__getattr__, __all__ = public_names(
     __name__,
     {
-        **dict.fromkeys(("FloatSpeeds", "solve_floats"), "float_speeds"),
-        **dict.fromkeys(("Mobility", "find_mobility"), "mobility"),
+        "exact_speeds": "EXACT_BUDGET Solution exact_verdict solve",
+        "float_speeds": "FloatSpeeds solve_floats",
+        "mobility": "Mobility find_mobility",
     },
 )

@@ -455,8 +455,8 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """Return the operation budget for one system: `budget` plus 30 operations for each equation, which equations need
-    even if they are not coupled. None stays None.
+    """Return the operation budget for one system: `budget` plus 30 operations for each equation, the cost of an
+    equation that is not coupled to others. None stays None.
     """
     return None if budget is None else budget + 30 * len(reduced.equations)
 
@@ -516,7 +516,7 @@ def _free_difference(reduced: ReducedSystem, forms: Mapping[int, LinearForm], of
 def _determined_speeds(
     reduced: ReducedSystem, forms: Mapping[int, LinearForm], signs: Mapping[str, int]
 ) -> tuple[Mapping[str, Fraction], list[str]]:
-    """Return the speeds of the determined links, each computed when it is read, and the names of the other links."""
+    """Return the speeds of the determined links, each computed on first access, and the names of the other links."""
     index = reduced.components.index
 
     def speed(link: str) -> Fraction | None:

@@ -49,17 +49,17 @@ class Mobility(Result):
     gear_pairs: int
     """Number of gear pairs."""
     couplings: int
-    """Number of rows of couplings, such as pins in slots. The number j_G is the sum of `gear_pairs` and `couplings`."""
+    """Number of equations of couplings, such as pins in slots; j_G is the sum of `gear_pairs` and `couplings`."""
     by_rank: int
     """Mobility by rank, links - 1 - rank of all circuits; it is correct for every train."""
     redundant: int
     """Number of redundant circuits, whose equations follow from the equations of other circuits."""
     loops: tuple[Loop, ...]
-    """Loops with ratio product 1, each of which has one redundant pair; the first 1000."""
+    """Loops with ratio product 1, each of which has one redundant pair; at most 1000 are listed."""
     shared: tuple[str, ...]
     """Links whose speeds in two components are equated by a redundant equation."""
     locked: tuple[Loop, ...]
-    """Loops with a ratio product other than 1, which lock their component to its carrier; the first 1000."""
+    """Loops with a ratio product other than 1, which lock their component to its carrier; at most 1000 are listed."""
     still: tuple[str, ...]
     """Links that cannot move, whichever link drives; empty if the system is too dense to determine them."""
     idle: tuple[str, ...]

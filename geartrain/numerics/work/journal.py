@@ -99,7 +99,7 @@ class Journal:
             raise _trouble(self.path, error) from None
 
     def _resumable_length(self, question: Any, resume: bool) -> int:
-        """Return the number of bytes of the file that can be resumed, 0 for none, and index the tasks in them."""
+        """Return the number of bytes of the file that can be resumed (0 if none can), and index the tasks in them."""
         first = self._reader.readline(_MOST_HEADER_BYTES)
         # an incomplete first line: the run was killed while it wrote the header
         torn = not first.endswith(b"\n")

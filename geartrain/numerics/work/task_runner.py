@@ -63,8 +63,8 @@ def run(
     journal : Journal, optional
         Stored results, which are not computed again; new results are added.
     tell : callable, optional
-        Progress function, called with (tasks done, total number of tasks, 0 if `tasks` has no length), at most ten
-        times a second and at the end.
+        Progress function, called with (tasks done, total number of tasks) at most ten times a second and at the end.
+        The total is 0 if `tasks` has no length.
 
     Yields
     ------

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.scene.layout.train_layout import AxisPlace as AxisPlace
@@ -29,6 +29,4 @@ if TYPE_CHECKING:
     from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
     from geartrain.scene.layout.train_layout import lay_out as lay_out
 
-__all__ = ["AxisPlace", "Layout", "WheelPlace", "lay_out"]
-
-__getattr__ = lazy_names(__name__, dict.fromkeys(__all__, "train_layout"))
+__getattr__, __all__ = public_names(__name__, {"train_layout": "AxisPlace Layout WheelPlace lay_out"})

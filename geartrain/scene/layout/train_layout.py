@@ -262,9 +262,9 @@ class AxisPlace(Shown):
     point: Vector
     """Point on the axis [mm]."""
     direction: Vector
-    """Declared unit vector, about which the speeds of the links on the axis are positive."""
+    """Declared unit vector of the axis, about which positive speeds of its links are counted."""
     how: How
-    """Origin: `given` in the declaration, `found` from meshing wheels or a pin's offset, or `free` (chosen)."""
+    """Origin of the position: `given` in the declaration, `found` from meshing wheels or a pin, or `free` (chosen)."""
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
 
@@ -287,7 +287,7 @@ class WheelPlace(Shown):
     centre: Vector
     """Centre of the wheel's pitch circle, on the axis of the wheel [mm]."""
     radius: float
-    """Pitch radius [mm]; for a bevel wheel, at the wide end."""
+    """Pitch radius [mm]; for a bevel wheel, at the large end."""
     module: float
     """Transverse module [mm], the pitch diameter divided by the tooth count; axial module of a worm."""
     thickness: float

@@ -408,7 +408,7 @@ class SizedGeometry:
     modules: WheelModules
     sizes: Mapping[str, WheelSize]
     crossing: tuple[CrossingSide, ...]
-    """Pairs whose axes are not parallel, each twice, once from the side of each wheel."""
+    """Pairs whose axes are not parallel; each is listed twice, once from the side of each wheel."""
 
     @cached_property
     def seats(self) -> Mapping[tuple[str, str], Seat]:

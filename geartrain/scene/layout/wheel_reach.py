@@ -1,8 +1,8 @@
 """Axial extent of the body of a wheel, from its thickness or its pitch cone.
 
 Teeth of a bevel or crown wheel are cut on its back cone, which is perpendicular to its pitch cone at the pitch circle,
-and extend from there towards the apex, `thickness` along the cone, with a back of solid metal behind them. The viewer
-builds the same bodies (`tooth.js`, `blanks.js`).
+and extend from there along the cone towards the apex by `thickness`, with solid metal behind them. The viewer builds
+the same bodies (`tooth.js`, `blanks.js`).
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the size of a bevel wheel's teeth at the narrow end divided by that at the wide end, from 0.55 to 1.
+    """Return the size of a bevel wheel's teeth at the small end divided by its size at the large end, from 0.55 to 1.
 
     cone        half angle of its pitch cone [rad], above 0; a right angle for a crown wheel
-    radius      pitch radius at the wide end [mm]
+    radius      pitch radius at the large end [mm]
     thickness   face width along the cone [mm]
     """
     # the cone distance is radius / sin(cone)
@@ -32,8 +32,8 @@ def taper(cone: float, radius: float, thickness: float) -> float:
 def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> float:
     """Return the distance between a point of a tooth and the plane of the pitch circle [mm], positive towards the apex.
 
-    depth   height above the pitch cone, along the back cone at the wide end [mm]
-    scale   1 at the wide end, `taper` at the narrow end
+    depth   height above the pitch cone, along the back cone at the large end [mm]
+    scale   1 at the large end, `taper` at the small end
     """
     apex = radius / tan(cone)
     return apex + (depth * sin(cone) - apex) * scale

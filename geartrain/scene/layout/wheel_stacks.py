@@ -111,8 +111,8 @@ class _OrderSearch:
 
     @cached_property
     def order(self) -> list[int]:
-        """Order in which stacks are placed: the one with the most arbors, then those that share the most arbors with
-        earlier ones.
+        """Order in which stacks are placed: first the stack with the most arbors, then those that share the most arbors
+        with earlier stacks.
         """
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others

@@ -43,7 +43,7 @@ class EngravedText:
 
 @dataclass(frozen=True, slots=True)
 class FlatDrawing:
-    """Drawing of one flat part at scale 1:1, with contours to cut, curves for orientation and engraving [mm]."""
+    """Drawing of one flat part at full scale (1:1), with contours to cut, curves for orientation and engraving [mm]."""
 
     title: str
     """Title of the drawing, in one line."""
@@ -185,7 +185,7 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 
 
 def pin_diameter(radius: float) -> float:
-    """Return a pin's default diameter [mm] at a distance from its axis [mm]: a quarter of it, at most 2 mm."""
+    """Return the default diameter of a pin [mm] at a distance from its axis [mm]: a quarter of it, at most 2 mm."""
     return min(2.0, _PIN * radius)
 
 

@@ -50,7 +50,7 @@ class ManufacturingSizes(Shown):
     """
 
     module: float | None = None
-    """Module: pitch diameter over tooth count [mm], above 0; only for declarations that give no sizes."""
+    """Module: pitch diameter divided by tooth count [mm], above 0; only for declarations that give no sizes."""
     thickness: float | None = None
     """Thickness of wheels and plates [mm], above 0."""
     bore: float | None = None
@@ -64,7 +64,7 @@ class ManufacturingSizes(Shown):
     process: str | None = None
     """Manufacturing process: laser, cnc, fdm or hand, by default hand. It determines kerf and fits."""
     arms: int | None = None
-    """Number of spokes of wheels with enough space for windows between them, 3 or more; None for solid webs."""
+    """Number of spokes of each wheel with enough space for openings between spokes, 3 or more; None for solid webs."""
     sheet: tuple[float, float] | None = None
     """Width and height of the sheets on which flat parts are arranged [mm], above 0; None for no sheets."""
 
@@ -74,7 +74,7 @@ class ManufacturingSizes(Shown):
         problems = []
         if self.arms is not None and self.arms < 3:
             what = f"a wheel cannot have {self.arms} spokes"
-            why, fix = "a web with windows has at least 3 spokes", "pass 3 or more, or omit --spokes for solid webs"
+            why, fix = "a wheel with spokes has at least 3 of them", "pass 3 or more, or omit --spokes for solid webs"
             problems.append(Problem(what, why, fix, "--spokes"))
         for name, bounds in _MADE.items():
             value = getattr(self, name)

@@ -60,7 +60,7 @@ class SolidModel(Shown):
     Raises
     ------
     QuestionError
-        At first use, if the train already declares sizes in `making`, or its teeth cannot have this backlash.
+        At first use, if the train already declares sizes in `making`, or its teeth cannot have the requested backlash.
 
     Examples
     --------
@@ -76,7 +76,7 @@ class SolidModel(Shown):
     making: ManufacturingSizes
     """Manufacturing sizes of the parts."""
     state: str | None = None
-    """State in which the train is built; by default the first."""
+    """State in which the train is built; by default the first state."""
 
     def __post_init__(self) -> None:
         """Unfold equal planets, because each planet is made separately."""

@@ -340,7 +340,7 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow end, and the disc inside the
+    """Return a bevel or crown wheel: its back, its teeth from the large end to the small end, and the disc inside the
     ring of teeth.
 
     The surface has rows of points, from the bore at the back round the outside to the bore at the front.

@@ -1,6 +1,6 @@
 """Flat shape of every wheel: its teeth as cut for all mates, the hole for its arbor, and crossings.
 
-Crossings are windows that leave a rim, spokes and a hub, with all inner corners rounded.
+Crossings are openings that leave a rim, spokes and a hub, with all inner corners rounded.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ Point = tuple[float, float]
 def spoke_windows(
     root: float, module: float, bore: float, spokes: int, corner: float | None = None
 ) -> tuple[Contour, ...]:
-    """Return the windows between the spokes of a wheel, each as one hole; empty if there is not enough space.
+    """Return the openings between the spokes of a wheel, each as one hole; empty if there is not enough space.
 
-    A spoke has a uniform width equal to the depth of the rim. A window is bounded by two spokes, the rim and the hub.
+    A spoke has a uniform width equal to the depth of the rim. An opening is bounded by two spokes, the rim and the hub.
 
     root     root radius [mm]; `bore` is the diameter of the hole for the arbor [mm]
     spokes   number of spokes, 3 or more; fewer give no windows
@@ -66,7 +66,7 @@ def spoke_windows(
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
-    """Return the window about the x axis between two spokes at +-pitch/2 with half width `half`; None if it is too
+    """Return the opening about the x axis between two spokes at +-pitch/2 with half width `half`; None if it is too
     small.
 
     Corners are arcs about centres at the distance `corner` from a spoke, and from the rim or the hub.
@@ -101,7 +101,7 @@ def _at(radius: float, angle: float) -> Point:
 
 
 def _spoke_edge(along: float, half: float, pitch: float) -> Point:
-    """Return a point on the edge of the spoke at +pitch/2 that faces the window."""
+    """Return a point on the edge of the spoke at +pitch/2 that faces the opening."""
     c, s = cos(pitch / 2), sin(pitch / 2)
     return along * c + half * s, along * s - half * c
 
@@ -239,7 +239,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return a blank with windows between spokes, if it is a plain spur wheel with enough space, and notices."""
+    """Return a blank with openings between spokes, if it is a plain spur wheel with enough space, and notices."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
@@ -248,7 +248,10 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
         what = f"wheel '{blank.wheel}' keeps its solid web"
         return blank, [
             Problem(
-                what, "it has holes for other parts, which windows could meet", "cut its windows by hand", "--spokes"
+                what,
+                "openings between its spokes could intersect holes for other parts",
+                "cut the openings by hand",
+                "--spokes",
             )
         ]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []

@@ -1,7 +1,6 @@
 """Constraints on tooth counts in addition to ratios: assembly, clearance, sums.
 
-assembly_constraints      constraints of a declared train: assembly, limits of wheels
-planet_constraints        equal planets: phase conditions, and clearance between neighbours
+assembly_constraints      constraints of a declared train: assembly, limits of wheels; equal planets: phases, clearance
 count_conditions          linear equations and conditions, evaluated for many candidates
 constraint_options        options, and their parser for the command line
 """

@@ -33,12 +33,11 @@ class ConstraintOptions:
     coaxial: bool | None = None
     """Requirement that spur wheels of the same module between the same two axes have equal centre distances.
 
-    Wheels without a declared module are assumed to have the same module. With None, two pairs of wheels are
-    exempt if their declared counts, none of which is to be searched for, violate the equality: modules then
-    differ or profiles are shifted.
+    Wheels without a declared module are assumed to have the same module. If None, two pairs of wheels are exempt if all
+    their counts are fixed and violate the equality, because their modules then differ or their profiles are shifted.
     """
     shift: int = 0
-    """Maximum difference between coaxial centre distances, to be compensated by profile shift [half modules]."""
+    """Maximum difference between centre distances on the same two axes, compensated by profile shift [half modules]."""
     planets: int | Mapping[str, int] | None = None
     """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number. With
     None, the numbers declared by `copies` are used.

@@ -345,7 +345,7 @@ class EpicyclicSet(CountSizes, Result):
         Parameters
         ----------
         copies : int
-            Number of equal planets; `equally_spaced` is True if `planets` of them can be assembled.
+            Number of equal planets. `equally_spaced` reports whether the requested number, `planets`, can be assembled.
         """
         kind, mode = epicyclic_kind(self.kind), self.mode
         return {
@@ -410,7 +410,7 @@ class SetFindings(Tabular, Result):
     tolerance: Fraction | None
     """Maximum absolute relative error; None for no limit."""
     complete: bool
-    """True; the search always examines all sets within the bounds."""
+    """Always True, because the search examines all sets within the bounds."""
     count: int
     """Number of combinations of a set and a mode that satisfy all constraints, and the tolerance if there is one."""
     solutions: tuple[EpicyclicSet, ...]

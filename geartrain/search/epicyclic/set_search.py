@@ -104,13 +104,13 @@ def find_sets(
     modes : str or iterable of str or EpicyclicMode
         "all", or modes as `input:output:held`, such as "sun:carrier:ring".
     counts : sequence of int, or mapping of str to sequence of int
-        Admissible tooth counts from 1 to 10^5, either the same for all wheels including rings, or by wheel.
+        Admissible tooth counts from 1 to 10^5, for all wheels including rings, or for each wheel.
     planets : int
         Number of equal planets, 1 or more.
     tolerance : Fraction, optional
         Maximum absolute relative error; by default unlimited.
     best : int
-        Maximum length of the list, 1 or more.
+        Maximum number of sets to list, 1 or more.
     sense : {-1, 0, 1}
         Sense of rotation of the output: 1 for the sense of the input, -1 for the opposite sense, 0 for either.
     ratio_is : {"input/output", "output/input"}
@@ -209,7 +209,7 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
         raise QuestionError(
             Problem(
                 f"the clearance {clearance} is not finite",
-                "a clearance is a gap between tooth tips in modules",
+                "the gap between the tooth tips of neighbouring planets must be a finite number of modules",
                 "give a number of modules, such as 0.5",
             )
         )
@@ -347,7 +347,7 @@ class _Search:
 
 
 def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> SetBounds:
-    """Return the admissible counts of every wheel, from counts for all wheels or by wheel.
+    """Return the admissible counts of every wheel, from counts that are common to all wheels, or are given by wheel.
 
     Raise `QuestionError` if the counts are invalid.
     """
@@ -371,7 +371,7 @@ def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
 
 
 def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
-    """Return the number of tooth sets of a type within bounds, before any constraint is applied."""
+    """Return the number of combinations of tooth counts of a type within bounds, before any constraint is applied."""
     chosen = prod(len(bounds[wheel]) for wheel in kind.free)
     return int(chosen * (2 * slack + 1) ** len(_followers(kind)))
 
@@ -379,8 +379,8 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
-    """Yield all tooth sets in blocks: the number of sets of a block, and the counts of its sets that satisfy the
-    coaxial equations, are admissible and fit.
+    """Yield all combinations of tooth counts in blocks: the number of combinations of a block, and those that satisfy
+    the coaxial equations, are admissible and fit.
 
     planets    number of equal planets between which an idle wheel must have clearance
     clearance  minimum clearance between these planets [modules]; None if it is not required
@@ -390,8 +390,14 @@ def blocks(
     """
     total = size(kind, bounds, slack)
     if total > MOST_SETS:
-        why = f"at most {MOST_SETS:.0e} sets are enumerated"
-        raise RangeError(Problem(f"{total:.2g} tooth sets are too many", why, "narrow the counts, or reduce the slack"))
+        why = f"at most {MOST_SETS:.0e} combinations are enumerated"
+        raise RangeError(
+            Problem(
+                f"{total:.2g} combinations of tooth counts are too many",
+                why,
+                "narrow the ranges of tooth counts, or reduce the slack",
+            )
+        )
     first, *rest = (np.array(bounds[wheel], dtype=np.int64) for wheel in kind.free)
     inner = [column.ravel() for column in np.meshgrid(*rest, indexing="ij")]
     # about 20,000 sets fit the cache of a processor

@@ -1,7 +1,7 @@
 """Exact join: tooth counts of some wheels that satisfy polynomial constraints, and the number of these assignments.
 
-Lists of products are joined on their common wheels, the smallest expected result first. All numbers are integers and
-Fractions.
+Lists of products are joined on their common wheels, in ascending order of the expected size of the result. All numbers
+are integers and Fractions.
 
 product_lists           distinct products with the number of assignments of each, and partial assignments as columns
 wheel_monomials         constraints on functions of tooth counts, and the monomials by which functions depend on wheels

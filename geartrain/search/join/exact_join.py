@@ -159,8 +159,8 @@ class ExactJoin:
         return at, rows
 
     def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the admissible values of the last variable from the index windows of its only constraint, without
-        listing a row for each value.
+        """Count the admissible values of the last variable from the index ranges that its only constraint admits,
+        without listing a row for each value.
         """
         constraint, item = self.constraints[node.guide], self.items[node.item]
         assert isinstance(constraint, PolynomialConstraint)

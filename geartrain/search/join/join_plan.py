@@ -226,8 +226,8 @@ class _Planner:
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int]) -> int:
-        """Select the next variable: a variable that an equation determines, otherwise the variable in most constraints
-        among those of the constraint with the lowest cost.
+        """Select the next variable: a variable that an equation determines, otherwise the variable of the constraint
+        with the lowest cost that occurs in most constraints.
         """
         for at in active:
             left = self.scopes[at] & open_
@@ -249,7 +249,7 @@ class _Planner:
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
         """Select the equation that determines the variable, otherwise the most selective constraint whose admissible
-        values of the variable are index windows.
+        values of the variable are index ranges.
 
         Return -1 if there is neither.
         """

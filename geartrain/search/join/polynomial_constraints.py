@@ -1,9 +1,9 @@
 """Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free variables.
 
-A speed N/D, a quotient of polynomials, is within the relative tolerance t of the requested speed w if
-|N/D - w| <= t w. This is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each
-case is a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values,
-whose ends are determined by exact signs.
+A speed N/D, a quotient of polynomials, is within the relative tolerance t of the requested speed w if |N/D - w| <= t w.
+This is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is a set of
+inequalities sense * polynomial >= 0. With one free variable each case leaves one index range of its values, whose ends
+are determined by exact signs.
 
 With several free variables, their values are between bounds. Rows are dropped if no values satisfy the constraint.
 Each term has its own extremes, whose sum bounds the polynomial.
@@ -215,8 +215,8 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def opens(self, item: int) -> bool:
-        """Return whether the admissible values of a variable can be computed as windows, which requires at most two
-        powers of it in each polynomial.
+        """Return whether the admissible values of a variable can be computed as index ranges, which requires at most
+        two powers of it in each polynomial.
         """
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 

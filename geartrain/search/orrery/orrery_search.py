@@ -105,21 +105,21 @@ class Orrery(Tabular, Result):
     periods: Mapping[str, Fraction]
     """Requested periods by name [revolutions of the first arbor]."""
     tolerances: Mapping[str, Fraction]
-    """Maximum absolute relative error of the speed of each period, by name."""
+    """Maximum absolute relative error of the speed of each pointer, by name of its period."""
     arbors: tuple[OrreryArbor, ...]
     """Arbors in topological order: the first arbor, then each arbor after the arbor that drives it."""
     pairs: tuple[OrreryPair, ...]
     """Gear pairs in the order of their driven arbors."""
     errors: Mapping[str, Fraction]
-    """Relative error of each speed by name: speed divided by requested speed, minus 1, exact; positive if the arbor is
-    fast.
+    """Exact relative error of each speed, by name of the period: speed divided by requested speed, minus 1; positive if
+    the arbor is too fast.
     """
     minimum_pairs: int
     """Proved lower bound on the number of pairs; all smaller trees were enumerated."""
     minimum_wheels: int
     """Proved lower bound on the number of wheels."""
     ended: str
-    """Reason why the search ended: proved, effort, or interrupted."""
+    """Reason why the search ended: "proved", "effort" (the maximum width of the beam was reached) or "interrupted"."""
 
     def _summary(self) -> str:
         worst = max((abs(error) for error in self.errors.values()), default=0)
@@ -141,8 +141,8 @@ class Orrery(Tabular, Result):
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """Return a declaration as plain data. The first arbor turns once per `unit`. The outputs expect their exact
-        speeds, and have the requested periods as targets.
+        """Return a declaration of the orrery as plain data. The first arbor turns once per `unit`. The outputs expect
+        their exact speeds, and have the requested periods as targets.
 
         A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
 
@@ -215,9 +215,9 @@ def find_orrery(
 ) -> Orrery:
     """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger trees.
 
-    The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumeration proves lower
-    bounds, and wider beams find better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and
-    `complete`. The result is deterministic unless the user ended the search.
+    The orrery is a tree of arbors with external gear pairs, driven from the first arbor. The enumeration proves lower
+    bounds; wider beams can find better solutions, but prove nothing; see `Orrery.minimum_pairs`, `minimum_wheels` and
+    `complete`. The result is deterministic unless the user interrupts the search.
 
     Parameters
     ----------

@@ -79,8 +79,8 @@ def infer_counts(
 ) -> ToothCountPosterior:
     """Compute the posterior of uncertain tooth counts, given the observed speeds of outputs.
 
-    After an interruption (Ctrl-C) the result has `cut` True. It covers the combinations drawn so far. The exact join
-    has no partial result; a short sample is then drawn instead, which a remark reports.
+    After an interruption (Ctrl-C), `cut` is True, and the result covers the combinations sampled so far. An interrupted
+    exact join is replaced by a short sample, as a remark reports.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def infer_counts(
     free : mapping of str to sequence of int, optional
         Wheel -> possible counts, which replace the declared counts.
     outputs : sequence of str
-        Outputs used as evidence; default all.
+        Outputs used as evidence; by default all outputs.
     tolerance : Fraction, optional
         Relative tolerance of targets without a declared tolerance, at least 0.
     against : {"all", "targets", "figures"}
@@ -137,11 +137,11 @@ def infer_counts(
     p(counts | outputs) = p(counts) L(outputs | counts) / evidence. The prior p treats wheels as independent. The
     likelihood L is 1 or 0, or exp(-misfit / 2) with `soft`. The evidence is the sum of the products of prior and
     likelihood (docs/which-counts.md). The exact join merges partial combinations that no later output distinguishes,
-    and adds integers.
+    and uses integer arithmetic.
 
     Examples
     --------
-    A wheel of 60 to 62 teeth on a pinion of 20 turns 1/3 as fast, to 2 %: 60 and 61 fit, 62 is 3.2 % slow.
+    A pinion of 20 teeth drives a wheel of 60 to 62 at 1/3 of its speed, to 2 %: 60 and 61 fit, 62 is 3.2 % too slow.
 
     >>> from fractions import Fraction
     >>> from geartrain.train import declare

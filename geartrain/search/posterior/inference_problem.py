@@ -92,7 +92,7 @@ def build_inference_problem(
 ) -> InferenceProblem:
     """Build the inference problem of a train in one state, or in all its states at once.
 
-    outputs     outputs used as evidence and reported; default all
+    outputs     outputs used as evidence and reported; by default all
     tolerance   relative tolerance of targets that do not declare a tolerance
     against     kinds of observations that are used: "targets", "figures" (`expect` and `published`), or "all"
     scale       factor of every tolerance
@@ -254,8 +254,8 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
 
     free   wheel -> possible counts, which replace the declared counts; a single count makes the wheel certain
 
-    A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared), a wheel with
-    `search` a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that are not
+    A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared); a wheel with
+    `search` has a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that are not
     probabilities, and if no count is uncertain; `RangeError` for a wheel with too many counts to list.
     """
     given = dict(free or {})

@@ -41,28 +41,7 @@ def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
 
 
 def describe_posterior(found: ToothCountPosterior) -> Document:
-    """Return the report on uncertain tooth counts: evidence, posterior of each wheel, and Sobol indices of the outputs.
-
-    Parameters
-    ----------
-    found : ToothCountPosterior
-        Result of `geartrain.search.infer_counts`.
-
-    Returns
-    -------
-    Document
-        Document that begins with the assumptions. Estimated probabilities have 95 % confidence intervals.
-
-    Examples
-    --------
-    Of five counts of a sun one gives the declared speeds:
-
-    >>> from geartrain.train.declaration_files import read_declaration
-    >>> from geartrain.search import infer_counts
-    >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
-    >>> describe_posterior(found).summary[1]
-    '1 fits the observations: prior probability 0.2.'
-    """
+    """Return a document on uncertain tooth counts: evidence, posterior of each wheel, Sobol indices of the outputs."""
     return Document(f"Uncertain tooth counts of {found.name}", list(_summary(found)), list(_sections(found)))
 
 

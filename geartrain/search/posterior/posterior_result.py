@@ -175,7 +175,7 @@ class VarianceShares(Result):
 
 
 class KnownOutput(TypedDict):
-    """Observed output as plain data: its observations, its formula, and its evidence."""
+    """Observed output as plain data: observations, formula, and evidence (marginal likelihood)."""
 
     output: str
     """Name of the output."""
@@ -232,7 +232,7 @@ class ToothCountPosterior(Tabular, Result):
     witnesses: tuple[OutputRequirement, ...]
     """Outputs with observed speeds, which are the evidence."""
     alone: Mapping[str, CountProbability]
-    """Evidence of each output without the observations of the other outputs."""
+    """Evidence of each output, computed from the observations of this output only."""
     posteriors: Mapping[str, WheelPosterior]
     """Posterior of the tooth count of each wheel."""
     correlations: Mapping[tuple[str, str], float]
@@ -242,7 +242,7 @@ class ToothCountPosterior(Tabular, Result):
     ranked: bool
     """True if no unlisted combination is better than the last listed combination."""
     shares: Mapping[str, VarianceShares]
-    """Sobol indices of the speed of each output, by wheel."""
+    """Sobol indices of the speed of each output with respect to the tooth count of each wheel."""
     remarks: tuple[str, ...]
     """Remarks on observations that are not used, and on the reliability of estimates."""
     seed: int | None

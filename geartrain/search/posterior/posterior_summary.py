@@ -161,8 +161,8 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bo
 def _share(question: InferenceProblem, tally: PosteriorTally) -> CountProbability:
     """Return the evidence estimated from a sample, with its 95 % confidence interval.
 
-    The interval is the Wilson score interval for combinations that satisfy the observations or not, and a normal
-    interval for a Gaussian likelihood.
+    The interval is the Wilson score interval for likelihoods of 0 or 1, and a normal interval for a Gaussian
+    likelihood.
     """
     if not tally.examined:
         return CountProbability(0.0, 0.0, 1.0)

@@ -219,7 +219,7 @@ class _Scale:
         halves = (claim.half(side) for side in (False, True))
         wanted, below, above = (as_float(each or Fraction(0)) for each in (claim.wanted, *halves))
         if wanted is None or below is None or above is None:
-            what = f"'{claim.label}' is a speed beyond the range of float64"
+            what = f"the speed '{claim.label}' is outside the range of float64"
             why = "misfits are computed in floats from 1e-308 to 1e308"
             raise RangeError(Problem(what, why, "omit this output, or give it an exact `expect`"))
         return cls(wanted, claim.signed, *(1 / half if half else 0.0 for half in (below, above)))

@@ -51,7 +51,7 @@ CHUNK = 1 << 19
 """Number of pairings of pairs of multisets processed in one vectorised step."""
 _WIDER = 16  # factor between tolerances; all passes before the last then cost little
 _ENOUGH = 2 * 10**9
-"""Number of tested pairs of multisets at which a search without a tolerance stops to widen its tolerance."""
+"""Number of tested pairs of multisets at which a search without a tolerance stops widening its tolerance."""
 _SLACK = 1e-12  # relative margin of float comparisons
 _MOST = 1e11
 """Maximum number of pairs of multisets that may be tested one by one."""

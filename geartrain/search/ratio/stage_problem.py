@@ -47,13 +47,13 @@ class StageConstraints(Result):
     hunting: bool = False
     """Requirement that the two counts of every stage are coprime, so that every tooth meets every tooth of its mate."""
     reverted: bool = False
-    """Requirement that all stages have the same centre distance at the same module: equal sums of their counts, or
-    equal differences for a stage with a ring.
+    """Requirement that all stages have the same centre distance at the same module: equal sums of their counts, with
+    the difference instead of the sum for a stage with a ring.
     """
     different: bool = False
     """Requirement that all counts are distinct."""
     internal: int = 0
-    """Number of internal meshes, 0 to the number of stages. An internal mesh preserves the sense of rotation, an
+    """Number of internal meshes, 0 to the number of stages. An internal mesh preserves the sense of rotation; an
     external mesh reverses it. A ring has more teeth than its pinion.
     """
     maximum_total: int | None = None
@@ -277,7 +277,7 @@ def check_order(by: str) -> None:
         known = ", ".join(get_args(StageOrder))
         raise QuestionError(
             Problem(
-                f"'{by}' is not an order of solutions",
+                f"solutions cannot be sorted by '{by}'",
                 "solutions are sorted by one of the predefined criteria",
                 f"use one of {known}",
             )

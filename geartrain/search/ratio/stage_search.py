@@ -1,11 +1,11 @@
 """Search for one ratio by one to five stages of gear pairs: all solutions within a tolerance, or the best with proof.
 
 A train of k stages has the ratio P / Q, where P and Q are products of k tooth counts each. For every denominator
-product Q, the numerator products P within the tolerance are a contiguous window of a sorted list. This meet-in-the-
-middle search finds all solutions at the cost of sorting. The ends of the windows are determined in integers. Products
-are generated in segments of value, which bounds the memory and gives independent tasks. Four stages of 200 counts (69
-million multisets per side) need less than 0.2 GB, five stages (2800 million) less than 0.4 GB, and less than 0.5 GB
-with constraints and other orders.
+product Q, the numerator products P within the tolerance are a contiguous range of a sorted list. This meet-in-the-
+middle search finds all solutions at the cost of sorting. The ends of the ranges are determined by integer arithmetic.
+Products are generated in segments of value, which bounds the memory and gives independent tasks. Four stages of 200
+counts (69 million multisets per side) need less than 0.2 GB, five stages (2800 million) less than 0.4 GB, and less than
+0.5 GB with constraints and other orders.
 """
 
 from __future__ import annotations
@@ -88,10 +88,10 @@ class StageFindings(Tabular, Result):
     fit: StageConstraints
     """Constraints on the counts."""
     by: str
-    """Name of the order in which `solutions` are listed."""
+    """Name of the criterion by which `solutions` are sorted."""
     tolerance: Fraction
-    """Maximum absolute relative error: the requested tolerance, or the tolerance within which the list of the best is
-    proved complete.
+    """Maximum absolute relative error: the requested tolerance, or the tolerance within which the list of the best
+    solutions is proved to be complete.
     """
     complete: bool
     """True if all candidates within the tolerance were examined; False if the search was interrupted."""
@@ -102,8 +102,8 @@ class StageFindings(Tabular, Result):
     shortfall: Shortfall
     """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
-    """Assumption of the search that was not requested, or reason why the list is shorter than requested; "" if
-    there is neither.
+    """Assumption that the search added to the request, or reason why the list is shorter than requested; "" if there is
+    neither.
     """
 
     def _summary(self) -> str:
@@ -184,7 +184,7 @@ def find_stages(
     search.
 
     For every product of denominator counts, the range of numerator products within the tolerance is located in a sorted
-    list. The ends of the ranges are determined in integers, and the search is exhaustive.
+    list. The ends of the ranges are determined by integer arithmetic, and the search is exhaustive.
 
     Parameters
     ----------
@@ -194,13 +194,13 @@ def find_stages(
     stages : int
         Number of gear pairs in series, 1 to 5.
     wheels, pinions : sequence of int
-        Admissible tooth counts of the numerator and the denominator for a ratio of 1 or more, and the opposite for a
+        Admissible tooth counts of the numerator and the denominator for a ratio of 1 or more, and vice versa for a
         ratio below 1.
     tolerance : Fraction, optional
         Maximum absolute relative error, 0 or more. By default, the order "error" chooses a tolerance that includes
         enough solutions and proves that the listed solutions are the best. Other orders use 1e-6, which `note` reports.
     best : int
-        Maximum length of the list, 1 or more.
+        Maximum number of solutions to list, 1 or more.
     by : {"error", "total", "largest", "distinct", "hunting", "centres"}
         Primary criterion: minimum absolute error, sum of counts, largest count, number of distinct counts, maximum
         number of stages with coprime counts, minimum number of centre distances. Ties are broken by absolute error,
@@ -229,7 +229,7 @@ def find_stages(
 
     Examples
     --------
-    The 13.368 revolutions of the Moon in a year, 254/19, by two stages:
+    The 13.368 revolutions of the Moon in a year, 254/19, with two stages:
 
     >>> from geartrain.search import (read_counts, read_ratio)
     >>> counts = read_counts("15:130")

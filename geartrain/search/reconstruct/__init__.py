@@ -15,14 +15,14 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `train_topology`: a rooted tree without orders of arbors and counts of added wheels (an equivalence class of trains)
 - `quotient_tables`: sorted tables of quotients of added counts
 - `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and tables of quotients
-- `path_choice`: backtracking over dials, pruned by bit masks and tables of quotients
 - `path_trees`: recursive enumeration of the topologies that have one given path per dial
-- `added_counts`: choices of added counts by variable elimination and tables of products; their sums and random draws
+- `added_counts`: choices of added counts by variable elimination and tables of products; their sums
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, enumerated
-- `search_tasks`: independent tasks for any number of processes
+- `search_tasks`: backtracking over dials, pruned by bit masks and tables of quotients; independent tasks for any number
+  of processes
 - `geometry_likelihood`: likelihood of measured modules, radii and distances of axes
-- `reconstruction_search`: counts, most probable candidates, random samples; equality up to the order of arbors
+- `reconstruction_search`: counts, most probable candidates; equality up to the order of arbors
 
 The answer
 - `train_construction`: a complete declaration of a candidate
@@ -40,7 +40,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion as EvidenceQuestion
@@ -57,57 +57,22 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction_problem import SearchedDial as SearchedDial
     from geartrain.search.reconstruct.reconstruction_problem import SurvivingArbor as SurvivingArbor
     from geartrain.search.reconstruct.reconstruction_problem import SurvivingWheel as SurvivingWheel
-    from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction as describe_reconstruction
     from geartrain.search.reconstruct.reconstruction_search import Candidate as Candidate
     from geartrain.search.reconstruct.reconstruction_search import ExplanationCount as ExplanationCount
     from geartrain.search.reconstruct.reconstruction_search import Reconstructions as Reconstructions
-    from geartrain.search.reconstruct.reconstruction_search import draw_candidates as draw_candidates
     from geartrain.search.reconstruct.reconstruction_search import find_reconstructions as find_reconstructions
     from geartrain.search.reconstruct.train_construction import candidate_train as candidate_train
     from geartrain.train.declaration_files import read_evidence as read_evidence
 
-__all__ = [
-    "Additions",
-    "Arbor",
-    "Candidate",
-    "EvidenceQuestion",
-    "ExplanationCount",
-    "PlacedWheel",
-    "PriorFactors",
-    "RankedTrain",
-    "ReconstructionAnswer",
-    "ReconstructionProblem",
-    "ReconstructionRequest",
-    "Reconstructions",
-    "SearchedDial",
-    "SurvivingArbor",
-    "SurvivingWheel",
-    "candidate_train",
-    "describe_reconstruction",
-    "draw_candidates",
-    "evidence_question",
-    "find_reconstructions",
-    "read_evidence",
-    "reconstruct",
-]
-
-_PLACES = {
-    **dict.fromkeys(("EvidenceQuestion", "evidence_question"), "evidence_translation"),
-    **dict.fromkeys(("RankedTrain", "ReconstructionAnswer", "ReconstructionRequest", "reconstruct"), "reconstruction"),
-    **dict.fromkeys(
-        (
-            *("Additions", "Arbor", "PlacedWheel", "PriorFactors", "ReconstructionProblem", "SearchedDial"),
-            *("SurvivingArbor", "SurvivingWheel"),
-        ),
-        "reconstruction_problem",
-    ),
-    **dict.fromkeys(
-        ("Candidate", "ExplanationCount", "Reconstructions", "draw_candidates", "find_reconstructions"),
-        "reconstruction_search",
-    ),
-    "candidate_train": "train_construction",
-    "describe_reconstruction": "reconstruction_report",
-    "read_evidence": "..train.declaration_files",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "evidence_translation": "EvidenceQuestion evidence_question",
+        "reconstruction": "RankedTrain ReconstructionAnswer ReconstructionRequest reconstruct",
+        "reconstruction_problem": "Additions Arbor PlacedWheel PriorFactors ReconstructionProblem SearchedDial "
+        "SurvivingArbor SurvivingWheel",
+        "reconstruction_search": "Candidate ExplanationCount Reconstructions find_reconstructions",
+        "train_construction": "candidate_train",
+        "..train.declaration_files": "read_evidence",
+    },
+)

@@ -15,14 +15,13 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import product
 from math import comb, prod
-from random import Random
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.search.reconstruct.train_topology import AddedKind, AddedWheels, Dials, Quotients
-from geartrain.search.weighted_alternatives import draw_index, sums_by
+from geartrain.search.weighted_alternatives import sums_by
 
 # Number of choices of added tooth counts with a given quotient of products. For drivers y and driven wheels x, prod y /
 # prod x = num / den in lowest terms if and only if prod y = num m and prod x = den m for an integer m. The number of
@@ -305,12 +304,6 @@ class AddedCounts:
             if not total:
                 break
         return found
-
-    def draw(self, requested: OpenCounts, kind: AddedKind, probability: Random) -> tuple[int, OpenCounts]:
-        """Draw the tooth count of one wheel of a kind, and return it with the remaining problem."""
-        by_count = self.of_kind(requested, kind)
-        count = [*by_count][draw_index([*by_count.values()], probability)]
-        return count, requested.with_one(kind, count)
 
     def _count_groups(self, groups: tuple[Group, ...], wanted: Wanted) -> int:
         if not _may_satisfy(groups, wanted):

@@ -187,7 +187,7 @@ class ExplainedFacts:
         )
 
     def next_facts(self) -> tuple[NextFact, ...]:
-        """Return the observable facts whose answers differ among the trains, in descending order of entropy,
+        """Return the observable facts whose answers differ among the trains, in descending order of entropy, with
         equivalent facts as one group.
         """
         requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
@@ -216,7 +216,7 @@ class ExplainedFacts:
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
     """Yield all facts of a candidate with their answers, each fact once.
 
-    Tooth counts of surviving wheels are facts only for wheels in `doubtful`, pointers only for dials in `lost`.
+    Tooth counts of surviving wheels are facts only for wheels in `doubtful`; pointers only for dials in `lost`.
     """
     yield from _order_facts(train, doubtful, lost)
     added = _added_wheels(train)

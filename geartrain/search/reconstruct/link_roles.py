@@ -202,7 +202,7 @@ def _carrier_geometry_problems(evidence: Train) -> Iterator[Problem]:
 
 
 Joined = Mapping[str, tuple[str, ...]]
-"""Links that each arbor of the problem represents, the link of the same name first."""
+"""Links that each arbor of the problem represents, beginning with the link of the same name."""
 
 
 def joined_arbors(evidence: Train) -> Joined:

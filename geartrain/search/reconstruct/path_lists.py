@@ -238,7 +238,7 @@ AddedArbors = tuple[int, int]
 class PathList:
     """Possible paths to a dial, one per row of the arrays.
 
-    along   only permitted pass of some surviving arbors, all other arbors excluded; None for all paths
+    along   only permitted pass of some surviving arbors, with all other arbors excluded; None for all paths
 
     codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; shape
                          (rows, arbors)

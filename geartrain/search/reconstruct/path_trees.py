@@ -213,8 +213,7 @@ class PathTrees:
     def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
         """Yield each chain of given surviving arbors and some added arbors that all paths can share, without its end.
 
-        The second entry is the number of wheels and arbors that may still be added, the third the rest of each
-        path.
+        The second entry is the number of wheels and arbors that may still be added, the third is the rest of each path.
         """
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)

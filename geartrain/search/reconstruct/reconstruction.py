@@ -26,7 +26,6 @@ from geartrain.search.reconstruct.reconstruction_search import (
     Candidate,
     ExplanationCount,
     Reconstructions,
-    draw_candidates,
     explanations_text,
     find_reconstructions,
     rank_of,
@@ -72,10 +71,6 @@ class ReconstructionRequest(Shown):
     """Unit of the uniform prior: the same weight for every train, or for every equivalence class of trains with equal
     ratios.
     """
-    sample: int = 0
-    """Number of trains to draw at random according to their posterior probabilities."""
-    seed: int = 1
-    """Random seed of the draws requested by `sample`."""
     assumptions: bool = False
     """True to recount the trains with each hard constraint of the evidence dropped in turn."""
     known: tuple[Train, ...] = ()
@@ -113,7 +108,7 @@ class ReconstructionRun:
 
 @dataclass(frozen=True, slots=True)
 class RankedTrain(Result):
-    """Train that explains the evidence, in the list of the best trains or of the sampled trains.
+    """Train that explains the evidence, in the list of the best trains.
 
     See Also
     --------
@@ -156,7 +151,6 @@ class ReconstructionAnswer(Result):
         "complete",
         "unused",
         "best",
-        "drawn",
         "original",
         "known",
         Key("", "findings"),
@@ -184,8 +178,6 @@ class ReconstructionAnswer(Result):
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
     """Links that form one arbor because given couplings connect them, by the name of the arbor."""
-    drawn: tuple[RankedTrain, ...] = ()
-    """Randomly sampled trains. Their field `rank` is the number of the draw."""
     known: tuple[KnownRank, ...] = ()
     """Ranks of the known trains, or the rules that they break."""
     evidence: Train | None = None
@@ -249,7 +241,6 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     run.searched(found.complete)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     listed = () if request.counts_only else found.candidates[: request.best]
-    drawn = draw_candidates(found, problem, request.sample, request.seed) if request.sample else ()
     return ReconstructionAnswer(
         evidence.name,
         problem,
@@ -262,7 +253,6 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
         findings=_findings(evidence, problem, found, dropped, request.counts_only, run),
         base=question.base,
         joined=question.joined,
-        drawn=tuple(_ranked(evidence, drawn)),
         evidence=evidence,
         candidates=listed,
     )

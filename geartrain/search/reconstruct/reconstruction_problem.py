@@ -262,7 +262,7 @@ class ReconstructionProblem(Shown):
     dials: tuple[SearchedDial, ...]
     """Pointers with the required ranges of their speeds."""
     additions: Additions
-    """Limits of added wheels and arbors."""
+    """Limits on added wheels and arbors."""
     input_speed: Fraction = Fraction(1)
     """Speed of the input arbor [turns per unit]."""
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
@@ -327,7 +327,7 @@ class Arbor(Shown):
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
     """Driving wheels, each with the arbors that it drives; sorted."""
     passes: tuple[Arbor, ...] = ()
-    """Arbors that are driven by the driven wheel itself, as an idler; sorted."""
+    """Arbors that the driven wheel itself drives, as an idler; sorted."""
 
     def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
         """Yield every arbor that this arbor drives, with the driving wheel."""

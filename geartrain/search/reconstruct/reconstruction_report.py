@@ -63,27 +63,7 @@ _OF_KNOWN = (
 
 
 def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turning: int = 0) -> Document:
-    """Return the report of a reconstruction as a document.
-
-    Parameters
-    ----------
-    found : ReconstructionAnswer
-        Result of `reconstruct`.
-    viewer : str
-        Complete HTML page that shows animated trains.
-    turning : int
-        Number of best trains that are animated.
-
-    Returns
-    -------
-    Document
-
-    Examples
-    --------
-    >>> from geartrain.search.reconstruct import ReconstructionRequest, read_evidence, reconstruct
-    >>> describe_reconstruction(reconstruct(ReconstructionRequest(read_evidence("metonic-l-m")))).title
-    'Trains that explain metonic-l-m'
-    """
+    """Return the report of a reconstruction as a document."""
     aside = PageExtras(viewer=viewer, notes=[_TURNING] if viewer else [])
     return Document(f"Trains that explain {found.name}", list(_summary(found)), list(_sections(found, turning)), aside)
 
@@ -134,8 +114,6 @@ def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
     yield from missing_sections(findings.missing, found.problem.additions.wheels)
     if found.best:
         yield _best(found, turning)
-    if found.drawn:
-        yield _drawn(found)
     yield from family_section(findings.family, turning)
     yield from shared_sections(findings.marginals)
     yield from next_section(findings.next_facts)
@@ -188,12 +166,6 @@ def _best(found: ReconstructionAnswer, turning: int) -> Section:
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
         more.append("Parentheses give the ranks that trains of equal weight share.")
     return Section("Most probable trains", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
-
-
-def _drawn(found: ReconstructionAnswer) -> Section:
-    rows = [(str(one.rank), ranks_text(one.ranks), *_contents(one)) for one in found.drawn]
-    table = filled_table(("draw", "ranks", *_CONTENTS), rows, 4)
-    return Section("Random trains", ["Each train is drawn in proportion to its weight."], [table])
 
 
 _CONTENTS = ("added wheels", "meshes", "uncertain counts")

@@ -9,19 +9,17 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import astuple, dataclass
 from fractions import Fraction
 from itertools import groupby, islice
-from random import Random
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import plural, whole_multiple
+from geartrain.numerics.exact import plural
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
 from geartrain.search.reconstruct.arbor_orders import MeshFacts, arranged, rings_limit
 from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
-from geartrain.search.reconstruct.search_tasks import CountedTopology, TopologyTrains, count_topologies
-from geartrain.search.weighted_alternatives import draw_index
+from geartrain.search.reconstruct.search_tasks import CountedTopology, count_topologies
 
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.train_topology import Topology
@@ -274,58 +272,6 @@ def _weighed_one_by_one(
     candidates = tuple(Candidate(arbor, added, weight / whole, ranks[weight]) for weight, added, arbor in weighed)
     weights = _weight_classes((one.added, Fraction(one.weight), 1) for one in candidates)
     return Reconstructions(tuple(counts), complete, candidates, weights=tuple(weights))
-
-
-def draw_candidates(
-    found: Reconstructions, problem: ReconstructionProblem, number: int, seed: int
-) -> tuple[Candidate, ...]:
-    """Draw candidate reconstructions independently and with replacement, according to their posterior probabilities.
-
-    Parameters
-    ----------
-    found : Reconstructions
-        All explanations of the problem.
-    problem : ReconstructionProblem
-        Reconstruction problem.
-    number : int
-        Number of draws, at least 0.
-    seed : int
-        Random seed.
-
-    Returns
-    -------
-    tuple of Candidate
-
-    Raises
-    ------
-    QuestionError
-        If trains are weighted individually, because weights depend on ratio classes or measured sizes.
-
-    Examples
-    --------
-    >>> from geartrain.search.reconstruct import evidence_question, read_evidence
-    >>> problem = evidence_question(read_evidence("metonic-l-m")).problem
-    >>> [each.added for each in draw_candidates(find_reconstructions(problem), problem, 3, seed=1)]
-    [1, 1, 1]
-    """
-    if not found.topologies:
-        if not sum(each.solutions for each in found.counts):
-            return ()
-        what = "trains cannot be sampled if they are weighted individually"
-        fix = "list them instead (--all), or use `--prior solution` without `geometry`"
-        raise QuestionError(Problem(what, "sampling needs the numbers of trains with equal weight", fix))
-    weights = [topology_prior(each.topology, problem) for each in found.topologies]
-    whole = whole_multiple(weights)
-    shares = [weight * each.solutions for weight, each in zip(whole, found.topologies, strict=True)]
-    ranks = weight_ranks((weight, each.solutions) for weight, each in zip(weights, found.topologies, strict=True))
-    trains, probability = TopologyTrains(problem), Random(seed)
-    drawn = []
-    for _ in range(number):
-        at = draw_index(shares, probability)
-        topology, weight = found.topologies[at].topology, weights[at]
-        share = float(Fraction(whole[at], sum(shares)))
-        drawn.append(Candidate(trains.draw(topology, probability), topology.added.number, share, ranks[weight]))
-    return tuple(drawn)
 
 
 def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:

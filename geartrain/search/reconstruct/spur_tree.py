@@ -127,7 +127,7 @@ class SpurTree:
     driven: Mapping[str, DrivenArbor]
     """Mesh by which each arbor is driven, in topological order."""
     joined: Joined
-    """Links that each arbor represents, the link of the same name first; only for arbors with several links."""
+    """Links that each arbor represents, the link of the same name first. Arbors with a single link are omitted."""
     pointers: Mapping[str, str]
     """Arbor of each output, or of each link whose speed is given."""
     counts: Mapping[str, int]
@@ -238,7 +238,7 @@ def candidate_arbor(
 
 
 def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
-    """Return all parts of a train that lead to pointers, the part that begins at the input first.
+    """Return all parts of a train that lead to pointers, beginning with the part that starts at the input.
 
     A pointer is an output with a target whose speed is known by `expect` or by a target with a tolerance. If no pointer
     follows an arbor of known speed, that arbor is a pointer. Arbors that lead to no pointer belong to no part.
@@ -282,7 +282,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         return (both or trees)[0]
     said = " and ".join(f"'{link}'" for link in wanted)
     why = f"the train has {len(trees)} parts, and each is reconstructed separately"
-    raise QuestionError(Problem(f"{said} cannot be lost together", why, "omit the arbors of all parts except one"))
+    raise QuestionError(Problem(f"{said} cannot both be lost", why, "name only arbors of one part"))
 
 
 def _check_input(train: Train) -> None:
@@ -549,7 +549,7 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
 
 
 def lost_arbors(tree: SpurTree, links: Sequence[str]) -> tuple[str, ...]:
-    """Return the arbors of the tree that represent the given links, each once."""
+    """Return the arbors of the tree that represent the given links, without duplicates."""
     return tuple(dict.fromkeys(map(tree.arbor_of, links)))
 
 

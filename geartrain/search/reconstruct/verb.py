@@ -16,7 +16,6 @@ from geartrain.cli.common import (
     Json,
     Names,
     Out,
-    Seed,
     as_json,
     check_distinct_outputs,
     give,
@@ -43,8 +42,6 @@ Evidence = Annotated[
 
 _EVIDENCE = "evidence.yaml"
 _FAMILY = "family.json"
-MOST_DRAWN = 100_000
-"""Maximum number of trains drawn at random."""
 MOST_TURNING = 200
 
 
@@ -102,16 +99,6 @@ def run(
             help="Assign equal prior weights to trains (solution), or to classes of trains with equal ratios (class).",
         ),
     ] = "solution",
-    sample: Annotated[
-        int,
-        typer.Option(
-            "--sample",
-            min=0,
-            max=MOST_DRAWN,
-            help="Draw this number of trains at random, in proportion to their posterior probabilities.",
-        ),
-    ] = 0,
-    seed: Seed = 1,
     assumptions: Annotated[
         bool,
         typer.Option(
@@ -176,8 +163,6 @@ def run(
         best=None if every else best,
         counts_only=count,
         prior_of=prior,
-        sample=sample,
-        seed=seed,
         assumptions=assumptions,
         known=tuple(map(read_declaration, rank or ())),
         same=dict(map(_name_pair, same or ())),

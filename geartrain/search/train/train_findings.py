@@ -184,7 +184,7 @@ class TrainFindings(Tabular, Result):
     by: By
     """Criterion by which the solutions are sorted."""
     best: int
-    """Maximum number of solutions that was requested."""
+    """Requested maximum number of solutions."""
     parts: tuple[PartFindings, ...]
     """Results of the independent parts, whose solutions can be combined freely."""
     links: Mapping[str, str]
@@ -240,14 +240,14 @@ class TrainFindings(Tabular, Result):
         return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
 
     def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
-        """Return the rank, errors and violated constraints of an assignment, for each part with all its wheels in the
+        """Return the rank, errors and violated constraints of an assignment, for each part whose wheels are all in the
         assignment.
 
         Parameters
         ----------
         teeth : mapping of str to int
-            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if no part has all
-            counts.
+            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if the counts of every
+            part are incomplete.
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]

@@ -278,7 +278,7 @@ def search_train(
     Raises
     ------
     QuestionError
-        If no wheel is varied, if nothing is required of the varied wheels, or if the order or state does not exist.
+        If no wheel is varied, if no requirement depends on the varied wheels, or if the order or state does not exist.
     RangeError
         If a range of counts is too large to list.
 
@@ -302,7 +302,7 @@ def search_train(
     if by not in ORDERS:
         raise QuestionError(
             Problem(
-                f"'{by}' is not an order of solutions",
+                f"solutions cannot be sorted by '{by}'",
                 "solutions are sorted by one of the predefined criteria",
                 suggest(by, ORDERS),
             )

@@ -37,7 +37,7 @@ class LinkInertia(Result):
     """Name of the link."""
     value: float
     """Moment of inertia about the link's axis, including the planets that the link carries [kg m2]; 0 if unknown. For a
-    link that slides it is the value with the same kinetic energy, a travel of 1 mm counted as one turn.
+    sliding link, it is the value that gives the same kinetic energy if a travel of 1 mm is counted as one turn.
     """
     source: Literal["declared", "outlines", "unknown"]
     """Source of the inertia of the link without its planets: declaration, outlines of its wheels, or unknown."""
@@ -75,7 +75,7 @@ def find_link_inertias(
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, from `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state; None only for a train that has no states.
     with_inputs : bool
@@ -88,7 +88,7 @@ def find_link_inertias(
 
     Examples
     --------
-    Two wheels of bronze, 2 mm thick, from the outlines of their teeth:
+    Inertia of a bronze wheel, 2 mm thick, from the outlines of its teeth:
 
     >>> import geartrain
     >>> train = geartrain.load('''

@@ -50,7 +50,7 @@ def find_separation(
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, from `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state; None only for a train that has no states.
     without : sequence of str
@@ -140,7 +140,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, from `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state; None only for a train that has no states.
 
@@ -191,7 +191,7 @@ class PairSeparation(Result):
     pair: str
     """Name of the pair or coupling."""
     rate: float | None
-    """Input speed [turn/s]; 0 if the flanks separate at any speed, None if they never separate."""
+    """Input speed [turn/s]; 0 if the flanks separate at any speed; None if they never separate."""
     at: float
     """Position of the input at which the flanks first separate [turn]."""
     leap: bool = False
@@ -215,7 +215,7 @@ class SeparationRates(Result):
     state: str | None
     """Name of the declared state for which the speeds were computed."""
     input: str
-    """Name of the input link, whose speed the results give."""
+    """Name of the input link, to which the speeds refer."""
     turns: float
     """Searched range of the input [turn]."""
     complete: bool
@@ -225,7 +225,7 @@ class SeparationRates(Result):
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the links, as used in the computation."""
     uncounted: tuple[str, ...] = ()
-    """Names of the pairs with a constant ratio and of the pins; the computation neglects their friction."""
+    """Names of the pairs with a constant ratio and of the pins, whose friction the computation neglects."""
 
     @property
     def first(self) -> PairSeparation | None:

@@ -399,7 +399,7 @@ class TrainModel:
 
 
 def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
-    """Raise `QuestionError` if a coupling moves its driven link at once."""
+    """Raise `QuestionError` if a coupling moves its driven link instantaneously."""
     if transmission.at_once:
         fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
         raise QuestionError(

@@ -238,7 +238,7 @@ AT_ONCE = 6
 def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
-    """Correct wrong contact states, all or only that of lowest index (Murty's method); return the number of
+    """Correct all wrong contact states, or only the one with the lowest index (Murty's method); return the number of
     corrections.
     """
     # with `single` the first wrong state ends the search, contacts before bearings

@@ -1,6 +1,6 @@
 """Hertzian contact of two teeth, and Archard's wear: docs/strength.md.
 
-ContactLoad          line contact, the load shared equally by the tooth pairs in contact on the path of contact; for
+ContactLoad          line contact; tooth pairs in contact on the path of contact share the load equally; for
                      helical involutes on parallel axes, thin spur slices, each rotated against the next, with the load
                      uniform along all lines of contact
 CrossedWheels        point contact: the contact ellipse, and involute helicoids on crossed axes

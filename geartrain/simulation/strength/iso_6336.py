@@ -85,7 +85,7 @@ class HelixData:
 
 @dataclass(frozen=True, slots=True)
 class RackPair:
-    """Pair of rack-cut wheels at its centre distance, helical wheels in the transverse section; angles in rad."""
+    """Pair of rack-cut wheels at its centre distance, in the transverse section; angles in rad."""
 
     first: RackWheel
     second: RackWheel

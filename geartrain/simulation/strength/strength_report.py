@@ -76,12 +76,7 @@ _ARBOR = (
 
 @dataclass(frozen=True)
 class StrengthReport(Result):
-    """Strength of the teeth, pins and arbors of a train in all requested states.
-
-    See Also
-    --------
-    describe_strength : Returns a document with these results.
-    """
+    """Strength of the teeth, pins and arbors of a train in all requested states."""
 
     PAGE = "simulation.strength.strength_report:describe_strength"
 
@@ -94,52 +89,13 @@ class StrengthReport(Result):
 
 
 def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) -> StrengthReport:
-    """Return the strength report of a train in one or more states.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train to which the results belong.
-    found : sequence of TrainStrength
-        Results of `train.strength`, one for each state.
-
-    Returns
-    -------
-    StrengthReport
-        Report whose `to_dict` is the output of `geartrain strength --json`.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("longcase-clock-loaded")
-    >>> data = collect_strength_report(train, [train.strength()]).to_dict()
-    >>> data["states"][0]["weakest"]["what"]
-    'arbor'
-    """
+    """Return the strength report of a train in one or more states."""
     return StrengthReport(train.name, train.declaration.title, tuple(found))
 
 
 def describe_strength(found: StrengthReport) -> Document:
     """Return a document on the strength in each state: weakest part, contact pressures, root stresses, ISO 6336, wear
     and arbors.
-
-    Parameters
-    ----------
-    found : StrengthReport
-        Result of `collect_strength_report`.
-
-    Returns
-    -------
-    Document
-        Document with forces in N, stresses in MPa and lengths in mm. The assumptions precede each table.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("longcase-clock-loaded")
-    >>> page = describe_strength(collect_strength_report(train, [train.strength()]))
-    >>> [section.title for section in page.sections]
-    ['Strength', 'Forces', 'Contact pressure', 'Teeth', 'Arbors']
     """
     sections = [section for each in found.states for section in strength_sections(each)]
     return Document(f"Strength of {found.name}", (f"Train '{found.name}'.",), tuple(sections))

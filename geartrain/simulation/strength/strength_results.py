@@ -273,7 +273,7 @@ class WheelStrength(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: pressure at first yield divided by `pressure`; None if either one is unknown."""
+        """Safety factor of the flank: pressure at first yield divided by `pressure`; None if either is unknown."""
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
 
 

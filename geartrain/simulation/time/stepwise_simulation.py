@@ -134,7 +134,7 @@ class Simulation(Shown):
         Parameters
         ----------
         step, restitution, drive, loads
-            New values of the attributes; by default the present values. A driving speed applies from the start.
+            New values of the attributes; by default the present values. A new driving speed applies from time 0.
 
         Returns
         -------
@@ -191,7 +191,7 @@ class Simulation(Shown):
 
     @property
     def output_links(self) -> tuple[str, ...]:
-        """Names of the links of the recorded outputs, each once."""
+        """Distinct names of the links of the recorded outputs."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
     def _by_output(self, links: Floats) -> dict[str, float]:

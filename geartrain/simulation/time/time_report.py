@@ -27,12 +27,7 @@ _CLOSE = 0.01  # target of the relative discretisation error
 
 @dataclass(frozen=True)
 class TimeReport(Result):
-    """Results of a time-domain simulation, with the predicted input speeds at which teeth separate.
-
-    See Also
-    --------
-    collect_time_report : Returns such an object.
-    """
+    """Results of a time-domain simulation, with the predicted input speeds at which teeth separate."""
 
     PAGE = "simulation.time.time_report:describe_time_run"
 
@@ -51,30 +46,7 @@ class TimeReport(Result):
 
 
 def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...] = ()) -> TimeReport:
-    """Return the report on a time-domain simulation, with the input speeds at which teeth first separate.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train of the run.
-    run : TimeRun
-        Result of `GearTrain.dynamics`.
-    without : tuple of str
-        Names of pairs that were ignored.
-
-    Returns
-    -------
-    TimeReport
-        Report whose `to_dict` is the output of `geartrain dynamics --json`.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("moon-triangular-inertia")
-    >>> found = collect_time_report(train, train.dynamics("1 turn/s", turns=0.01, skip=0, steps=2000))
-    >>> found.separation.pair, found.to_dict()["driving_link"]
-    ('d2~e', 'crank')
-    """
+    """Return the report on a time-domain simulation, with the input speeds at which teeth first separate."""
     from geartrain.simulation.contacts.link_inertia import find_link_inertias
     from geartrain.simulation.contacts.separation_rate import find_separation, has_separation
 
@@ -87,24 +59,6 @@ def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...]
 def describe_time_run(found: TimeReport) -> Document:
     """Return a document on a time-domain simulation: separation, contacts, drive, outputs, energy, spectra and
     convergence.
-
-    Parameters
-    ----------
-    found : TimeReport
-        Result of `collect_time_report`.
-
-    Returns
-    -------
-    Document
-        Document with angles in degrees and torques in N mm. Results that differ between the two time steps are marked.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("moon-triangular-inertia")
-    >>> run = train.dynamics("1 turn/s", turns=0.01, skip=0, steps=2000)
-    >>> [section.title for section in describe_time_run(collect_time_report(train, run)).sections[:3]]
-    ['Separation rate', 'Contacts', 'Drive and outputs']
     """
     return Document(f"Motion in time of {found.run.train}", list(_summary(found.run)), list(_sections(found)))
 

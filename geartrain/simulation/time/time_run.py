@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeRun(Tabular, Pictured, TrainResult):
-    """Time-domain simulation of a train with a constant time step h, and again with h/2. All data are from the run with
+    """Time-domain simulation of a train with a constant time step h, repeated with h/2. All data are from the run with
     h/2.
 
     See Also
@@ -47,8 +47,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     PAGE = "simulation.time.time_report:time_document"
 
-    FIGURE = "time_run_figure"
-    DRAWN_IN = "simulation"
+    FIGURE = "simulation.time.time_run_plot:time_run_figure"
 
     KEYS = (
         *("train", "state", "model", "driving_link", "rate", "link", "driven", "restitution", "step", "skip"),
@@ -85,12 +84,12 @@ class TimeRun(Tabular, Pictured, TrainResult):
     torques: LabelledArray
     """Torque on the driven side of each contact, averaged between samples [N m]. Shape (contact, time)."""
     gaps: LabelledArray
-    """Gap between the driven side and its drive flank [rad]. Shape (pair, time).
+    """Angular gap between the driven side and the drive flank of the driving side [rad]. Shape (pair, time).
 
     Drive flanks transmit the torque while the driving link turns in its declared sense.
     """
     coast_gaps: LabelledArray
-    """Gap between the driven side and its coast flank [rad]. Shape (pair, time)."""
+    """Angular gap between the driven side and the coast flank of the driving side [rad]. Shape (pair, time)."""
     outputs: LabelledArray
     """Angles through which outputs have turned [rad]. Shape (output, time)."""
     ahead: LabelledArray
@@ -208,7 +207,7 @@ class ContactInTime(Result):
     peak: float | None = None
     """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts have impulses."""
     dynamic_factor: float | None = None
-    """Dynamic factor: `peak` over the maximum quasi-static torque; None for rigid teeth or no prescribed speed."""
+    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None for rigid teeth or a free speed."""
 
 
 @dataclass(frozen=True)

@@ -50,34 +50,7 @@ _name = partial(name_axes, size=SMALL, parse_math=False)
 
 
 def time_run_figure(run: TimeRun, title: str = "") -> Figure:
-    """Plot the gaps and impacts of each pair in an interval of the run, and the deviations and spectrum of the outputs.
-
-    Parameters
-    ----------
-    run : TimeRun
-        Result of `GearTrain.dynamics`.
-    title : str
-        Title of the figure.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Gap of each pair with backlash, from the drive flank to the coast flank [deg], near the time of the maximum gap;
-        speed of the link of an escapement [rad/s]; angles by which outputs are ahead [deg]; amplitudes of their
-        vibration about the mean motion [deg].
-
-    Raises
-    ------
-    QuestionError
-        If no pair has backlash, no output vibrates, and the train has no escapement.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> run = geartrain.load("moon-triangular-inertia").dynamics("1 turn/s", turns=0.02, skip=0, steps=2000)
-    >>> [axes.get_title("left").split(":")[0] for axes in time_run_figure(run).axes]
-    ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'outputs', 'spectrum; lines of moon are labelled']
-    """
+    """Plot gaps and impacts of each pair in an interval of the run, and deviations and spectrum of the outputs."""
     # contacts that are not pairs are escapements
     pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
     moving = _moving(run)
@@ -122,7 +95,7 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the `_PAIRS` pairs with backlash that are apart for the longest times, or fewer, in the order of the
+    """Return at most `_PAIRS` pairs with backlash, those that are apart for the longest times, in the order of the
     train.
     """
     names = [

@@ -144,7 +144,7 @@ def find_vibration_modes(
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, from `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state; None only for a train that has no states.
     without : sequence of str

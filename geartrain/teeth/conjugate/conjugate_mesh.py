@@ -264,8 +264,8 @@ class DesignLosses(Result):
     sliding: float
     """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
-    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite where that
-    speed is 0.
+    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite where the
+    lower speed is 0.
     """
 
 
@@ -283,8 +283,8 @@ class SharedEfficiency(Result):
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """Pair with conjugate teeth as designed; values of gear 1 first, lengths in modules (bevels: rad), angles in
-    rad.
+    """Pair with conjugate teeth as designed: values for gear 1, then gear 2; lengths in modules (bevels: rad), angles
+    in rad.
     """
 
     KEYS = (

@@ -66,7 +66,7 @@ def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floa
     flank.
 
     The points are given by radius and azimuth [rad] in the mate's position X = 0. The tip of gear 1 touches beyond the
-    recess, the tip of gear 2 before the approach.
+    recess; the tip of gear 2 touches before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)
@@ -160,9 +160,9 @@ class DisplacedContact:
     """Contact of one tooth pair throughout its engagement, and the lag of the driven wheel caused by displaced
     flanks.
 
-    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel
-    (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). In pairs
-    of columns, the first column belongs to the driver, the second to the driven wheel.
+    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel (rad)
+    for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). In pairs of columns, the
+    first column belongs to the driver, and the second to the driven wheel.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
@@ -269,7 +269,7 @@ def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Va
 def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
     """Return the lag of the driven wheel while the tip of `gear` touches beyond the path of contact.
 
-    The driver's tip touches as the teeth leave contact, the driven tip as they enter it.
+    The driver's tip touches as the teeth leave contact; the driven tip touches as they enter contact.
     """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)

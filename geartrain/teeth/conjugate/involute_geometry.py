@@ -96,7 +96,7 @@ class InvoluteWheel:
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Involute wheels at a centre distance [module], the first driving; the second may be a ring gear."""
+    """Pair of involute wheels at a centre distance [module]; the first drives, and the second may be a ring gear."""
 
     first: InvoluteWheel
     second: InvoluteWheel

@@ -11,8 +11,8 @@ pitch-line speed, is, at the distance d from the pitch point and the pressure an
 
     gear 1: cos psi + s mu (S' sin psi + A S),   gear 2: cos psi + s mu (S' sin psi - B S),
 
-with s = sign d if gear 1 drives and -sign d if gear 2 drives. S is d, or sin d on the sphere, S' its derivative, and A
-and B are the curvatures of the pitch surfaces. The difference is mu (A + B) |S|, friction times sliding. A contact
+with s = sign d if gear 1 drives and -sign d if gear 2 drives. S is d, or sin d on the sphere, S' is its derivative, and
+A and B are the curvatures of the pitch surfaces. The difference is mu (A + B) |S|, friction times sliding. A contact
 line of a bevel pair has these ratios at every distance from the apex, so they are exact there also.
 """
 
@@ -87,7 +87,7 @@ class PathLosses(Result):
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force."""
     flash: float
     """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path, to which Blok's flash temperature is
-    proportional. F_n is the normal force, kr the relative curvature, U1 and U2 are the contact speeds along both
+    proportional. F_n is the normal force, kr is the relative curvature, and U1 and U2 are the contact speeds along the
     profiles.
     """
 

@@ -283,7 +283,7 @@ def solve(
 
     Examples
     --------
-    Pointed teeth with straight sides, 10 and 20 of them, tips 0.5 above pitch circles of radius 5 and 10:
+    Wheels with 10 and 20 pointed teeth, whose tips are 0.5 above pitch circles of radius 5 and 10:
 
     >>> from math import pi
     >>> from geartrain.teeth.contact import GearOutline, ToothFlanks, polyline

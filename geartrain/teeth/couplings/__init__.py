@@ -1,4 +1,4 @@
-"""Couplings of links other than gear pairs, one file a family; `teeth/coupling.py` has their base class and names.
+"""Couplings of links other than gear pairs, one file per family; `teeth/coupling.py` has their base class and names.
 
 belt                  belts, chains and cables
 laws                  universal joints, non-circular wheels, couplings by a table or harmonics

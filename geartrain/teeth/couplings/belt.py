@@ -152,7 +152,7 @@ def belt_length(diameters: tuple[float, float], distance: float, crossed: bool =
     """Return the length of a taut belt around two pulleys, in the unit of the diameters and of the axis distance.
 
     With half the diameters' difference (open) or sum (crossed) h = C sin(alpha), the straight parts are 2 C cos(alpha)
-    long, and the belt wraps pi - 2 alpha and pi + 2 alpha of an open drive, pi + 2 alpha twice of a crossed drive.
+    long, and the belt wraps the angles pi - 2 alpha and pi + 2 alpha (open), or pi + 2 alpha on both pulleys (crossed).
 
     >>> round(belt_length((50.0, 75.0), 200.0), 6), round(belt_length((50.0, 75.0), 200.0, crossed=True), 6)
     (597.131045, 616.044608)

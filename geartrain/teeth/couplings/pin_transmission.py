@@ -26,7 +26,7 @@ _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflo
 
 
 class PinTransmission(SeriesTransmission):
-    """Transmission function of a pin in a slot or in a follower, with either side driving.
+    """Transmission function of a coupling by pin and slot, with either side driving.
 
     With the pin driving it is a `SeriesTransmission` with rho = min(r, e) / max(r, e). With the slot driving it is the
     inverse function, which has the same maximum and the same rms of the error.
@@ -81,9 +81,9 @@ class PinToSlotTransmission(PinTransmission):
     """Transmission function of a pin that drives a slot.
 
     The slot angle is S + atan2(e sin S, r - e cos S) for r > e, and -atan2(r sin S, e - r cos S) for r < e. The mean
-    ratio is 1 if the pin's circle encloses the slot's axis (r > e), otherwise 0. With a mean ratio of 0 the slot is a
-    follower, whose angle is measured from the direction from its axis to the pin's axis. The efficiency is 1/(1 + f
-    |tan d|), with d the angle between pin radius and slot, also on the return stroke of a follower.
+    ratio is 1 if the circle of the pin encloses the axis of the slot (r > e). Otherwise it is 0: the slot oscillates,
+    and its angle is measured from the line from its axis to the axis of the pin. The efficiency is 1/(1 + f |tan d|),
+    where d is the angle between the pin radius and the slot; this also applies to the return stroke.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ class PinToSlotTransmission(PinTransmission):
 
     See Also
     --------
-    geartrain.teeth.SlotToPinTransmission : the slot driving.
+    geartrain.teeth.SlotToPinTransmission : the same coupling, driven by the slot.
 
     Examples
     --------
@@ -129,7 +129,7 @@ class PinToSlotTransmission(PinTransmission):
         return along, (self.r - self.e) ** 2 + 4 * self.r * self.e * half**2
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; 0 at the dead points of a follower with friction.
+        """Return the efficiency at driver angles S [rad]; 0 at the dead points of an oscillating slot with friction.
 
         It is |cos d|/(|cos d| + f |sin d|), with friction coefficient f and the angle d between pin radius and slot.
         """
@@ -143,7 +143,7 @@ class PinToSlotTransmission(PinTransmission):
         """Return the minimum efficiency over a turn.
 
         It occurs at the maximum of the angle d between pin radius and slot, sin d = e/r, with axis offset e and pin
-        radius r. For a follower, the minimum is 0 with friction, because of the dead points, and 1 without friction.
+        radius r. If the slot oscillates, it is 0 with friction, because of the dead points, and 1 without friction.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -168,11 +168,11 @@ class SlotToPinTransmission(PinTransmission):
     Raises
     ------
     RangeError
-        If a distance is out of range, or if the slot is a follower, which cannot drive its pin.
+        If a distance is out of range, or if the pin's circle does not enclose the slot's axis.
 
     See Also
     --------
-    geartrain.teeth.PinToSlotTransmission : the pin driving.
+    geartrain.teeth.PinToSlotTransmission : the same coupling, driven by the pin.
 
     Examples
     --------
@@ -188,8 +188,8 @@ class SlotToPinTransmission(PinTransmission):
         if pin_radius < offset:
             raise RangeError(
                 Problem(
-                    f"a follower cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}",
-                    "a follower oscillates, and is at rest at its dead points while the pin moves on",
+                    f"an oscillating slot cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}",
+                    "its pin radius is below the offset, so the slot is at rest at its dead points while the pin moves",
                     "let the pin drive",
                     "driver",
                 )
@@ -223,8 +223,8 @@ class SlotToPinTransmission(PinTransmission):
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad], at a right angle from the line of the
-        axes.
+        """Return the maximum rate at which the speed ratio decreases [1/rad], which occurs at 90 deg from the line of
+        centres.
         """
         return self._maximum_tangent
 

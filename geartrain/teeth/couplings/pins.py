@@ -32,7 +32,7 @@ _CLEARANCE = checked(
 
 
 class PinCoupling(Coupling):
-    """Coupling of two links by a pin or pins as declared, base class of all kinds with pins."""
+    """Declared coupling of two links by one or more pins; base class of all kinds with pins."""
 
     ENDS = ("pin", "slot")
     SIDES = ("slot", "pin")
@@ -139,8 +139,8 @@ class PinsInHoles(_ParallelCoupling):
     """Pins in round holes that keep two links parallel, as the output pins of a cycloidal reducer do.
 
     Both links turn at the same speed at every instant about axes that are `offset` apart. Holes are wider than their
-    pins by twice that distance. `slot` is the link with the holes, `pin_radius` the radius of the circle through the
-    pins' centres.
+    pins by twice that distance. `slot` is the link with the holes, and `pin_radius` is the radius of the circle through
+    the centres of the pins.
     """
 
     SIDES = ("holes", "pins")

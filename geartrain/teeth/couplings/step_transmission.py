@@ -91,7 +91,7 @@ class _GenevaDeviation(PeriodicFunction):
 class StepTransmission(TableTransmission):
     """Transmission function of engagements that move whole teeth, instantaneously or evenly over a driver angle.
 
-    The first engagement begins at S = 0. The driven angle counts from its position before this engagement.
+    The first engagement begins at S = 0. The driven angle is measured from its position before this engagement.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ class StepTransmission(TableTransmission):
     times : int
         Engagements in one revolution of the driver.
     over : Fraction
-        Angle of the driver during which an engagement moves the teeth [turn]; 0 for steps at once.
+        Angle of the driver during which an engagement moves the teeth [turn]; 0 for instantaneous steps.
 
     Examples
     --------

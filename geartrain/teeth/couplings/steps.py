@@ -6,7 +6,7 @@ are at the distance C with r/C = sin(pi/n), so that a pin enters and leaves a sl
 driven link moves by 1/n turn while the pin is in the slot, which is the fraction 1/2 - 1/n of the driver's turn
 (external) or 1/2 + 1/n (internal); see Bickford, Mechanisms for Intermittent Motion (1972).
 
-All other kinds move the driven link by whole teeth, at once or evenly over an angle of the driver.
+All other kinds move the driven link by whole teeth, instantaneously or evenly over an angle of the driver.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _Moves = Annotated[
 
 
 class SteppingCoupling(Coupling):
-    """Coupling that moves its driven link in steps, base class of all kinds."""
+    """Coupling that moves its driven link in steps; base class of all such couplings."""
 
     # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
     LOCKS_BACK = HOLDS = True
@@ -189,5 +189,5 @@ class Step(SteppingCoupling):
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Engagements in one revolution divided by the length of the list of moves."""
+        """Number of engagements in one revolution, divided by the length of the list of moves."""
         return Fraction(self.times, len(self.moves))

@@ -24,7 +24,7 @@ Number = Annotated[int, whole_from(1, 10**6, "teeth or falls")]
 
 
 class TravelCoupling(Coupling):
-    """Coupling of a link that turns and a link that slides, base class of racks, screws, drums and crank sliders."""
+    """Coupling of a link that turns and a link that slides; base class of racks, screws, drums and crank sliders."""
 
     ENDS = ("turns", "slides")
     SIDES = ("slides", "turns")

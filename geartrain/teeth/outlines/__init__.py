@@ -12,19 +12,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.lazy_names import lazy_names
+from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.teeth.outlines.contour import Contour
-    from geartrain.teeth.outlines.tooth_outline import repeated
-    from geartrain.teeth.outlines.wheel_outline import outline
+    from geartrain.teeth.outlines.contour import Contour as Contour
+    from geartrain.teeth.outlines.tooth_outline import repeated as repeated
+    from geartrain.teeth.outlines.wheel_outline import outline as outline
 
-__all__ = ["Contour", "outline", "repeated"]
-
-_PLACES = {
-    "Contour": "contour",
-    "outline": "wheel_outline",
-    "repeated": "tooth_outline",
-}
-
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__, __all__ = public_names(
+    __name__, {"contour": "Contour", "tooth_outline": "repeated", "wheel_outline": "outline"}
+)

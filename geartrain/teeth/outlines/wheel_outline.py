@@ -74,7 +74,7 @@ def _diameter(radius: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class WheelOutline(Result):
-    """Outline and sizes of a wheel at scale 1:1. Lengths are in mm.
+    """Outline and sizes of a wheel at full scale (1:1). Lengths are in mm.
 
     See Also
     --------
@@ -143,7 +143,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     Returns
     -------
     WheelOutline
-        Outline at scale 1:1.
+        Outline at full scale (1:1).
 
     Raises
     ------

@@ -1,9 +1,9 @@
 """Contact of one tooth pair in approach and in recess: driven angle, speed ratio, its slope, and friction.
 
 alpha_1 = x and alpha_2 = y are the angles of the two apices from the line of centres. They are positive on the entry
-side and decrease as the driver pushes. In approach the driven apex slides on the driver's flank, in recess the
-driver's apex slides on the driven flank. Equations are numbered as in F. Sorge, "A note on the mechanics of ancient
-gear systems", and are written so that nothing cancels at large tooth numbers.
+side and decrease as the driver pushes. In approach the driven apex slides on the driver's flank; in recess the driver's
+apex slides on the driven flank. Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear
+systems", and are written so that nothing cancels at large tooth numbers.
 
 In an internal pair the radius of the ring gear and the centre distance are negative in these equations, and alpha_2,
 tau and its slope change their sign. If the ring gear drives, the half aperture angles are negative too, which mirrors
@@ -128,7 +128,7 @@ class ToothPair:
         """Return the distances n1 and n2 of both wheel centres from the common normal of the contact; n1/n2 is the
         speed ratio.
 
-        The second is O2C cos(psi) of Eq. (11) in approach, the first is O1C cos(psi2) of Eq. (18) in recess.
+        The second is O2C cos(psi) of Eq. (11) in approach; the first is O1C cos(psi2) of Eq. (18) in recess.
         """
         if phase == APPROACH:
             u, _, cos_psi, _, q, _ = self._flank_line(x, m)
@@ -147,7 +147,7 @@ class ToothPair:
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the derivative of the speed ratio tau with respect to alpha_1 [1/rad].
 
-        In approach it is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi], in recess tau (1 + tau) [(1 + tau)
+        In approach it is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi], and in recess tau (1 + tau) [(1 + tau)
         tan(beta2 - x - y) - tau tan(beta2 - y)]: in reversed motion the driven wheel meets the driver in approach at
         the ratio 1/tau, and the slope of that motion is multiplied by tau cubed.
         """

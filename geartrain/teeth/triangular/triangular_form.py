@@ -196,7 +196,7 @@ class Triangular(ToothForm):
     def sizes(
         self, z1: int, z2: int, pitch_distance: float | None = None, ring: Literal[0, 1, 2] = 0
     ) -> TriangularSizes:
-        """Return tip radii, half aperture angles and clearance of a pair.
+        """Return tip radii, half angles of the teeth and clearance of a pair.
 
         Parameters
         ----------

@@ -154,7 +154,7 @@ class TriangularMesh(GearMesh):
 
     @property
     def cut_sizes(self) -> TriangularSizes:
-        """Nominal sizes, the means of random manufacturing errors."""
+        """Nominal sizes, about which random manufacturing errors vary."""
         return self.transmission.sizes
 
     def account(self) -> PairAccount:

@@ -25,31 +25,6 @@ _SMALL = 1e-4
 def budget_figure(found: TrainBudget) -> Figure:
     """Draw a chart with a row for each pointer, and a mark for the size of each cause of its error. The pointer with
     the largest error is at the top.
-
-    Parameters
-    ----------
-    found : TrainBudget
-        Result of `find_budget`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure with sizes on a logarithmic axis [deg]; open marks are declared in part, and causes below 0.01 % of the
-        largest have no mark. Confidence intervals of 95 % are lines. The sum of the causes [deg] and its time [d] are
-        next to the rows.
-
-    Raises
-    ------
-    QuestionError
-        If no cause of any pointer is known, or all known causes are 0.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import (BudgetQuestion, find_budget)
-    >>> figure = budget_figure(find_budget(geartrain.load("freeth-2008"), BudgetQuestion(outputs=("moon", "saros"))))
-    >>> [text.get_text() for text in figure.axes[0].get_yticklabels()]
-    ['moon', 'saros']
     """
     pointers = [found[name] for name in found.shown]
     ranked = sorted((each for each in pointers if each.total > 0), key=lambda each: -each.total)

@@ -17,26 +17,7 @@ _PAIRS = 5  # maximum number of pairs listed for each pointer
 
 
 def describe_budget(found: TrainBudget) -> Document:
-    """Return the report on the causes of each pointer's error, in descending order of size, and on missing data.
-
-    Parameters
-    ----------
-    found : TrainBudget
-        Result of `find_budget`.
-
-    Returns
-    -------
-    Document
-        Document with sizes in degrees at the pointer, and in days of its mean motion.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import (BudgetQuestion, find_budget)
-    >>> page = describe_budget(find_budget(geartrain.load("freeth-2008"), BudgetQuestion(outputs=("moon",))))
-    >>> page.title, [section.title for section in page.sections][:2]
-    ('Error budget of each pointer: freeth-2008', ['Causes in degrees', 'Causes in days'])
-    """
+    """Return the report on the causes of each pointer's error, in descending order of size, and on missing data."""
     name = found.name if found.state is None else f"{found.name}, state {found.state}"
     summary = [
         "Each cause is given separately, at the pointer. Ratio: error of the mean speed, as a drift over "

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 YEAR = period_table()["year_tropical_J2000"].value  # d
 MOST_PASSAGES = 600_000
-"""Maximum number of tooth engagements in a run multiplied by the number of pairs evaluated at each engagement.
+"""Maximum product of the number of tooth engagements in a run and the number of pairs evaluated at each engagement.
 
 Longer runs are shortened to this number, which takes about two minutes without compiled kernels.
 """
@@ -77,13 +77,13 @@ class WeightDrive(Result):
     KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "minimum", "efficiency")
 
     link: str
-    """Name of the link that carries the drum, or of the weight itself."""
+    """Name of the link that carries the drum, or of the link that represents the weight itself."""
     torque: float
-    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts; for the link
-    of the weight itself its force [N].
+    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts; for a link
+    that represents the weight itself, its force [N].
     """
     needed: float | None = None
-    """Torque at the drum that starts the train from its worst position under its declared loads [N m].
+    """Torque required at the drum to start the train from its worst position under the declared loads [N m].
 
     The value is None without declared loads, or if friction locks the train.
     """
@@ -96,7 +96,7 @@ class WeightDrive(Result):
     efficiency: float | None = None
     """Energy that reaches the escape wheel divided by the energy of the weight; None if it is not computed."""
     unit: str = "N m"
-    """Unit of `torque` and `needed`: N m, or N for the link of the weight itself."""
+    """Unit of `torque` and `needed`: N m, or N for a link that represents the weight itself."""
 
     @property
     def suffices(self) -> bool | None:

@@ -2,7 +2,7 @@
 
 The ripple is the motion with the declared teeth minus the motion of the same pins with ideal teeth, at the same
 positions (docs/motion.md, 3), because the anomaly that pins are meant to give is not an error of teeth. Lost motion is
-the lag of a pointer when the crank turns back: the motion on the coast flanks minus that on the drive flanks.
+the lag of a pointer when the crank turns back: the motion on the coast flanks minus the motion on the drive flanks.
 
 With ideal teeth, the pins give an error d(phi) over one cycle of the pin. The true motion has the equation of centre
 C(M), with the mean anomaly M, over one anomalistic revolution. The initial phase of the pin is chosen by the maker, so
@@ -68,7 +68,7 @@ class ToothMotion:
     pairs: Mapping[str, Mapping[str, float]]
     """Peak-to-peak error due to each single pair [deg], by output and pair."""
     declared: Mapping[str, DeclaredPairs]
-    """Pairs that move each output, with counts of declared data."""
+    """Pairs in the path of each output, and which of them have declared tooth forms or dimensions."""
     reversing_drivers: tuple[str, ...]
 
 

@@ -207,8 +207,7 @@ class TrainBudget(Tabular, Pictured, Result):
 
     PAGE = "workshop.budget.budget_report:describe_budget"
 
-    FIGURE = "budget_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.budget.budget_bars:budget_figure"
 
     KEYS = (
         *("name", "state", "span_days", "turns", "samples", Key("input", "driving_link"), "pointers", "crank"),

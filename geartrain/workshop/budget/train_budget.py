@@ -262,7 +262,7 @@ YEAR, CENTURY = 365.25, 36525.0  # Julian, in days
 
 
 def find_drifts(output: OutputResult, unit_days: float | None, span_days: float) -> tuple[RatioDrift, ...]:
-    """Return the drift of an output relative to each of its targets, observed periods first.
+    """Return the drift of an output relative to each of its targets, beginning with observed periods.
 
     unit_days   the train's unit of time [d], None if its unit is not a time
     """
@@ -272,7 +272,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def _is_observed(target: Target) -> bool:
-    """Return True if a target is an observed period of geartrain's table, not one intended by the makers."""
+    """Return True if a target is an observed period of geartrain's table, not a period intended by the makers."""
     return target.name is not None and period_table()[target.name].kind == "period"
 
 
@@ -338,8 +338,8 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
 def find_cutting_trials(
     plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
 ) -> tuple[TrialResults, Floats]:
-    """Return trials with cutting errors, and the output errors [rad] of perfect teeth at the input positions of the
-    trials.
+    """Return trials with cutting errors, and the output errors with perfect teeth at the input positions of the trials
+    [rad].
 
     The errors of perfect teeth have shape (outputs, trials).
 

@@ -68,7 +68,8 @@ def run(
         Names,
         typer.Option(
             "--body",
-            help="Body whose true motion an output shows, if its name does not indicate it: OUTPUT=moon, sun or none.",
+            help="Celestial body whose true motion an output shows, if the name of the output does not indicate it: "
+            "OUTPUT=moon, sun or none.",
         ),
     ] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Write a plot of the ranked causes to this file.")] = None,

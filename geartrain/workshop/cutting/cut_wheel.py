@@ -269,7 +269,7 @@ def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
 
 @dataclass(frozen=True)
 class CutGearPair:
-    """Pair of cut wheels at a centre distance, the first driving; `sizes` are the nominal sizes."""
+    """Pair of cut wheels at a given centre distance, of which the first drives; `sizes` contains the nominal sizes."""
 
     sizes: TriangularSizes
     first: CutWheel
@@ -298,7 +298,7 @@ class CutGearPair:
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
     def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
-        """Return the pair with material removed from the flanks by one array (trials, 2 sides, z) for each wheel."""
+        """Return the pair with material removed from its flanks: depths `low`, (trials, 2 sides, z), for each wheel."""
         wheels = zip((self.first, self.second), low, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return CutGearPair(self.sizes, first, second, self.shift)
@@ -329,8 +329,8 @@ class CutGearPair:
 
     @cached_property
     def widest(self) -> float:
-        """Maximum angle of a driving tooth from the line of centres at which it can touch [rad], an upper bound; else
-        -inf.
+        """Upper bound of the angle of a driving tooth from the line of centres at which it can touch [rad]; -inf if it
+        never touches.
         """
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))

@@ -176,7 +176,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
-    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with smaller depth."""
+    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with less depth."""
     fitting = mesh.gear.fitting or train.fitting
     reader = _pair_reader(train, mesh, lesser)
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}

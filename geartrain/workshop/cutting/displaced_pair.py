@@ -6,8 +6,8 @@ flank of the driven tooth k + 1. Each tooth pair by itself would give the driven
 docs/cut-by-hand.md. The foremost tooth pair drives, and its distance from the nearest pair on the other side is the
 backlash.
 
-Teeth are numbered as they pass the line of centres while the wheel turns forward, like those of `CutWheel`. Lengths
-are in modules, for bevel gears angles (rad) on the unit sphere.
+Teeth are numbered as they pass the line of centres while the wheel turns forward, like those of `CutWheel`. Lengths are
+in modules; for bevel gears they are angles (rad) on the unit sphere.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ class SideTerms:
 
 @dataclass(frozen=True)
 class DisplacedPair:
-    """Pair of wheels with displaced flanks, the first driving.
+    """Pair of wheels with displaced flanks, of which the first drives.
 
     `shift` is the increase of the centre distance [module], one value or one for each trial.
     """
@@ -222,7 +222,7 @@ class DisplacedPair:
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
     def _along(self, column: Floats, x: Any) -> Any:
-        """Return a quantity tabulated along the path of contact at x [rad], interpolated; constant beyond its ends."""
+        """Return a quantity tabulated along the path of contact, interpolated at x [rad] and constant beyond it."""
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
@@ -236,7 +236,7 @@ class DisplacedPair:
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the contributions of both wheels to the lag at one x [rad], docs/cut-by-hand.md (2), by n = tooth + j.
+        """Return the contributions of both wheels to the lag at x [rad], docs/cut-by-hand.md (2), for n = tooth + j.
 
         late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
         """
@@ -346,7 +346,7 @@ class DisplacedPair:
     def tip_contacts(self, entering: bool) -> Bools:
         """Return a mask of shape (trials,): True if tip meets tip where a tooth pair enters (`entering`) or leaves.
 
-        At an entry this is a clash, at an exit a dwell. It occurs if the neighbouring pair, which should hold the
+        At an entry this is a clash; at an exit it is a dwell. It occurs if the neighbouring pair, which should hold the
         driven wheel, gives it a larger lag than the pair itself.
         """
         at = self.contact

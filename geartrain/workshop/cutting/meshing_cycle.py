@@ -89,7 +89,7 @@ class TightPlace:
     backlash: Floats
     """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
     wheel: Ints
-    """Wheel to file: 0 driver, 1 driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1 trailing."""
+    """Wheel to file: 0 driver, 1 driven wheel; `tooth` is its tooth, and `side` its flank (0 leading, 1 trailing)."""
     tooth: Ints
     side: Ints
     gain: Floats

@@ -190,12 +190,7 @@ def _row(mesh: MeshProof) -> str:
 
 @dataclass(frozen=True, slots=True)
 class AssemblyStep(Shown):
-    """One step in the assembly of a train.
-
-    See Also
-    --------
-    assembly_steps : List the steps of an assembly.
-    """
+    """One step in the assembly of a train."""
 
     text: str
     """Instruction of the step."""
@@ -210,24 +205,6 @@ def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
 
     The order is: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors, the front
     plate, dials.
-
-    Parameters
-    ----------
-    work : SolidModel
-        Solid model of the train, with its manufacturing sizes.
-
-    Returns
-    -------
-    list of AssemblyStep
-        Steps of the assembly; empty for a train without plates.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.scene import ManufacturingSizes, SolidModel
-    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
-    >>> assembly_steps(work)[0].text
-    "Fix s on the arbor of 'sun'"
     """
     return [] if work.frame is None else list(_Steps(work, work.frame).all())
 

@@ -201,7 +201,7 @@ def export_files(
     work : SolidModel
         Solid model of the train.
     kinds : sequence of str
-        Kinds of files: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
+        Formats of the files: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
     turns : Fraction, optional
         Revolutions of the driving link in the animation of a GLB; by default one period, or ten if the period is long.
     proof : TrainProof, optional
@@ -275,7 +275,7 @@ def _drawn(drawing: FlatDrawing, kind: str) -> bytes:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """Return the problems that affect an export of given kinds, such as parts that cannot be made, each once.
+    """Return the distinct problems that affect an export of given kinds, such as parts that cannot be made.
 
     Parameters
     ----------

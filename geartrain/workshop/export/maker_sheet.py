@@ -1,7 +1,7 @@
-"""Sheets for a maker: plates with a datum and a table of their holes, and a table of all wheels.
+"""Workshop drawings: plates with a datum and a hole table, and a table of all wheels.
 
-A sheet of a plate has scale 1:1 in mm. Its holes have the finished size, without compensation for a kerf. The datum is
-the centre of a hole, because the edge of a plate has few straight parts.
+Plates are drawn at full scale (1:1), in mm. Holes have their finished size, without kerf compensation. The datum is the
+centre of a hole, because the edge of a plate has few straight parts.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def hole_rows(plate: FlatPlate) -> list[tuple[str, ...]]:
 
 
 def _ordered(plate: FlatPlate) -> list[Hole]:
-    """Return the holes of a plate, the holes of axes first."""
+    """Return the holes of a plate, beginning with the holes of axes."""
     return sorted(plate.holes, key=lambda hole: hole.name in _NO_AXIS)
 
 

@@ -24,12 +24,7 @@ _SAME = 4  # decimals of a mm to which sizes are rounded and compared
 
 @dataclass(frozen=True, slots=True)
 class ListedPart(Shown):
-    """Row of a parts list, for all parts of the same shape.
-
-    See Also
-    --------
-    parts_list : List the parts of a train.
-    """
+    """Row of a parts list, for all parts of the same shape."""
 
     names: tuple[str, ...]
     """Names of the parts of this shape."""
@@ -53,26 +48,7 @@ class ListedPart(Shown):
 
 
 def parts_list(work: SolidModel) -> list[ListedPart]:
-    """Return the list of all parts of a train, with one row for all parts of the same shape.
-
-    Parameters
-    ----------
-    work : SolidModel
-        Solid model of the train, with its manufacturing sizes.
-
-    Returns
-    -------
-    list of ListedPart
-        Rows of the list, with the mass of one part [g].
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.scene import ManufacturingSizes, SolidModel
-    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
-    >>> [(row.names, row.size) for row in parts_list(work) if row.kind == "wheel"][0]
-    (('ring',), 'thickness 5')
-    """
+    """Return the list of all parts of a train, with one row for all parts of the same shape."""
     alike: dict[tuple[object, ...], ListedPart] = {}
     for part in work.parts:
         row = ListedPart(

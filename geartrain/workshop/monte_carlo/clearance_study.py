@@ -25,7 +25,7 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Probability of a jam, clash, dwell and loss of contact in a train at one clearance and one factor of the errors.
+    """Probabilities of a jam, clash, dwell and loss of contact in a train, at one clearance and one scale of errors.
 
     See Also
     --------
@@ -39,7 +39,7 @@ class ClearanceCase(Result):
     scale: float
     """Factor by which manufacturing errors are multiplied, except errors measured tooth by tooth."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability that each event (jam, clash, stops (jam or clash), dwell, disengaged) occurs in at least one pair."""
+    """Probability that each event occurs in at least one pair: jam, clash, stops (jam or clash), dwell, disengaged."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
     """Probability of each event (as in `events`) in each pair, by pair."""
 

@@ -104,7 +104,7 @@ class FrictionPlan:
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
+        """Distributions of the random friction coefficients, by the pair or coupling that declares them, or "train"."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
@@ -226,7 +226,7 @@ class FrictionTrials(Result):
     seed: int
     """Random seed of the trials."""
     spreads: Mapping[str, FrictionSpread]
-    """Distributions of the friction coefficients, by `train`, pair or coupling."""
+    """Distributions of the friction coefficients, by the pair or coupling that declares them, or "train"."""
     mean: TrialFigure
     """Distribution of the mean torque over the run [N m, or the unit of the loads], in trials in which the train turns.
     """

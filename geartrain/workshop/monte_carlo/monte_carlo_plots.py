@@ -65,40 +65,7 @@ _TICKS = 8  # approximate number of tick labels: more would overlap
 
 
 def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> Figure:
-    """Draw one figure of the Monte Carlo trials of a train with cutting errors.
-
-    Parameters
-    ----------
-    findings : MonteCarloResult
-        Trials, with the study that the figure shows.
-    picture : {"errors", "course", "convergence", "sobol", "pairs", "map"}
-        "errors": median and central ranges of each pointer's error at random positions of the input; by default only
-        of outputs with a dial. "course": bands of the pointer errors along one revolution, for each output that was
-        computed. "convergence": probability of a jam against the
-        number of trials. "sobol": Sobol indices of the first output by wheel, or by kind of error if only these were
-        computed. "pairs": variance shares by pair, from superposition. "map": probability of a jam against clearance
-        and scale of the errors.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure with errors in degrees, and probabilities with their 95 % confidence intervals.
-
-    Raises
-    ------
-    QuestionError
-        If the study that the figure shows was not computed.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
-    >>> found = MonteCarloResult(run_trials(plan, trials=2, seed=1))
-    >>> monte_carlo_figure(found, "convergence").axes[0].get_ylabel()
-    'probability of a jam'
-    """
+    """Draw one figure of the Monte Carlo trials of a train with cutting errors."""
     if picture not in PICTURES:
         what = f"'{picture}' is not a kind of picture"
         raise QuestionError(Problem(what, "the kind selects the study to draw", f"use one of {', '.join(PICTURES)}"))
@@ -190,7 +157,7 @@ def _bands(errors: Floats) -> Floats:
 
 
 def error_figure(trials: TrialResults) -> Figure:
-    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error, the widest range at the top.
+    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error; the widest range is at the top.
 
     Raises `QuestionError` if a pointer has no errors.
     """

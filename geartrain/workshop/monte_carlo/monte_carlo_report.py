@@ -32,28 +32,7 @@ _EVENTS = ("jam", "clash", "dwell", "disengaged")
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
-    """Return the report on Monte Carlo trials: events of pairs, pointer errors, and all further studies.
-
-    Parameters
-    ----------
-    found : MonteCarloResult
-        Trials, with errors along a revolution, Sobol indices and results at other clearances if requested.
-
-    Returns
-    -------
-    Document
-        Document that begins with the assumptions. Probabilities have Wilson's 95 % confidence intervals; pointer errors
-        are in degrees.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
-    >>> errors = read_error_overrides(["pitch_deviation=2 %"])
-    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
-    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).summary[0]
-    '2 trials, seed 1; intervals are at the 95 % confidence level.'
-    """
+    """Return the report on Monte Carlo trials: events of pairs, pointer errors, and all further studies."""
     trials = found.trials
     intervals = "intervals are at the 95 % confidence level"
     summary = [f"{trials.done} trials, seed {trials.seed}; {intervals}.", *found.assumptions]

@@ -44,8 +44,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     PAGE = "workshop.monte_carlo.monte_carlo_report:describe_monte_carlo"
 
-    FIGURE = "monte_carlo_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.monte_carlo.monte_carlo_plots:monte_carlo_figure"
 
     KEYS = (
         Key("train", "trials.plan.name"),
@@ -140,7 +139,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of cutting errors by wheel, kind and distribution: fractions of pitch, half angle or tooth depth."""
+        """Sizes of cutting errors by wheel, kind and distribution, as fractions of pitch, half angle or tooth depth."""
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property
@@ -170,7 +169,7 @@ _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declare
 def study_trials(
     trials: TrialResults, means: Execution, clearances: Sequence[float], courses: bool, sobol: bool
 ) -> MonteCarloResult:
-    """Return the trials together with the requested studies: of the first outputs, and of other clearances."""
+    """Return the trials together with the requested studies of outputs and of other clearances."""
     plan, seed, count = trials.plan, trials.seed, trials.wanted
     few = range(min(_FEW, len(plan.outputs)))
     by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")

@@ -78,9 +78,9 @@ def draw_wheel(
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
     """Return one wheel drawn in some trials of a block, and a mask of the trials in which it can be cut.
 
-    Pitch deviations and drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1,
-    internal ones -1. In trials in which a wheel cannot be cut, its teeth are returned without errors (displaced flanks:
-    without pitch deviations), so that later computations always have teeth with tips.
+    Pitch deviations and drawn arrays have shape (trials, z), and the mask has shape (trials,). Triangular wheels have
+    tip radius 1, or -1 if they are internal. In trials in which a wheel cannot be cut, its teeth are returned without
+    errors (displaced flanks: without pitch deviations), so that later computations always have teeth with tips.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
@@ -244,7 +244,7 @@ class TrialPointers:
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Return the composed motion of outputs (default all) with the drawn wheels; `rows` is the trial at each position.
+    """Return the motion of the outputs (default all) with the sampled wheels; `rows` has the trial at each position.
 
     The transmission functions of all pairs and pins are composed exactly, for every trial at its own position.
     """

@@ -104,7 +104,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair; `rows` is the trial at each angle."""
+        """Return the transmission functions of a cut pair; `rows` contains the trial of each angle."""
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
@@ -302,8 +302,8 @@ class TrialPlan(Shown):
     driving_link: str
     """Name of the driving link."""
     shown: Mapping[str, float | None] = field(default_factory=dict)
-    """Mean speed of each output that a plot shows [deg/d], None if it is unknown: the requested outputs, or the outputs
-    with a dial.
+    """Mean speed of each plotted output [deg/d], None if it is unknown. The requested outputs are plotted, or by
+    default the outputs with a dial.
     """
 
     def _summary(self) -> str:
@@ -351,8 +351,8 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def jamming_bound(self, pair: TrialPair) -> float:
-        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed, if it has errors other
-        than normally distributed pitch deviations, or if no bound is known for its teeth.
+        """Return an upper bound of the jam probability of a pair; NaN if the pair is filed, if it has errors other than
+        normally distributed pitch deviations, or if no bound is known for its teeth.
 
         Parameters
         ----------

@@ -62,16 +62,16 @@ class TrialResults(Tabular):
     wanted: int
     """Number of requested trials. It is larger than `done` if the run was interrupted."""
     marks: Marks
-    """Bit mask of each pair, shape (trials, pairs): 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable."""
+    """Bit mask of events in each pair, (trials, pairs): 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable."""
     turns: Floats
     """Position of the input in each trial, shape (trials,) [turn]."""
     errors: Floats
     """Pointer error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
     linear: Floats
-    """Pointer errors by first-order superposition, shape (first trials, up to about 1024; outputs) [rad]."""
+    """Pointer errors by first-order superposition [rad] for the first n trials only (n <= 1024), shape (n, outputs)."""
     lags: Floats
-    """Transmission error of each pair minus its mean without cutting errors, shape (trials, pairs) [rad of the driven
-    wheel].
+    """Transmission error of each pair, relative to its mean transmission error without cutting errors, shape (trials,
+    pairs) [rad of the driven wheel].
     """
     filing: Floats
     """Numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 * pairs)."""
@@ -110,7 +110,7 @@ class TrialResults(Tabular):
 
     @cached_property
     def bounds(self) -> Mapping[str, float]:
-        """Upper bound of the jam probability, 0 to 1, by pair, if all its errors are normal pitch deviations."""
+        """Upper bound of the jam probability of each pair whose errors are all normal pitch deviations, 0 to 1."""
         found = {pair.name: self.plan.jamming_bound(pair) for pair in self.plan.pairs}
         return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -376,7 +376,7 @@ class PointerErrorStatistics(Result):
     name: str
     """Name of the output."""
     errors: Floats
-    """Pointer errors [rad] in order of the trials in which no pair that moves the output jams or disengages."""
+    """Pointer errors [rad] in the trials in which no pair that moves the output jams or disengages, in their order."""
     all: Floats
     """Pointer errors of all trials in which teeth touch [rad]. If a pair jams, the value is the error with the drive
     flanks of that pair in contact.
@@ -395,7 +395,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def kept(self) -> Floats:
-        """Errors of the statistics [rad]: `errors`, or `all` if the output can turn in fewer than 30 trials."""
+        """Errors used for the statistics [rad]: `errors`, or `all` if the output can turn in fewer than 30 trials."""
         return self.all if self.of_all else self.errors  # few trials give no useful statistics
 
     @property
@@ -415,7 +415,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error in all trials with touching teeth, with confidence interval [rad]."""
+        """Standard deviation of the pointer error in all trials with touching teeth, with its interval [rad]."""
         return deviation_of(self.all)
 
     @property
@@ -441,7 +441,7 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer errors of one output in each trial over one revolution of the output, or of the input if it is fixed.
+    """Pointer errors of one output in each trial over one revolution of the output, or of the input if that is fixed.
 
     See Also
     --------

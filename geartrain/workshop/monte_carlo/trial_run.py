@@ -95,7 +95,7 @@ def run_trials(
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
 ) -> TrialResults:
-    """Run Monte Carlo trials of a train: each draws errors of all wheels and turns each pair through a full cycle.
+    """Run Monte Carlo trials of a train: each samples errors of all wheels and turns each pair through a full cycle.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
     (Ctrl-C), the results of the completed trials are returned.
@@ -132,7 +132,7 @@ def run_trials(
 
     Examples
     --------
-    Pitch deviations of 0.1 % cause no jam. For no event in 64 trials, Wilson's upper limit is z^2 / (64 + z^2).
+    Pitch deviations of 0.1 % cause no jam. If no event occurs in 64 trials, Wilson's upper limit is z^2 / (64 + z^2).
 
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)

@@ -141,7 +141,7 @@ def run(
 
 
 class _StoppedError(Exception):
-    """Interruption of the trials by the user, raised to leave the table marked as partial."""
+    """Interruption of the trials by the user, raised so that the table remains marked as partial."""
 
 
 def _trials(

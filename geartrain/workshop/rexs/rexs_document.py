@@ -20,7 +20,7 @@ from geartrain.errors import GearTrainError, Problem
 
 _UNREADABLE = (LookupError, TypeError, AttributeError, ArithmeticError, ValueError, RecursionError)
 Model = dict[str, Any]
-"""Model as in a JSON file: metadata, `relations`, `components`, and perhaps `load_spectrum`."""
+"""Model as in a JSON file: metadata, `relations`, `components`, and optionally `load_spectrum`."""
 Attributes = Mapping[str, Any]
 """Values of attributes by name."""
 
@@ -41,7 +41,7 @@ _NAMES = {
 _ATTRIBUTES = {name: kind for kind, names in _NAMES.items() for name in names.split()}
 """Type and unit of the attributes that are written or read."""
 _OTHER_UNITS = {"deg": ("°", "rad"), "1 / min": ("rad / s",)}
-"""Units that are read as well, in older files and of other programs."""
+"""Further units that are read, from older files and from files of other programs."""
 _ROLES: Mapping[str, Sequence[str]] = {
     **{"assembly": ("assembly", "part"), "side": ("assembly", "inner_part", "outer_part")},
     **{"stage": ("stage", "gear_1", "gear_2"), "flank": ("gear", "left")},
@@ -103,13 +103,13 @@ def written(attributes: Attributes) -> list[Model]:
 
 
 def to_json(model: Model) -> str:
-    """Return a model as JSON file."""
+    """Return a model as the content of a JSON file."""
     # JSON has no NaN, so an undefined size must raise an error here and not in the reading program
     return json.dumps({"model": model}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def to_xml(model: Model) -> str:
-    """Return a model as XML file, with the byte order mark that REXS 1.4 requires."""
+    """Return a model as the content of an XML file, with the byte order mark that REXS 1.4 requires."""
     root = _element("model", model)
     ElementTree.indent(root)
     return f'\ufeff<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
@@ -232,7 +232,7 @@ def _document(model: Model, place: str) -> RexsDocument:
 
 
 def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
-    """Yield the attributes of a component that are read and given, with their values; their units are added."""
+    """Yield the supported attributes that a component has, with their values; add their units to `units`."""
     for given in part.get("attributes", ()):
         name, unit = str(given["id"]), str(given.get("unit") or "none").replace("none", "")
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)

@@ -284,7 +284,7 @@ class _Unit:
 
     @cached_property
     def torques(self) -> Mapping[int, Torques]:
-        """Torques of each state, by its index; without states without loads in N m, or with undetermined torques."""
+        """Torques of each state by index; states without loads in N m or with undetermined torques are omitted."""
         found = {}
         for at, case in enumerate(self.cases):
             if case.loads and all(load.unit or not load.value for load in case.loads.values()):

@@ -22,7 +22,7 @@ from geartrain.train.declaration_files import read_declaration, write_declaratio
 from geartrain.workshop.rexs.rexs_document import Attributes, RexsComponent, RexsDocument, read_document
 
 _UNITS = {"°": "deg", "1 / min": "rpm", "rad / s": "rad/s"}
-"""Units in declarations by units in REXS; others are the same."""
+"""Unit in declarations for each unit in REXS that is written differently."""
 _RIGID = {
     *("coupling", "cylindrical_interference_fit", "tapered_interference_fit"),
     *("feather_key_connection", "involute_spline_connection"),
@@ -67,7 +67,7 @@ class _Pose(NamedTuple):
     u: Vector
 
     def is_coaxial(self, other: _Pose) -> bool:
-        """Return True if the u-axes of both lie on one line."""
+        """Return True if the u-axes of both components lie on one line."""
         distance = size(cross(self.u, minus(other.origin, self.origin)))
         scale = 1.0 + size(self.origin) + size(other.origin)
         return size(cross(self.u, other.u)) < _NEAR and distance < _NEAR * scale
@@ -182,7 +182,7 @@ class _GearUnit:
         return bodies
 
     def link_of(self, part: int) -> int:
-        """Return the link to which a shaft, gear, side plate or casing belongs; a missing one is the part itself."""
+        """Return the link to which a shaft, gear, side plate or casing belongs; the part itself if there is none."""
         return self.bodies.find(self.mount.get(part, part))
 
     @cached_property
@@ -319,7 +319,7 @@ class _GearUnit:
 
     @cached_property
     def dropped(self) -> set[int]:
-        """Planets that are copies of another one."""
+        """Planets that are copies of another planet."""
         return {copy for _, *others in self.copies.values() for copy in others}
 
     @cached_property
@@ -386,7 +386,7 @@ class _GearUnit:
         return {**(self.parts[part].attributes if part in self.parts else {}), **case.get(part, {})}
 
     def _connections(self, gears: int) -> Iterator[tuple[int, list[str], list[bool]]]:
-        """Yield couplings of two links: component, links without the frame, and its state in each gear; each once."""
+        """Yield each coupling of two links once: component, links without the frame, and state in each gear."""
         seen = set()
         for coupling, *sides in self.relations["side"]:
             ends, part = [self.link_of(side) for side in sides], self.parts[coupling]
@@ -420,7 +420,7 @@ class _GearUnit:
         return _if_any(inputs=inputs, loads={link: f"{_text(torque)} N m" for link, torque in loads.items()})
 
     def _torque(self, given: Attributes, speed: float | None) -> float | None:
-        """Return a torque that a load defines [N m], also from its power [kW] and the speed of the shaft [1/min]."""
+        """Return the torque of a load [N m], as given, or from its power [kW] and the speed of the shaft [1/min]."""
         if not given.get("defines_torque", True):
             return None
         if "torque_around_u_axis" not in given and "power" in given and speed:

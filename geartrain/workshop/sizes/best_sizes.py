@@ -1,6 +1,6 @@
 """Best sizes of a pair with triangular teeth, compared with rule-based radii and verified by its drawn outlines.
 
-The outlines are drawn from the sizes alone, so they verify the transmission function independently.
+The outlines are drawn from the sizes only, so they verify the transmission function independently.
 """
 
 from __future__ import annotations
@@ -51,8 +51,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     PAGE = "workshop.sizes.tooth_sizes_report:describe_tooth_sizes"
 
-    FIGURE = "tooth_sizes_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.sizes.tooth_sizes_plot:tooth_sizes_figure"
 
     KEYS = (
         *("teeth", "driver", "friction", "aims", "free", "limits", "best", "outlines"),
@@ -68,13 +67,13 @@ class BestToothSizes(Tabular, Pictured, Result):
     best: ToothSizes
     """Best design for the first objective."""
     outlines: OutlineAgreement
-    """Comparison of the best design's results with the results that its drawn outlines give."""
+    """Comparison of the results of the best design with the results computed from its drawn outlines."""
     equal_depth: ToothSizes | None
     """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it cannot turn."""
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, otherwise as `start`; None if it cannot turn."""
+    """Design with tip radii in the ratio of the tooth numbers, other values as in `start`; None if it cannot turn."""
     front: tuple[ToothSizes, ...]
-    """Pareto front from the best design for the first objective to that for the second; empty for one objective."""
+    """Pareto front from the best design for the first objective to the best for the second; empty for one objective."""
     evaluations: int
     """Number of designs that the search evaluated."""
     stops: float | None
@@ -219,7 +218,7 @@ class OutlineAgreement(Result):
     loss: tuple[float, float]
     """Loss computed from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Peak-to-peak error computed from the transmission function and from the outlines [rad of the driven wheel]."""
+    """Peak-to-peak error from the transmission function and from the outlines [rad of the driven wheel]."""
     impact: tuple[float, float]
     """Impact loss computed from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]

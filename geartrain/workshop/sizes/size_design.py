@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 PARAMETERS = ("radii", "window", "half_angle")
 """Names of the parameters of a design that can be free; `half_angle` applies to both wheels."""
 AIMS = ("loss", "error", "impact", "jam")
-"""Objectives of the search. The margin `jam` is maximised, all others are minimised."""
+"""Objectives of the search. The margin `jam` is maximised; all others are minimised."""
 DIGITS = 6
 """Number of decimals of radii and windows in a declaration. Reported values are computed from the rounded sizes."""
 

@@ -129,7 +129,7 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
 
 
 def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
-    """Return a front without designs that differ negligibly from the one before; both ends remain."""
+    """Return a front without designs that differ negligibly from the previous design; both ends remain."""
     worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
     found = [front[0]]
     for each in front[1:-1]:
@@ -174,7 +174,7 @@ class ProbabilityLimit:
 
     See Also
     --------
-    find_tooth_sizes : Evaluate the limit for few designs, the best first.
+    find_tooth_sizes : Evaluate the limit for a few designs, beginning with the best.
     """
 
     bound: float
@@ -206,7 +206,7 @@ class PairTrials:
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
-    """Random seed of the trials of every pair, so that only the sizes make results of pairs differ."""
+    """Random seed of the trials. It is the same for every pair, so that results differ only because of the sizes."""
 
     def stops(self, sizes: ToothSizes) -> float:
         """Return the fraction of trials in which the pair jams or clashes, 0 to 1.

@@ -55,27 +55,7 @@ _WORST = 4.0  # multiple of the best value up to which designs are shown
 
 
 def tooth_sizes_figure(found: BestToothSizes) -> Figure:
-    """Draw the best sizes of a pair with triangular teeth, and all evaluated designs.
-
-    Parameters
-    ----------
-    found : BestToothSizes
-        Result of `geartrain.workshop.find_tooth_sizes`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        For one objective, a panel for each free parameter. For two objectives, a panel with the Pareto front, and a
-        panel with all designs. Radii of equal depth and pitch-true radii are marked.
-
-    Examples
-    --------
-    >>> from math import pi
-    >>> from geartrain.workshop import (ToothSizes, find_tooth_sizes)
-    >>> start = ToothSizes((48, 96), 1.0, 0.5, (pi / 6, pi / 6), 0.2)
-    >>> tooth_sizes_figure(find_tooth_sizes(start, free={"window": (0.4, 0.6)})).axes[0].get_xlabel()
-    'window'
-    """
+    """Draw the best sizes of a pair with triangular teeth, and all evaluated designs."""
     z1, z2 = found.teeth
     best = " and ".join(_LABELS[aim].partition(",")[0].partition(" (")[0] for aim in found.aims)
     title = f"triangular teeth, {z1} and {z2}, wheel {found.driver} drives: best {best}"
@@ -93,27 +73,7 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train by the best tooth sizes, the worst declared pair at the top.
-
-    Parameters
-    ----------
-    found : BestTrainSizes
-        Result of `geartrain.workshop.find_train_sizes`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure with a line for each pair, from its declared value to the value that is best for the train. The title
-        contains the objective of the train before and after the optimisation.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import find_train_sizes
-    >>> found = find_train_sizes(geartrain.load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)})
-    >>> train_sizes_figure(found).axes[0].get_xlabel()
-    'margin (modules)'
-    """
+    """Draw the improvement of each pair of a train by the best tooth sizes, the worst declared pair at the top."""
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
     rows = []

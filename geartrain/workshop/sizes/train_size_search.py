@@ -148,7 +148,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train in which the clearance factor of every pair with a clearance window is in the middle of it."""
+        """Train in which the clearance factor of every pair with a clearance window is in the middle of this window."""
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
@@ -376,13 +376,13 @@ class PairSizes(Result):
     before: ToothSizes
     """Declared sizes of the pair."""
     apart: ToothSizes
-    """Sizes that are best for the pair by itself, optimised separately."""
+    """Tooth sizes that optimise the objective for the pair by itself."""
     together: ToothSizes
-    """Best sizes of the pair for the whole train."""
+    """Tooth sizes of the pair that optimise the objective for the whole train."""
     runs: bool
     """True if the pair turns with its declared sizes."""
     outlines: OutlineAgreement
-    """Comparison of the results of the best sizes for the train with the results that the drawn outlines give."""
+    """Comparison of the results of the sizes `together` with the results computed from their drawn outlines."""
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -414,8 +414,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     PAGE = "workshop.sizes.tooth_sizes_report:describe_train_sizes"
 
-    FIGURE = "train_sizes_figure"
-    DRAWN_IN = "workshop"
+    FIGURE = "workshop.sizes.tooth_sizes_plot:train_sizes_figure"
 
     KEYS = (
         *("train", "aim", "output", "source", "free", "limits", "before", "apart", "together", "pairs"),
@@ -456,7 +455,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table of the sizes of each pair: as declared (if it turns), optimised separately, and for the train."""
+        """Table of the sizes of each pair: declared (if the pair turns), optimised separately, and for the train."""
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs

@@ -15,10 +15,11 @@ from typing import Any
 import geartrain
 from geartrain import Answer, GearTrain, shipped
 from geartrain.errors import GearTrainError, Problem
-from geartrain.report import collect_report, describe_train, to_html
+from geartrain.report import collect_report, to_html
 from geartrain.report.declaration_schema import schema
 from geartrain.report.document import exact
 from geartrain.report.soundness import find_soundness
+from geartrain.report.train_report import describe_train
 from geartrain.scene.layout.declared_geometry import Parallels, Point, read_geometry
 from geartrain.scene.layout.plan_problem import PlanProblem, plan_problem
 from geartrain.scene.layout.wheel_modules import size_geometry

@@ -146,19 +146,12 @@ def test_a_pressed_button_can_be_read_at_once(show: Opening, scheme: str) -> Non
 
 @pytest.mark.parametrize("name", [ANTIKYTHERA, "zf-8hp70"])
 def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(show: Opening, name: str) -> None:
-    shown = show(name, **PHONE)
+    parts = (".handle", ".round", ".turns", ".where .quiet", ".view canvas", "[role=tablist]", ".page .outputs")
+    shown = show(name, **PHONE | {"viewport": {"width": 844, "height": 390}})
     for width, height in ((844, 390), (667, 375), (568, 320)):
         shown.page.set_viewport_size({"width": width, "height": height})
         wait(shown, f"document.querySelector('.view canvas').getBoundingClientRect().bottom <= {height}")
-        for part in (
-            ".handle",
-            ".round",
-            ".turns",
-            ".where .quiet",
-            ".view canvas",
-            "[role=tablist]",
-            ".page .outputs",
-        ):
+        for part in parts:
             box = shown.page.locator(part).locator("visible=true").first.bounding_box()
             inside = box["x"] >= 0 and box["x"] + box["width"] <= width + 1 and box["y"] >= 0
             assert inside, (width, part, box)

@@ -156,13 +156,13 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(show: Opening, n
             inside = box["x"] >= 0 and box["x"] + box["width"] <= width + 1 and box["y"] >= 0
             assert inside, (width, part, box)
             assert box["y"] + (0 if part == ".page .outputs" else box["height"]) <= height, (width, part, box)
-    canvas = shown.page.locator(".view canvas").bounding_box()
-    assert canvas["width"] > 0.3 * width
-    assert canvas["height"] > 0.5 * height
-    assert shown.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [width, height]
-    go(shown, "5/2")
-    assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
-    assert shown.run(SMALL) == []
+        canvas = shown.page.locator(".view canvas").bounding_box()
+        assert canvas["width"] > 0.3 * width
+        assert canvas["height"] > 0.5 * height
+        assert shown.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [width, height]
+        go(shown, "5/2")
+        assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
+        assert shown.run(SMALL) == []
 
 
 def test_a_printed_page_is_complete_and_has_the_picture(show: Opening) -> None:

@@ -159,7 +159,10 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(show: Opening, n
         canvas = shown.page.locator(".view canvas").bounding_box()
         assert canvas["width"] > 0.3 * width
         assert canvas["height"] > 0.5 * height
-        assert shown.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [width, height]
+        assert shown.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [
+            width,
+            height,
+        ]
         go(shown, "5/2")
         assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
         assert shown.run(SMALL) == []

@@ -163,9 +163,9 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(show: Opening, n
             width,
             height,
         ]
-        go(shown, "5/2")
-        assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
-        assert shown.run(SMALL) == []
+        assert shown.run(SMALL) == [], width
+    go(shown, "5/2")
+    assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
 
 
 def test_a_printed_page_is_complete_and_has_the_picture(show: Opening) -> None:

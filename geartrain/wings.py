@@ -18,9 +18,9 @@ WINGS = ("search", "workshop", "simulation")
 
 
 def has_wing(name: str) -> bool:
-    """Return True if the optional package `geartrain.NAME` is installed."""
+    """Return True if the optional package `geartrain.NAME`, or the package of the module `NAME`, is installed."""
     # `find_spec` does not import the package
-    return find_spec(f"geartrain.{name}") is not None
+    return find_spec(f"geartrain.{name.partition('.')[0]}") is not None
 
 
 def wing(name: str) -> Any:
@@ -32,7 +32,7 @@ def wing(name: str) -> Any:
         If this installation has no such package.
     """
     package = name.partition(".")[0]
-    if not has_wing(package):
+    if not has_wing(name):
         what = f"the optional package geartrain.{package} is not installed"
         raise GearTrainError(
             Problem(what, "this feature needs it", "reinstall geartrain, because this copy is incomplete")
@@ -47,9 +47,9 @@ class WingResult:
     """
 
     wing: str
-    """Name of the optional package."""
+    """Name of the optional package, or of a module of it."""
     name: str
-    """Public name of the result's class."""
+    """Name of the result's class."""
 
     def kind(self) -> type | None:
         """Return the class of the result; None if the optional package is not installed."""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_series import find_gears as find_gears
     from geartrain.analysis.gear_train import GearTrain as GearTrain
     from geartrain.analysis.gear_train import load as load
+    from geartrain.analysis.train_graph import build_train_graph as build_train_graph
 
 __getattr__, __all__ = public_names(
     __name__,
@@ -30,5 +31,6 @@ __getattr__, __all__ = public_names(
         "accuracy": "MethodAccuracy TrainAccuracy find_accuracy",
         "gear_series": "find_gears",
         "gear_train": "GearTrain load",
+        "train_graph": "build_train_graph",
     },
 )

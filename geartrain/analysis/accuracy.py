@@ -69,7 +69,6 @@ class TrainAccuracy(Tabular, TrainResult):
     find_accuracy : Measure all methods on a train.
     """
 
-    KEYS = ("state", "positions", "methods", "neglected")
     ROW = "MethodAccuracy"
     MEANINGS: ClassVar = {
         "error": "Maximum error; empty for the reference method [see `unit`].",

@@ -85,11 +85,6 @@ class GearSearch(Tabular, Result):
 
     PAGE = "report.gearbox_report:describe_gear_search"
 
-    KEYS = (
-        *("name", "title", "input", "output", "closed", "combinations"),
-        *("gears", "free", "locked", "requested", "series", "widest", "evenest"),
-    )
-
     name: str
     """Name of the train."""
     title: str

@@ -73,6 +73,24 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
     carries its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`,
     `carrier`, `ratio`, `form`, `transmission`, `mesh` and `efficiency` (docs/library.md, 2). Attributes that are not
     declared are computed when they are read, so that a train without a solution also has a graph.
+
+    Parameters
+    ----------
+    train : TrainMechanics
+        `GearTrain.mechanics`.
+    state : str, optional
+        A declared state; None only if the train has no states.
+
+    Returns
+    -------
+    networkx.MultiGraph
+        Read-only graph; a copy of it can be changed.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> build_train_graph(geartrain.load("planetary-24-18-60").mechanics).nodes["carrier"]["speed"]
+    Fraction(2, 7)
     """
     state = train.kinematics.case(state).state
     graph = build_graph(train.declaration)

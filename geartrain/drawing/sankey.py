@@ -14,7 +14,8 @@ from itertools import pairwise
 from math import inf
 from typing import Any
 
-from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
+from geartrain.dynamics import PowerFlow, PowerNode
+from geartrain.dynamics.torques.power_flow import PowerStream
 
 NAME = 0.46  # space above a node for its name
 DROP, BEND = 0.14, 0.05  # height of a loss band, and the inner radius of its bend

@@ -23,28 +23,14 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_model import Motion as Motion
     from geartrain.dynamics.motion.motion_model import TransmissionErrorCurve as TransmissionErrorCurve
     from geartrain.dynamics.motion.motion_run import MotionRun as MotionRun
-    from geartrain.dynamics.motion.motion_run import SpectrumLine as SpectrumLine
-    from geartrain.dynamics.motion.pair_impacts import ToothImpact as ToothImpact
     from geartrain.dynamics.motion.run_statistics import RunningStatistics as RunningStatistics
     from geartrain.dynamics.torques.power_flow import PowerFlow as PowerFlow
-    from geartrain.dynamics.torques.power_flow import PowerLoss as PowerLoss
     from geartrain.dynamics.torques.power_flow import PowerNode as PowerNode
-    from geartrain.dynamics.torques.power_flow import PowerStream as PowerStream
-    from geartrain.dynamics.torques.power_flow import RecirculatingPower as RecirculatingPower
     from geartrain.dynamics.torques.power_flow import find_power_flow as find_power_flow
-    from geartrain.dynamics.torques.torque_results import BearingTorque as BearingTorque
-    from geartrain.dynamics.torques.torque_results import DrivenWay as DrivenWay
-    from geartrain.dynamics.torques.torque_results import HoldingTorque as HoldingTorque
-    from geartrain.dynamics.torques.torque_results import NeglectedEffect as NeglectedEffect
-    from geartrain.dynamics.torques.torque_results import PairTorque as PairTorque
     from geartrain.dynamics.torques.torque_results import Torques as Torques
     from geartrain.dynamics.torques.torque_results import TorqueVerdict as TorqueVerdict
     from geartrain.dynamics.train_mechanics import TrainMechanics as TrainMechanics
-    from geartrain.dynamics.turn.torque_cycle import CycleEnergy as CycleEnergy
-    from geartrain.dynamics.turn.torque_cycle import PairCycle as PairCycle
-    from geartrain.dynamics.turn.torque_cycle import PlaceInRun as PlaceInRun
     from geartrain.dynamics.turn.torque_cycle import TorqueCycle as TorqueCycle
-    from geartrain.dynamics.turn.torque_cycle import TorqueExtreme as TorqueExtreme
 
 __getattr__, __all__ = public_names(
     __name__,
@@ -52,13 +38,11 @@ __getattr__, __all__ = public_names(
         "motion.error_composition": "ErrorSamples",
         "motion.kink_positions": "KinkPositions",
         "motion.motion_model": "Motion TransmissionErrorCurve",
-        "motion.motion_run": "MotionRun SpectrumLine",
-        "motion.pair_impacts": "ToothImpact",
+        "motion.motion_run": "MotionRun",
         "motion.run_statistics": "RunningStatistics",
-        "torques.power_flow": "PowerFlow PowerLoss PowerNode PowerStream RecirculatingPower find_power_flow",
-        "torques.torque_results": "BearingTorque DrivenWay HoldingTorque NeglectedEffect PairTorque TorqueVerdict "
-        "Torques",
+        "torques.power_flow": "PowerFlow PowerNode find_power_flow",
+        "torques.torque_results": "TorqueVerdict Torques",
         "train_mechanics": "TrainMechanics",
-        "turn.torque_cycle": "CycleEnergy PairCycle PlaceInRun TorqueCycle TorqueExtreme",
+        "turn.torque_cycle": "TorqueCycle",
     },
 )

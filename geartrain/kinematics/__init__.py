@@ -31,18 +31,14 @@ from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer as Answer
-    from geartrain.kinematics.answer import Loop as Loop
     from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
     from geartrain.kinematics.circuits.fundamental import WillisEquation as WillisEquation
     from geartrain.kinematics.gridlock.removal import Gridlock as Gridlock
-    from geartrain.kinematics.gridlock.removal import LockedSubgraph as LockedSubgraph
     from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
     from geartrain.kinematics.judged_outputs import OutputResult as OutputResult
     from geartrain.kinematics.judged_outputs import Sensitivity as Sensitivity
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
-    from geartrain.kinematics.phasing.mesh_phasing import DivisibilityRule as DivisibilityRule
-    from geartrain.kinematics.phasing.mesh_phasing import LoopPhase as LoopPhase
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
     from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule as find_divisibility_rule
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
@@ -54,11 +50,11 @@ if TYPE_CHECKING:
 __getattr__, __all__ = public_names(
     __name__,
     {
-        "answer": "Answer Loop Verdict",
+        "answer": "Answer Verdict",
         "circuits.fundamental": "Circuit WillisEquation",
-        "gridlock.removal": "Gridlock LockedSubgraph MeshRemoval",
+        "gridlock.removal": "Gridlock MeshRemoval",
         "judged_outputs": "OutputResult Sensitivity TargetResult",
-        "phasing.mesh_phasing": "DivisibilityRule LoopPhase MeshPhasing find_divisibility_rule",
+        "phasing.mesh_phasing": "MeshPhasing find_divisibility_rule",
         "speeds.float_speeds": "FloatSpeeds",
         "speeds.mobility": "Mobility",
         "train_kinematics": "TrainKinematics",

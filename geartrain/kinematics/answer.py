@@ -30,15 +30,7 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """Closed loop of meshing wheels relative to one carrier, with the product of its speed ratios (docs/theory.md, 7).
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> loop = geartrain.load("four-gear-loop").mobility.loops[0]
-    >>> loop.links, loop.product, loop.closes
-    (('a', 'b', 'c', 'd'), Fraction(1, 1), True)
-    """
+    """Closed loop of meshing wheels on one carrier, with the product of its speed ratios (docs/theory.md, 7)."""
 
     carrier: str
     """Link relative to which the ratios of all pairs of the loop are measured."""

@@ -7,7 +7,7 @@ that need a length or a unit vector are for floats.
 from __future__ import annotations
 
 from fractions import Fraction
-from math import atan2, cos, sin, sqrt
+from math import atan2, cos, hypot, sin, sqrt
 from typing import TypeVar
 
 Vector = tuple[float, float, float]
@@ -15,6 +15,8 @@ IntegerVector = tuple[int, int, int]
 ExactVector = tuple[Fraction, Fraction, Fraction]
 
 N = TypeVar("N", int, float, Fraction)
+
+_PARALLEL = 1e-9  # of a cosine, or mm: smaller values are rounding errors
 
 
 def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
@@ -117,3 +119,13 @@ def beside(axis: Vector) -> Vector:
 def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
     """Return the angle of u about a unit vector `axis` [rad], from `reference`, a unit vector perpendicular to it."""
     return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # acos would lose half of the digits near 0
+
+
+def basis(normal: Vector) -> tuple[Vector, Vector]:
+    """Return unit vectors right and up for a viewer who looks against a normal; x and y for a normal along +z."""
+    nx, ny, nz = normal
+    if hypot(nx, ny) < _PARALLEL:
+        return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)
+    length = hypot(nx, ny)
+    right = (-ny / length, nx / length, 0.0)
+    return right, (-nz * right[1], nz * right[0], nx * right[1] - ny * right[0])

@@ -41,8 +41,6 @@ def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
 class VaryingCoupling(Result):
     """Coupling with a variable ratio other than a pin in a slot, and its transmission function."""
 
-    KEYS = ("coupling", "kind", "driver", "driven", "ratio", "swing", "speed_ratio", "at_once", "formula")
-
     coupling: str
     """Name of the coupling."""
     kind: str
@@ -60,7 +58,7 @@ class VaryingCoupling(Result):
     at_once: bool
     """True if the driven link moves in instantaneous steps; its speed ratio is then the value between the steps."""
     formula: str
-    """Driven angle q as a function of the driver's angle S; empty if there is no closed form."""
+    """Driven angle q as a function of the driver's angle S; empty without a closed form."""
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:

@@ -14,8 +14,10 @@ from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import PlaceInRun, PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
+    from geartrain.dynamics import PowerFlow, TorqueCycle, Torques, TorqueVerdict
+    from geartrain.dynamics.torques.power_flow import PowerLoss
     from geartrain.dynamics.torques.torque_results import DrivenWay
+    from geartrain.dynamics.turn.torque_cycle import PlaceInRun
     from geartrain.train import Train
 
 
@@ -118,7 +120,7 @@ class TorqueReport(Result):
     """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
     """Torque over a run of some revolutions of the input in one state; None unless requested."""
-    friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
+    friction_trials: Annotated[Any, WingResult("workshop.monte_carlo.friction_trials", "FrictionTrials")] | None = None
     """Results of torque runs with random friction; None unless requested."""
 
 
@@ -242,6 +244,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
         slips = ", ".join(f"{name} at {figure(slip, 6)}" for name, slip in found.overrunning.items())
         lines.append(f"One-way clutches that overrun, without torque and loss: {slips}.")
     tables = [_links(found, amounts), *_held(found, amounts), _pairs(found, amounts)]
+    tables += _bearings(found, amounts)
     if figures.belt_pulls:
         rows = [(name, f"{pull:.6g}") for name, pull in figures.belt_pulls.items()]
         tables.append(Table(("belt", "pull, tight side minus slack side (N)"), rows))
@@ -322,6 +325,14 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
         for pair in found.pairs.values()
     ]
     return Table(("pair", "driver", "torque on first", "on second", "on carrier", "power", "loss"), rows)
+
+
+def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
+    """Yield a table of the bearings whose friction depends on their load."""
+    loaded = [each for each in found.bearings if each.load is not None]
+    rows = [(each.link, each.carrier, figure(each.load, 6), amounts.plain(abs(each.torque), False)) for each in loaded]
+    if rows:
+        yield Table(("bearing of", "in", "load (N), from declared axes", "friction torque"), rows)
 
 
 # ------------------------------------------------------------------------------------------------------ flow and losses

@@ -112,7 +112,7 @@ class SceneRun(Result):
     """Angles of the links, in the order of the scene's bodies."""
     contacts: Sequence[SceneContact]
     """Contacts of teeth, pins and the escapement."""
-    deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
+    deviations: Sequence[Annotated[Any, WingResult("simulation.time.time_run", "OutputDeviation")]]
     """Maximum angles by which each output is ahead of and behind the motion with all drive flanks in contact [rad]."""
     notes: Sequence[str]
     """Simplifications of the simulation and its replay: omitted effects, and links that are drawn as one."""

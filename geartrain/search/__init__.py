@@ -33,7 +33,6 @@ from geartrain.numerics.lazy_names import public_names
 if TYPE_CHECKING:
     from geartrain.search.constraints.constraint_options import ConstraintOptions as ConstraintOptions
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicSet as EpicyclicSet
-    from geartrain.search.epicyclic.epicyclic_sets import SetFindings as SetFindings
     from geartrain.search.epicyclic.set_search import find_sets as find_sets
     from geartrain.search.orrery.orrery_search import Orrery as Orrery
     from geartrain.search.orrery.orrery_search import find_orrery as find_orrery
@@ -41,22 +40,15 @@ if TYPE_CHECKING:
     from geartrain.search.posterior.inference import infer_counts as infer_counts
     from geartrain.search.posterior.inference import joint_posterior as joint_posterior
     from geartrain.search.posterior.inference import most_informative_wheels as most_informative_wheels
-    from geartrain.search.posterior.posterior_result import CountCombination as CountCombination
-    from geartrain.search.posterior.posterior_result import CountProbability as CountProbability
     from geartrain.search.posterior.posterior_result import ToothCountPosterior as ToothCountPosterior
-    from geartrain.search.posterior.posterior_result import WheelPosterior as WheelPosterior
     from geartrain.search.ratio.stage_problem import StageConstraints as StageConstraints
     from geartrain.search.ratio.stage_search import StageFindings as StageFindings
     from geartrain.search.ratio.stage_search import find_stages as find_stages
-    from geartrain.search.search_outcome import GearStages as GearStages
-    from geartrain.search.search_outcome import Shortfall as Shortfall
-    from geartrain.search.stern_brocot import Approximant as Approximant
     from geartrain.search.stern_brocot import approximants as approximants
     from geartrain.search.target_ratio import TargetRatio as TargetRatio
     from geartrain.search.target_ratio import read_ratio as read_ratio
     from geartrain.search.tooth_count_ranges import CountRuns as CountRuns
     from geartrain.search.tooth_count_ranges import read_counts as read_counts
-    from geartrain.search.train.train_findings import Assignment as Assignment
     from geartrain.search.train.train_findings import TrainFindings as TrainFindings
     from geartrain.search.train.train_search import search_train as search_train
 
@@ -64,19 +56,18 @@ __getattr__, __all__ = public_names(
     __name__,
     {
         "constraints.constraint_options": "ConstraintOptions",
-        "epicyclic.epicyclic_sets": "EpicyclicSet SetFindings",
+        "epicyclic.epicyclic_sets": "EpicyclicSet",
         "epicyclic.set_search": "find_sets",
         "orrery.orrery_search": "Orrery find_orrery",
         "posterior.corner_plot": "counts_figure",
         "posterior.inference": "infer_counts joint_posterior most_informative_wheels",
-        "posterior.posterior_result": "CountCombination CountProbability ToothCountPosterior WheelPosterior",
+        "posterior.posterior_result": "ToothCountPosterior",
         "ratio.stage_problem": "StageConstraints",
         "ratio.stage_search": "StageFindings find_stages",
-        "search_outcome": "GearStages Shortfall",
-        "stern_brocot": "Approximant approximants",
+        "stern_brocot": "approximants",
         "target_ratio": "TargetRatio read_ratio",
         "tooth_count_ranges": "CountRuns read_counts",
-        "train.train_findings": "Assignment TrainFindings",
+        "train.train_findings": "TrainFindings",
         "train.train_search": "search_train",
     },
 )

@@ -13,12 +13,7 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Counts of the candidates that a search rejected, by reason, which explain an empty or short list of solutions.
-
-    See Also
-    --------
-    geartrain.search.find_stages, geartrain.search.find_sets : Searches that report these counts.
-    """
+    """Counts of the candidates that a search rejected, by reason, which explain an empty or short list of solutions."""
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
 
@@ -74,10 +69,6 @@ class CountSizes(ABC):
 class GearStages(CountSizes, Result):
     """Gear pairs in series that approximate a ratio: the tooth counts of the numerator (`top`) and of the denominator
     (`beneath`).
-
-    See Also
-    --------
-    find_stages : Search for gear trains in stages with a given ratio.
     """
 
     KEYS = (

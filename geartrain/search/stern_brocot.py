@@ -28,12 +28,7 @@ _MOST_LISTED = 10**5  # a single run may have as many fractions as the bound
 
 @dataclass(frozen=True, slots=True)
 class Approximant(Result):
-    """Fraction that approximates a given number and is on the path to that number in the Stern-Brocot tree.
-
-    See Also
-    --------
-    approximants : List the fractions that approximate a number.
-    """
+    """Fraction that approximates a given number and is on the path to that number in the Stern-Brocot tree."""
 
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
 

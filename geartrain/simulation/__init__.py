@@ -19,43 +19,27 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.simulation.contacts.link_inertia import LinkInertia as LinkInertia
     from geartrain.simulation.contacts.link_inertia import find_link_inertias as find_link_inertias
-    from geartrain.simulation.contacts.separation_rate import PairSeparation as PairSeparation
     from geartrain.simulation.contacts.separation_rate import SeparationRates as SeparationRates
     from geartrain.simulation.contacts.separation_rate import find_separation as find_separation
     from geartrain.simulation.contacts.separation_rate import find_tooth_impacts as find_tooth_impacts
     from geartrain.simulation.fmu.co_simulation import CoSimulationCase as CoSimulationCase
     from geartrain.simulation.fmu.co_simulation import fmu_file as fmu_file
-    from geartrain.simulation.strength.strength_results import ArborStrength as ArborStrength
-    from geartrain.simulation.strength.strength_results import FlankStrength as FlankStrength
-    from geartrain.simulation.strength.strength_results import FlankWear as FlankWear
     from geartrain.simulation.strength.strength_results import PairStrength as PairStrength
-    from geartrain.simulation.strength.strength_results import PinContact as PinContact
-    from geartrain.simulation.strength.strength_results import PointContact as PointContact
     from geartrain.simulation.strength.strength_results import TrainStrength as TrainStrength
-    from geartrain.simulation.strength.strength_results import WheelStrength as WheelStrength
     from geartrain.simulation.time.stepwise_simulation import Simulation as Simulation
-    from geartrain.simulation.time.time_run import ContactInTime as ContactInTime
-    from geartrain.simulation.time.time_run import ConvergedFigure as ConvergedFigure
-    from geartrain.simulation.time.time_run import EnergyAccount as EnergyAccount
-    from geartrain.simulation.time.time_run import ImpactList as ImpactList
-    from geartrain.simulation.time.time_run import OutputDeviation as OutputDeviation
-    from geartrain.simulation.time.time_run import SpectrumPeak as SpectrumPeak
     from geartrain.simulation.time.time_run import TimeRun as TimeRun
-    from geartrain.simulation.time.train_in_time import VibrationModes as VibrationModes
     from geartrain.simulation.time.train_in_time import find_vibration_modes as find_vibration_modes
 
 __getattr__, __all__ = public_names(
     __name__,
     {
-        "contacts.link_inertia": "LinkInertia find_link_inertias",
-        "contacts.separation_rate": "PairSeparation SeparationRates find_separation find_tooth_impacts",
+        "contacts.link_inertia": "find_link_inertias",
+        "contacts.separation_rate": "SeparationRates find_separation find_tooth_impacts",
         "fmu.co_simulation": "CoSimulationCase fmu_file",
-        "strength.strength_results": "ArborStrength FlankStrength FlankWear PairStrength PinContact PointContact "
-        "TrainStrength WheelStrength",
+        "strength.strength_results": "PairStrength TrainStrength",
         "time.stepwise_simulation": "Simulation",
-        "time.time_run": "ContactInTime ConvergedFigure EnergyAccount ImpactList OutputDeviation SpectrumPeak TimeRun",
-        "time.train_in_time": "VibrationModes find_vibration_modes",
+        "time.time_run": "TimeRun",
+        "time.train_in_time": "find_vibration_modes",
     },
 )

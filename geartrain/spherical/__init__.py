@@ -39,12 +39,8 @@ if TYPE_CHECKING:
     from geartrain.spherical.polyhedra import polyhedron as polyhedron
     from geartrain.spherical.polyhedra import solid as solid
     from geartrain.spherical.polyhedra import solid_names as solid_names
-    from geartrain.spherical.polyhedron_gears import SurveyRow as SurveyRow
     from geartrain.spherical.polyhedron_gears import from_polyhedron as from_polyhedron
     from geartrain.spherical.polyhedron_gears import survey as survey
-    from geartrain.spherical.tooth_count_search import NeighbourRatioWindow as NeighbourRatioWindow
-    from geartrain.spherical.tooth_count_search import ToothCountCompromise as ToothCountCompromise
-    from geartrain.spherical.tooth_count_search import ToothCountSuggestions as ToothCountSuggestions
     from geartrain.spherical.tooth_count_search import ratio_windows as ratio_windows
     from geartrain.spherical.tooth_count_search import suggest_tooth_counts as suggest_tooth_counts
 
@@ -57,8 +53,7 @@ __getattr__, __all__ = public_names(
         "gear_sphere": "GearSphere",
         "graph_set": "GraphSet from_graph",
         "polyhedra": "Polyhedron polyhedron solid solid_names",
-        "polyhedron_gears": "SurveyRow from_polyhedron survey",
-        "tooth_count_search": "NeighbourRatioWindow ToothCountCompromise ToothCountSuggestions ratio_windows "
-        "suggest_tooth_counts",
+        "polyhedron_gears": "from_polyhedron survey",
+        "tooth_count_search": "ratio_windows suggest_tooth_counts",
     },
 )

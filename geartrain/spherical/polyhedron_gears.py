@@ -426,12 +426,7 @@ def _unknown(what: str, word: str, known: Iterable[str]) -> GearTrainError:
 
 @dataclass(frozen=True)
 class SurveyRow(Result):
-    """Properties of one solid with gears on all faces: a row of the table in section 2 of docs/sphere.md.
-
-    See Also
-    --------
-    survey : Returns one for each solid.
-    """
+    """Properties of one solid with gears on all faces: a row of the table in section 2 of docs/sphere.md."""
 
     KEYS = (
         "solid",
@@ -468,8 +463,8 @@ class SurveyRow(Result):
     positions: int
     """Number of free parameters of the axes if the set keeps all symmetries of the solid."""
     angles: tuple[float, ...]
-    """Distinct angles between the axes of meshing gears [deg], ascending. Angles that differ by less than 1e-9 deg are
-    equal.
+    """Distinct angles between the axes of meshing gears [deg], in ascending order. Angles that differ by less than 1e-9
+    deg are equal.
     """
 
     @property

@@ -166,12 +166,7 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 @dataclass(frozen=True)
 class ToothCountCompromise(Shown):
-    """Set of tooth numbers with which all meshes have nearly the same pitch.
-
-    See Also
-    --------
-    suggest_tooth_counts : Returns such objects.
-    """
+    """Set of tooth numbers with which all meshes have nearly the same pitch."""
 
     teeth: Mapping[str, int]
     """Mapping from gear kind to tooth number."""
@@ -204,12 +199,8 @@ class ToothCountCompromise(Shown):
 
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
-    """Result of a search for tooth numbers: a sequence of `ToothCountCompromise`, best first, with the numbers of
-    rejected sets.
-
-    See Also
-    --------
-    suggest_tooth_counts : Returns such objects.
+    """Result of a search for tooth numbers: a sequence of `ToothCountCompromise` in the requested order, with the
+    numbers of rejected sets.
     """
 
     PAGE = "report.spherical_report:describe_suggestions"
@@ -237,7 +228,7 @@ class ToothCountSuggestions(Result):
     meshes: tuple[MeshKind, ...]
     """Kinds of mesh that occur in the set of gears."""
     found: tuple[ToothCountCompromise, ...]
-    """Sets of tooth numbers, best first."""
+    """Sets of tooth numbers in the requested order."""
     considered: int
     """Number of sets of tooth numbers within the bounds."""
     removed: Mapping[str, int]
@@ -342,10 +333,6 @@ class _Search:
 class NeighbourRatioWindow(Shown):
     """Range of the ratio of two tooth numbers in which neighbouring gears of the same kind do not overlap. Addenda are
     ignored.
-
-    See Also
-    --------
-    ratio_windows : Returns such objects.
     """
 
     a: str

@@ -63,7 +63,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def gear(self) -> DeclaredPair:
-        """Gear pair as declared."""
+        """Declared gear pair."""
         return self.wheels.gear
 
     @property

@@ -83,8 +83,6 @@ class TransmissionError(Result):
     (0.333333333333, 0.0)
     """
 
-    KEYS = ("peak_to_peak", "rms", "mean")
-
     peak_to_peak: float
     """Maximum minus minimum transmission error [rad of the driven side]."""
     rms: float

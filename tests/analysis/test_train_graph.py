@@ -16,7 +16,7 @@ from reference_solver import find_carrier
 
 import geartrain
 from geartrain import GearTrain, load
-from geartrain.analysis.train_graph import build_train_graph
+from geartrain.analysis import build_train_graph
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.kinematics import TrainKinematics
 from geartrain.kinematics.graph import to_dot, to_graphml, to_json

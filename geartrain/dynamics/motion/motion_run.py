@@ -55,12 +55,7 @@ class HarmonicShare(NamedTuple):
 
 @dataclass(frozen=True)
 class SpectrumLine(Result):
-    """Line in the spectrum of an output's transmission error, at an exact order of the input.
-
-    See Also
-    --------
-    MotionRun.spectra : all lines by output
-    """
+    """Line in the spectrum of an output's transmission error, at an exact order of the input."""
 
     KEYS = (Key("order", to=float), Key("exact", "order"), "expected", "measured", Key("pairs", "shares"))
 

@@ -32,10 +32,6 @@ if TYPE_CHECKING:
 class ToothImpact(Shown):
     """Impacts of the teeth of one pair, which occur where its speed ratio increases abruptly: equation (7) of
     docs/motion.md.
-
-    See Also
-    --------
-    geartrain.dynamics.find_tooth_impacts : returns them by pair
     """
 
     inertia: float

@@ -43,12 +43,7 @@ class PowerNode(NamedTuple):
 
 @dataclass(frozen=True)
 class PowerStream(Result):
-    """Power that flows from one node of the power flow to another.
-
-    See Also
-    --------
-    PowerFlow.streams : all streams
-    """
+    """Power that flows from one node of the power flow to another."""
 
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
@@ -64,12 +59,7 @@ class PowerStream(Result):
 
 @dataclass(frozen=True)
 class RecirculatingPower(Result):
-    """Closed loops in the power flow, with the power that recirculates in them.
-
-    See Also
-    --------
-    PowerFlow.loops : all loops
-    """
+    """Closed loops in the power flow, with the power that recirculates in them."""
 
     KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
 
@@ -173,12 +163,7 @@ def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerN
 
 @dataclass(frozen=True)
 class PowerLoss(Result):
-    """Power loss of a pair or bearing, compared with the power input and the total loss of the train.
-
-    See Also
-    --------
-    PowerFlow.shares : all losses
-    """
+    """Power loss of a pair or bearing, compared with the power input and the total loss of the train."""
 
     KEYS = (
         *(Key("kind", "node.kind"), Key("name", "node.name"), Key("power", to=as_float)),

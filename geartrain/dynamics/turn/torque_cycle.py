@@ -16,12 +16,7 @@ if TYPE_CHECKING:
 
 
 class TorqueExtreme(NamedTuple):
-    """Extreme value of the torque, and its position in the run.
-
-    See Also
-    --------
-    TorqueCycle.maximum, TorqueCycle.minimum, TorqueCycle.starting : fields of this type
-    """
+    """Extreme value of the torque, and its position in the run."""
 
     torque: float
     """Torque at the requested link [N m, or number without a unit], positive if it drives in the link's mean sense of
@@ -34,12 +29,7 @@ class TorqueExtreme(NamedTuple):
 
 
 class PlaceInRun(NamedTuple):
-    """Position in a run, in revolutions of the input and in days.
-
-    See Also
-    --------
-    TorqueCycle.locked : field with such positions
-    """
+    """Position in a run, in revolutions of the input and in days."""
 
     turns: float
     """Revolutions of the input from the start of the run."""
@@ -52,10 +42,6 @@ class CycleEnergy(Result):
     """Energies over a run [J, or rad if torques are numbers without a unit].
 
     Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
-
-    See Also
-    --------
-    TorqueCycle.energy : field of this type
     """
 
     KEYS = (
@@ -114,14 +100,7 @@ class CycleEnergy(Result):
 
 @dataclass(frozen=True)
 class PairCycle(Result):
-    """Loss, transmitted energy and torque of one gear pair, coupling or bearing over a run.
-
-    See Also
-    --------
-    TorqueCycle.parts : field with all of them
-    """
-
-    KEYS = ("kind", "loss", "passed", "flank_changes", "maximum")
+    """Loss, transmitted energy and torque of one gear pair, coupling or bearing over a run."""
 
     kind: str
     """Kind of the part of the train: `mesh`, `pin` or `bearing`."""

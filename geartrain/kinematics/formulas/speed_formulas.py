@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 class InputShare(Result):
     """Contribution of one input to the speed of an output: ratio times speed of the input."""
 
-    KEYS = ("input", "speed", "ratio")
-
     input: str
     """Name of the driven link."""
     speed: Fraction

@@ -102,12 +102,7 @@ class MeshRemoval(Result):
 
 @dataclass(frozen=True, slots=True)
 class LockedSubgraph(Result):
-    """Component that is locked to its carrier by its meshes, and the meshes whose removal frees it.
-
-    See Also
-    --------
-    Gridlock : Contains an example.
-    """
+    """Component that is locked to its carrier by its meshes, and the meshes whose removal frees it."""
 
     carrier: str
     """Carrier of the component; all links of the component turn with it."""

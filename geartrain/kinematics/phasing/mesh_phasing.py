@@ -49,13 +49,7 @@ class DivisibilityCondition(NamedTuple):
 
 @dataclass(frozen=True)
 class DivisibilityRule(Result):
-    """Divisibility conditions on the tooth counts of a set of gears, under which the teeth mesh around all loops.
-
-    See Also
-    --------
-    find_divisibility_rule : returns it
-    spherical_divisibility_rule : returns it for gears with axes through one point
-    """
+    """Divisibility conditions on the tooth counts of a set of gears, under which the teeth mesh around all loops."""
 
     KEYS = ("text", "conditions")
 
@@ -231,12 +225,7 @@ def _sum(terms: Mapping[str, int], short: bool) -> str:
 
 @dataclass(frozen=True)
 class LoopPhase(Result):
-    """Phase condition of one loop of meshes, with its residue: equations (2) and (3) of docs/closure.md.
-
-    See Also
-    --------
-    MeshPhasing : Contains an example.
-    """
+    """Phase condition of one loop of meshes, with its residue: equations (2) and (3) of docs/closure.md."""
 
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 

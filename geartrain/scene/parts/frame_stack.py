@@ -18,7 +18,7 @@ import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability.equal_planets import ON_ECCENTRIC
-from geartrain.numerics.vectors import Vector, dot, plus, scaled, size
+from geartrain.numerics.vectors import Vector, basis, dot, plus, scaled, size
 from geartrain.scene.bodies import BentWheel, bent_wheels
 from geartrain.scene.joints import coupling_sizes, pin_and_hole
 from geartrain.scene.layout.declared_geometry import upwards
@@ -36,7 +36,6 @@ from geartrain.scene.parts.eccentrics import (
     on_eccentrics,
 )
 from geartrain.scene.parts.stack_discs import Passage, Point, StackDisc, slabs
-from geartrain.scene.solids.bearing_plates import basis
 from geartrain.teeth.couplings.pins import Parallel, PinsInHoles
 from geartrain.teeth.outlines.fixed_teeth import CUP, wall
 from geartrain.teeth.standard_teeth import DEDENDUM

@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import asin, atan2, cos, hypot, pi, sin, tan
+from math import asin, atan2, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.errors import Problem
-from geartrain.numerics.vectors import Vector
 from geartrain.teeth.couplings.pins import Parallel, PinsInHoles
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.wheel_outline import WheelOutline
@@ -85,7 +84,6 @@ Point = tuple[float, float]
 
 _DISC = 3.0  # mm: thickness of discs of pins and slots
 _LAND = 3.0  # mm: width of plate round a hole
-_PARALLEL = 1e-9  # of a cosine, or mm: smaller values are rounding errors
 _PIN = 0.25  # diameter of a pin divided by its distance from the axis, at most 2 mm
 
 
@@ -169,16 +167,6 @@ def _hull(points: Sequence[Point]) -> list[Point]:
     corners = [int(at) for at in ConvexHull(apart).vertices]
     first = corners.index(0)
     return [ordered[at] for at in corners[first:] + corners[:first]]
-
-
-def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return unit vectors right and up for a viewer who looks against a normal; x and y for a normal along +z."""
-    nx, ny, nz = normal
-    if hypot(nx, ny) < _PARALLEL:
-        return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)
-    length = hypot(nx, ny)
-    right = (-ny / length, nx / length, 0.0)
-    return right, (-nz * right[1], nz * right[0], nx * right[1] - ny * right[0])
 
 
 # ------------------------------------------------------------------------------------------------------ pins and slots

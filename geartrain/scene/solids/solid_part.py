@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.results import Shown
-from geartrain.numerics.vectors import Vector
+from geartrain.numerics.vectors import Vector, basis
 from geartrain.scene.parts.turned_parts import TurnedPart
-from geartrain.scene.solids.bearing_plates import basis
 from geartrain.scene.solids.triangle_solids import Solid, plate_solid
 from geartrain.teeth.outlines.contour import Contour
 

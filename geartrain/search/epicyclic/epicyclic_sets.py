@@ -368,12 +368,7 @@ class EpicyclicSet(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class SetFindings(Tabular, Result):
-    """Best epicyclic sets of one type for a ratio, in the order of the search criterion.
-
-    See Also
-    --------
-    find_sets : Search for epicyclic sets.
-    """
+    """Best epicyclic sets of one type for a ratio, in the order of the search criterion."""
 
     ROWS = "search.tooth_numbers_report:set_rows"
     MEANINGS: ClassVar = {

@@ -19,15 +19,7 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """Probability that is exact, correct up to rounding errors, or estimated from a sample.
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> one = CountProbability(Fraction(1, 3))
-    >>> one.is_exact, float(one) == 1 / 3, str(one), str(CountProbability(0.25, 0.2, 0.3))
-    (True, True, '0.3333', '0.25 (0.2 to 0.3)')
-    """
+    """Probability that is exact, correct up to rounding errors, or estimated from a sample."""
 
     KEYS = (Key("value", to=float), "exact", "low", "high")
 
@@ -58,12 +50,7 @@ class CountProbability(Result):
 
 @dataclass(frozen=True, slots=True)
 class WheelPosterior(Result):
-    """Posterior of the tooth count of one wheel, with its prior and the information gained.
-
-    See Also
-    --------
-    infer_counts : Compute the posterior of uncertain tooth counts.
-    """
+    """Posterior of the tooth count of one wheel, with its prior and the information gained."""
 
     KEYS = (Key("", "uncertainty"), Key("posterior", "probabilities"), "likeliest", "bits", "idle")
 
@@ -117,12 +104,7 @@ class CombinedOutput:
 
 @dataclass(frozen=True, slots=True)
 class CountCombination(Result):
-    """Combination of tooth counts of all wheels on which observed outputs depend.
-
-    See Also
-    --------
-    infer_counts : Compute the posterior of uncertain tooth counts.
-    """
+    """Combination of tooth counts of all wheels on which observed outputs depend."""
 
     KEYS = ("teeth", "outputs", Key("misfit", to=float), "probability", "changed")
 

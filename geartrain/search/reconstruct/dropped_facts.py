@@ -36,8 +36,6 @@ class ChangedQuestion:
 class ChangedCount(Result):
     """Number of trains that explain the evidence with one change."""
 
-    KEYS = ("change", "solutions", "complete", "refused")
-
     change: str
     """Description of the change."""
     solutions: tuple[int, ...]

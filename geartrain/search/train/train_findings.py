@@ -45,12 +45,7 @@ class ReachedSpeed(Result):
 
 @dataclass(frozen=True, slots=True)
 class Assignment(CountSizes, Result):
-    """Tooth counts of the varied wheels, with the resulting speeds of the outputs.
-
-    See Also
-    --------
-    search_train : Search for tooth counts of a train.
-    """
+    """Tooth counts of the varied wheels, with the resulting speeds of the outputs."""
 
     KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
 
@@ -132,7 +127,7 @@ class PartFindings(Result):
     reason: str
     """Reason why the search is not complete or the solutions are not ranked; "" otherwise."""
     solutions: tuple[Assignment, ...]
-    """Best assignments, best first."""
+    """Best assignments in the order of the search criterion."""
     shortfall: Shortfall
     """Number of rejected assignments by constraint, in the order of evaluation.
 

@@ -26,12 +26,7 @@ _MILLIMETRES = 1e-3
 
 @dataclass(frozen=True)
 class LinkInertia(Result):
-    """Moment of inertia of a link, with the source of its value.
-
-    See Also
-    --------
-    find_link_inertias : Returns such objects.
-    """
+    """Moment of inertia of a link, with the source of its value."""
 
     link: str
     """Name of the link."""

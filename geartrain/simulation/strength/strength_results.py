@@ -178,10 +178,6 @@ class PairStrength(Result):
 class ArborStrength(Result):
     """Stresses and strength of an arbor between two bearings, as upper bounds for all positions of its wheels;
     docs/strength.md (16), (17), (26).
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
     """
 
     KEYS = (
@@ -221,12 +217,7 @@ class ArborStrength(Result):
 
 @dataclass(frozen=True)
 class WheelStrength(Result):
-    """Strength of one wheel of a loaded pair.
-
-    See Also
-    --------
-    PairStrength : Contains such objects.
-    """
+    """Strength of one wheel of a loaded pair."""
 
     KEYS = (
         *("wheel", "material", "torque", "section", "thickness", "lewis", "tip_stress", "shared_stress", "pressure"),
@@ -279,12 +270,7 @@ class WheelStrength(Result):
 
 @dataclass(frozen=True)
 class FlankWear(Result):
-    """Wear of all flanks of one wheel in one mesh: docs/strength.md (14) and (15).
-
-    See Also
-    --------
-    WheelStrength : Contains such an object.
-    """
+    """Wear of all flanks of one wheel in one mesh: docs/strength.md (14) and (15)."""
 
     passages: float
     """Number of meshing cycles of each tooth."""
@@ -317,8 +303,7 @@ class WheelForce(Result):
     tangential: float
     """Tangential force at the pitch circle, with the sign of the torque [N].
 
-    On parallel axes and on bevels both wheels of a pair have the same force, from the larger torque divided by radius,
-    because friction reduces the other torque.
+    On parallel axes and on bevels both wheels of a pair have the same force: docs/strength.md (32).
     """
     axial: float
     """Axial force, positive along the direction of the wheel's axis [N]."""
@@ -330,12 +315,7 @@ class WheelForce(Result):
 
 @dataclass(frozen=True)
 class FlankStrength(Result):
-    """Strength of one wheel of a pair with point contact.
-
-    See Also
-    --------
-    PointContact : Contains such objects.
-    """
+    """Strength of one wheel of a pair with point contact."""
 
     KEYS = ("wheel", "material", "strength", "spread", "safety", "tip_stress", "root_safety")
 
@@ -365,10 +345,6 @@ class FlankStrength(Result):
 class PointContact(Result):
     """Strength of crossed helical gears or of a worm gear pair, whose flanks have point contact; docs/strength.md (24),
     (25).
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
     """
 
     pair: str
@@ -393,12 +369,7 @@ class PointContact(Result):
 
 @dataclass(frozen=True)
 class PinContact(Result):
-    """Strength of the contact between pins and the lobes or holes of a disc: docs/strength.md (28) to (30).
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
-    """
+    """Strength of the contact between pins and the lobes or holes of a disc: docs/strength.md (28) to (30)."""
 
     KEYS = (
         *("name", "disc", "material", "pins", "width", "force", "radius", "pressure", "strength", "contact_safety"),
@@ -430,7 +401,7 @@ class PinContact(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if unknown."""
+        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if either is unknown."""
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property

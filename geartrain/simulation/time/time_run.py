@@ -177,12 +177,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
 @dataclass(frozen=True)
 class ContactInTime(Result):
-    """Results for one pair, pin or escapement from a time-domain simulation.
-
-    See Also
-    --------
-    TimeRun.contacts : Contains such objects.
-    """
+    """Results for one pair, pin or escapement from a time-domain simulation."""
 
     name: str
     """Name of the pair or coupling; for an escapement, name of its link."""
@@ -212,12 +207,7 @@ class ContactInTime(Result):
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """Impacts of a run in chronological order, up to a storage limit.
-
-    See Also
-    --------
-    TimeRun.impacts : Field of this type.
-    """
+    """Impacts of a run in chronological order, up to a storage limit."""
 
     KEYS = ("total",)
 
@@ -237,12 +227,7 @@ class ImpactList(Result):
 
 @dataclass(frozen=True)
 class EnergyAccount(Result):
-    """Energy balance of a run [J]: the input work equals the losses plus the increase of stored energy.
-
-    See Also
-    --------
-    TimeRun.energy : Field of this type.
-    """
+    """Energy balance of a run [J]: the input work equals the losses plus the increase of stored energy."""
 
     KEYS = (
         *("drive", "loads", "springs", "bearings", "drag", "friction", "impact_loss", "steps", "kinetic", "elastic"),
@@ -290,12 +275,7 @@ class EnergyAccount(Result):
 
 @dataclass(frozen=True)
 class OutputDeviation(Result):
-    """Deviation of an output from the motion with all drive flanks in contact.
-
-    See Also
-    --------
-    TimeRun.deviations : Contains such objects.
-    """
+    """Deviation of an output from the motion with all drive flanks in contact."""
 
     output: str
     """Name of the output."""
@@ -309,12 +289,7 @@ class OutputDeviation(Result):
 
 @dataclass(frozen=True)
 class ConvergedFigure(Result):
-    """Result of two simulations, with time steps h and h/2, for a convergence check.
-
-    See Also
-    --------
-    TimeRun.figures : Contains such objects.
-    """
+    """Result of two simulations, with time steps h and h/2, for a convergence check."""
 
     name: str
     """Name of the result."""
@@ -343,12 +318,7 @@ class ConvergedFigure(Result):
 
 @dataclass(frozen=True)
 class SpectrumPeak(Result):
-    """Line in the spectrum of an output's angle relative to its mean motion.
-
-    See Also
-    --------
-    TimeRun.spectra : Contains such objects.
-    """
+    """Line in the spectrum of an output's angle relative to its mean motion."""
 
     order: float
     """Number of vibration periods per revolution of the driving link."""

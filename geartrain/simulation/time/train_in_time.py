@@ -230,10 +230,6 @@ class VibrationModes(Tabular, Result):
 
     The mode shapes phi and angular frequencies w are solutions of K phi = w^2 M phi, with the stiffness matrix K and
     the mass matrix M.
-
-    See Also
-    --------
-    geartrain.simulation.find_vibration_modes : Returns such an object.
     """
 
     MEANINGS: ClassVar = {

@@ -31,10 +31,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission as OffDesignTransmission
     from geartrain.teeth.conjugate.displaced_contact import pair_outlines as pair_outlines
     from geartrain.teeth.conjugate.path_losses import PathLosses as PathLosses
-    from geartrain.teeth.conjugate.path_losses import PathMeasures as PathMeasures
     from geartrain.teeth.conjugate.path_losses import efficiency as efficiency
     from geartrain.teeth.conjugate.path_losses import measure as measure
-    from geartrain.teeth.conjugate.path_of_contact import PathContact as PathContact
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact as PathOfContact
     from geartrain.teeth.conjugate.wheel_pair import WheelPair as WheelPair
 
@@ -44,8 +42,8 @@ __getattr__, __all__ = public_names(
         "conjugate_form": "ConjugateToothForm",
         "conjugate_transmission": "ConjugatePair ConjugateTransmission",
         "displaced_contact": "OffDesignTransmission pair_outlines",
-        "path_losses": "PathLosses PathMeasures efficiency measure",
-        "path_of_contact": "PathContact PathOfContact",
+        "path_losses": "PathLosses efficiency measure",
+        "path_of_contact": "PathOfContact",
         "wheel_pair": "WheelPair",
     },
 )

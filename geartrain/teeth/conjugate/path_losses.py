@@ -104,12 +104,7 @@ class PathLosses(Result):
 
 @dataclass(frozen=True, slots=True)
 class PathMeasures(Result):
-    """Losses, loads and geometry of one path of contact. Lengths are in modules, or in radians for bevel gears.
-
-    See Also
-    --------
-    measure : Function that computes these quantities.
-    """
+    """Losses, loads and geometry of one path of contact. Lengths are in modules, or in radians for bevel gears."""
 
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
 

@@ -176,10 +176,6 @@ class PathSide:
 class PathContact(Shown):
     """Geometry, speeds, stress and heat of the contact at given pitch-line displacements X. All arrays have the same
     shape; X < 0 is in approach, X > 0 in recess.
-
-    See Also
-    --------
-    PathOfContact.at : Method that computes the contact quantities.
     """
 
     X: Floats

@@ -67,12 +67,7 @@ def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: st
 
 @dataclass(frozen=True, slots=True)
 class WeightDrive(Result):
-    """Torque of a driving weight at its drum, and the torque that it produces at the escape wheel over a run.
-
-    See Also
-    --------
-    CrankLoad : Load of the crank, with the weight.
-    """
+    """Torque of a driving weight at its drum, and the torque that it produces at the escape wheel over a run."""
 
     KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "minimum", "efficiency")
 
@@ -144,12 +139,7 @@ def _driven_by(train: GearTrain, state: str | None, link: str, pull: str) -> Gea
 
 @dataclass(frozen=True, slots=True)
 class CrankLoad(Result):
-    """Torque and efficiency at the driving link of a train.
-
-    See Also
-    --------
-    TrainBudget : Budget with the load of the crank.
-    """
+    """Torque and efficiency at the driving link of a train."""
 
     link: str
     """Name of the driving link: the crank or the input."""

@@ -28,12 +28,7 @@ MEASURES: Mapping[CauseName, str] = {
 
 @dataclass(frozen=True, slots=True)
 class BudgetCause(Result):
-    """Contribution of one cause to the error of a pointer.
-
-    See Also
-    --------
-    PointerBudget : All causes of a pointer.
-    """
+    """Contribution of one cause to the error of a pointer."""
 
     KEYS = ("name", "measure", "declared", "degrees", "rms", "days", "interval", "note")
 
@@ -88,12 +83,7 @@ class BudgetCause(Result):
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Drift of a pointer relative to a target, due to the error of its mean speed; positive if it is fast.
-
-    See Also
-    --------
-    PointerBudget : All drifts of a pointer.
-    """
+    """Drift of a pointer relative to a target, due to the error of its mean speed; positive if it is fast."""
 
     target: str
     """Description of the target to which the drift is relative."""
@@ -144,7 +134,7 @@ class PointerBudget(Result):
     drifts: tuple[RatioDrift, ...] = ()
     """Drift relative to each target. The cause "ratio" is the magnitude of the first drift over the span."""
     pairs: Mapping[str, float] | None = None
-    """Peak-to-peak pointer error due to the teeth of one pair only [deg], by pair, descending; None if unknown."""
+    """Peak-to-peak pointer errors due to the teeth of each single pair [deg], in descending order; None if unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]

@@ -58,12 +58,7 @@ Rows = Sequence[Sequence[object]]
 
 @dataclass(frozen=True, slots=True)
 class ExportFile(Shown):
-    """One file of an export. Its content is computed on request.
-
-    See Also
-    --------
-    export_files : List the files of an export.
-    """
+    """One file of an export. Its content is computed on request."""
 
     path: str
     """Path of the file relative to the export folder, with `/` as separator."""

@@ -25,12 +25,7 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Probabilities of a jam, clash, dwell and loss of contact in a train, at one clearance and one scale of errors.
-
-    See Also
-    --------
-    jamming_map : Compute the cases.
-    """
+    """Probability of a jam, clash, dwell and loss of contact in a train at one clearance and factor of the errors."""
 
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 

@@ -271,12 +271,7 @@ class EventRates(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class PairEventRates(Result):
-    """Event probabilities of one pair, or of the whole train, during a full meshing cycle.
-
-    See Also
-    --------
-    TrialResults : Results of all trials, with the rates of every pair.
-    """
+    """Event probabilities of one pair, or of the whole train, during a full meshing cycle."""
 
     KEYS = (Key("pair", "name"), "uncut", Key("backlash", to=finite), Key("bound", to=finite), Key("", "rates"))
 
@@ -353,10 +348,6 @@ class PointerErrorStatistics(Result):
     """Statistics of the pointer error of one output at random positions of the input.
 
     The pointer error is the deviation from the mean position that the pointer would have with perfect teeth.
-
-    See Also
-    --------
-    TrialResults : Results of all trials, with the statistics of every output.
     """
 
     KEYS = (
@@ -415,7 +406,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error in all trials with touching teeth, with its interval [rad]."""
+        """Standard deviation of the pointer error in all trials with touching teeth [rad], with confidence interval."""
         return deviation_of(self.all)
 
     @property

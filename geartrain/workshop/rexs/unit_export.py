@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.vectors import Vector, dot, minus
-from geartrain.scene.solids.bearing_plates import basis
+from geartrain.numerics.vectors import Vector, basis, dot, minus
 from geartrain.teeth import Involute
 from geartrain.workshop.rexs.rexs_document import Attributes, Model, to_json, to_xml, written
 

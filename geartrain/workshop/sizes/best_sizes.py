@@ -35,12 +35,7 @@ _CELLS, _NODES = 24, 4  # cells of each smooth interval, and Gauss nodes in each
 
 @dataclass(frozen=True)
 class BestToothSizes(Tabular, Pictured, Result):
-    """Best sizes of a pair with triangular teeth, and other designs for comparison.
-
-    See Also
-    --------
-    find_tooth_sizes : Find the best sizes, with an example.
-    """
+    """Best sizes of a pair with triangular teeth, and other designs for comparison."""
 
     ROW = "ToothSizes"
     MEANINGS: ClassVar = {
@@ -207,10 +202,6 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 class OutlineAgreement(Result):
     """Comparison of the properties of a design computed from its transmission function with the properties computed
     from the contact of its drawn outlines.
-
-    See Also
-    --------
-    find_tooth_sizes : Verify the best design by this comparison.
     """
 
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")

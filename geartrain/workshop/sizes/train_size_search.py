@@ -360,12 +360,7 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """Sizes of one pair of a train: the declared sizes, the best sizes of the pair, and the best sizes for the train.
-
-    See Also
-    --------
-    find_train_sizes : Find the sizes.
-    """
+    """Sizes of one pair of a train: declared sizes, best sizes of the pair, and best sizes for the train."""
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
 
@@ -415,11 +410,6 @@ class BestTrainSizes(Tabular, Pictured, Result):
     PAGE = "workshop.sizes.tooth_sizes_report:describe_train_sizes"
 
     FIGURE = "workshop.sizes.tooth_sizes_plot:train_sizes_figure"
-
-    KEYS = (
-        *("train", "aim", "output", "source", "free", "limits", "before", "apart", "together", "pairs"),
-        *("untouched", "declaration"),
-    )
 
     train: str
     """Name of the train."""

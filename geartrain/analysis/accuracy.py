@@ -35,12 +35,7 @@ _NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 @dataclass(frozen=True, slots=True)
 class MethodAccuracy(Shown):
-    """Run time and error of one computation method in one stage of the computation.
-
-    See Also
-    --------
-    find_accuracy : Measure all methods on a train.
-    """
+    """Run time and error of one computation method in one stage of the computation."""
 
     stage: Stage
     """Stage of the computation, such as "speeds"."""
@@ -62,12 +57,7 @@ class MethodAccuracy(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TrainAccuracy(Tabular, TrainResult):
-    """Run time and error of each method for one train in one state.
-
-    See Also
-    --------
-    find_accuracy : Measure all methods on a train.
-    """
+    """Run time and error of each method for one train in one state."""
 
     ROW = "MethodAccuracy"
     MEANINGS: ClassVar = {

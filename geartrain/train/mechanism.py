@@ -88,15 +88,6 @@ FrictionTorque = Annotated[
 class BearingFriction(Declared):
     """Friction torque of a bearing, independent of load and speed. In a declaration, a single torque instead of a
     mapping sets `sliding`.
-
-    See Also
-    --------
-    Link : its field `bearing`
-
-    Examples
-    --------
-    >>> BearingFriction(sliding="0.5 N m").at_rest.si
-    0.5
     """
 
     SHORT: ClassVar = {"type": ["string", "number"], "format": "torque"}
@@ -501,12 +492,7 @@ class Link(Declared):
 
 
 class Axis(Declared):
-    """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0.
-
-    See Also
-    --------
-    Train : its field `axes`, by label
-    """
+    """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0."""
 
     direction: tuple[Figure, Figure, Figure] = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
@@ -552,12 +538,7 @@ class Joint(Declared):
 
 
 class Revolute(Joint):
-    """Turning pair of two links. Turning pairs with the same axis label are coaxial.
-
-    See Also
-    --------
-    Train : its field `revolutes`
-    """
+    """Turning pair of two links. Turning pairs with the same axis label are coaxial."""
 
     pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
     axis: Id = Field(description="Label of the axis; equal labels mean coaxial joints")
@@ -567,12 +548,7 @@ Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
 
 
 class Slide(Joint):
-    """Sliding pair of two links. Sliding pairs with the same axis label move along the same line.
-
-    See Also
-    --------
-    Train : its field `slides`
-    """
+    """Sliding pair of two links. Sliding pairs with the same axis label move along the same line."""
 
     pair: tuple[Id, Id] = Field(description="Two links that slide along each other")
     axis: Id = Field(description="Label of the axis; equal labels mean travel along one line")

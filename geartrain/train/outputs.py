@@ -157,10 +157,6 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 class DialName(Declared):
     """Label of one or more consecutive divisions of a dial. In a declaration, a single string instead of a mapping is
     the label.
-
-    See Also
-    --------
-    Dial : its field `names`
     """
 
     SHORT: ClassVar = {"type": ["string", "number", "null"]}
@@ -172,10 +168,6 @@ class DialName(Declared):
 class DialNumerals(Declared):
     """Numerals at the lines between the divisions of a dial; the last numeral is at the zero mark. In a declaration, a
     single string instead of a mapping is their style.
-
-    See Also
-    --------
-    Dial : its field `numerals`
     """
 
     SHORT: ClassVar = {"enum": ["roman", "arabic"]}
@@ -310,12 +302,7 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
 
 
 class DialRing(Graduation):
-    """Second scale around the scale of a dial, read by the same pointers.
-
-    See Also
-    --------
-    Dial : its field `around`
-    """
+    """Second scale around the scale of a dial, read by the same pointers."""
 
 
 INNER = 0.55
@@ -347,17 +334,7 @@ class FacePlate(Declared):
 
 
 class Dial(Graduation):
-    """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative.
-
-    Examples
-    --------
-    >>> Dial(names="zodiac").parts[4]
-    ('Leo', Fraction(120, 1), Fraction(30, 1))
-
-    See Also
-    --------
-    Train : its field `dials`, by name
-    """
+    """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative."""
 
     SHORT: ClassVar = {"type": "null"}
 
@@ -457,11 +434,6 @@ class Target(Declared):
 
     A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
     `sense` is given.
-
-    See Also
-    --------
-    Output : its field `targets`
-    geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
     SHORT: ClassVar = {"type": "string"}
@@ -522,14 +494,6 @@ class Target(Declared):
 class Expect(Declared):
     """Required mean speed of an output, exact or within a tolerance. In a declaration, a single number instead of a
     mapping is the value.
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> Expect(value="254/19").holds(Fraction(254, 19)), Expect(value="13.37").holds(Fraction(254, 19))
-    (True, True)
-    >>> Expect(value="13.37", tolerance=0).holds(Fraction(254, 19))
-    False
     """
 
     SHORT: ClassVar = {"type": ["number", "string"]}
@@ -694,12 +658,7 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """Unit of all speeds: a speed of 1 means one turn per declared time, length or period.
-
-    See Also
-    --------
-    Train : its field `unit`
-    """
+    """Unit of all speeds: a speed of 1 means one turn per declared time, length or period."""
 
     per: str = Field(
         description="A time (`12 h`, `7 d`), a length (`18 ft`), or the name of a period that `geartrain periods` lists"
@@ -707,12 +666,7 @@ class SpeedUnit(Declared):
 
 
 class View(Declared):
-    """View of the train: side from which it is seen, and positive sense of rotation.
-
-    See Also
-    --------
-    Train : its field `view`
-    """
+    """View of the train: side from which it is seen, and positive sense of rotation."""
 
     from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, front or back")
     positive: Literal["clockwise", "counter-clockwise"] = Field(
@@ -721,12 +675,7 @@ class View(Declared):
 
 
 class TourStep(Declared):
-    """Step of the tour of a train on its page: a part at which the camera looks, and a text about it.
-
-    See Also
-    --------
-    Train : its field `tour`
-    """
+    """Step of the tour of a train on its page: a part at which the camera looks, and a text about it."""
 
     look_at: Id = Field(
         description="Name of an output, link, wheel, dial or coupling; if several parts "

@@ -96,12 +96,7 @@ class Fusee(Declared):
 
 
 class SpringDrive(Declared):
-    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding.
-
-    See Also
-    --------
-    Drive : its field `spring`
-    """
+    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding."""
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 0.02 N m/rad")] = Field(
         description="Torsional stiffness: torque per radian of winding"
@@ -155,12 +150,7 @@ class SpringDrive(Declared):
 
 
 class HandDrive(Declared):
-    """Hand at the crank: a torque, or a speed imposed through a torsional stiffness, and the inertia of arm and crank.
-
-    See Also
-    --------
-    Drive : its field `hand`
-    """
+    """Hand at the crank: a torque or a speed through a torsional stiffness, and the inertia of arm and crank."""
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
     rate: Speed | None = Field(None, description="Speed that the hand maintains")
@@ -305,17 +295,6 @@ class Escapement(Declared):
     """Escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
     Angles are relative to the link on which the pallets are mounted, by default the link that carries the escape wheel.
-
-    See Also
-    --------
-    Train : its field `escapement`
-
-    Examples
-    --------
-    >>> Escapement(link="escape", teeth=30, beat="1 s").speed
-    Fraction(1, 60)
-    >>> Escapement(link="escape", teeth=30, beat="1 s", pendulum="994 mm").pendulum.length.si
-    0.994
     """
 
     link: Id = Field(description="Link of the escape wheel")
@@ -402,11 +381,6 @@ class Clutch(Declared):
 
     With `one_way` it is an overrunning clutch, freewheel or ratchet, which is in force in every state: it holds, or it
     overruns in the given sense, depending on speeds and torques.
-
-    See Also
-    --------
-    Train : its field `clutches`, by name
-    State : engages them
     """
 
     fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")

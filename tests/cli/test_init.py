@@ -9,7 +9,7 @@ from commands import call
 
 import geartrain
 from geartrain.cli.declarations import TEMPLATES
-from geartrain.train import with_short_forms
+from geartrain.train.declaration_style import with_short_forms
 
 KINDS = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
 

@@ -18,7 +18,7 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import OTHER_PI, PI, pi_text
 from geartrain.report.answers import answer_text
 from geartrain.teeth.couplings.crank_slider import CrankSliderTransmission
-from geartrain.train import with_long_forms, with_short_forms
+from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
 RACK = """
 links: {frame: {}, pinion: {}, carriage: {}}

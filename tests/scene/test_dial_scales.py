@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from geartrain.scene.dial_scale import DialScale, Engraving, engrave, roman, scale_of
 from geartrain.scene.stroke_letters import capitals, curved_text, letter_strokes, text_length
-from geartrain.train import Dial
+from geartrain.train.outputs import Dial
 
 METONIC = scale_of(Dial(turns=5, divisions=235, cell="month"))
 SAROS = scale_of(Dial(turns=4, divisions=223, cell="month"))

@@ -223,10 +223,6 @@ class ClearanceWindow(Shown):
 
     The truth value of a window is False if `run` is not above `jam`: the pair then turns at no clearance. If a pair
     turns in several ranges of clearance, the window is the first range.
-
-    See Also
-    --------
-    find_window : Function that computes the window of a pair.
     """
 
     jam: float

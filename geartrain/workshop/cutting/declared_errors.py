@@ -14,8 +14,8 @@ from geartrain.teeth.triangular.pair_geometry import depth
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.train import PairMounting, Train, Wheel, WheelManufacture
-    from geartrain.train.manufacturing import AngleError, LengthError
+    from geartrain.train import Train, Wheel
+    from geartrain.train.manufacturing import AngleError, LengthError, PairMounting, WheelManufacture
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "eccentricity", "tip", "aperture_deviation")

@@ -38,15 +38,7 @@ class SpeedRatio(Result):
     def of(cls, transmission: TransmissionFunction) -> SpeedRatio:
         """Return the speed ratio of a transmission function.
 
-        Parameters
-        ----------
-        transmission : TransmissionFunction
-            Transmission function of any pair or pin.
-
-        Returns
-        -------
-        SpeedRatio
-            Mean and range over one period.
+        transmission   transmission function of any pair or pin
         """
         return cls(transmission.ratio, *transmission.speed_range())
 
@@ -71,15 +63,7 @@ class TransmissionError(Result):
     def of(cls, transmission: TransmissionFunction) -> TransmissionError:
         """Return the statistics of the transmission error of a transmission function.
 
-        Parameters
-        ----------
-        transmission : TransmissionFunction
-            Transmission function of any pair or pin.
-
-        Returns
-        -------
-        TransmissionError
-            Peak-to-peak, rms and mean value over one period.
+        transmission   transmission function of any pair or pin
         """
         low, high = transmission.error_range()
         mean, rms = transmission.error_moments()
@@ -211,15 +195,7 @@ class PairVerdict(Result):
     def explained(self, why: str, fix: str) -> PairVerdict:
         """Return a copy of the verdict with a single fault, which has the given cause and remedy.
 
-        Parameters
-        ----------
-        why, fix : str
-            Cause of the fault, and its remedy.
-
-        Returns
-        -------
-        PairVerdict
-            Copy with one fault of the pair as a whole.
+        why, fix   cause of the fault, and its remedy
         """
         return replace(self, faults=(ToothFault(self.kind, 0, float("nan"), self.text, why, fix),))
 

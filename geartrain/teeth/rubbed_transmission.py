@@ -90,10 +90,7 @@ class RubbedTransmission(TransmissionFunction):
     def coefficient(self, S: ArrayLike) -> Floats:
         """Return the coefficient of friction at each contact; NaN without contact.
 
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
+        S   driver angles [rad], any shape
         """
         return self.by(self.rubbing(S).sliding)
 

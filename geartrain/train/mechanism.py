@@ -129,13 +129,7 @@ DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 
 @cache
 def wheel_sets() -> Mapping[str, tuple[int, ...]]:
-    """Return the tooth counts of the wheels of each construction set in the shipped table, in ascending order.
-
-    Examples
-    --------
-    >>> wheel_sets()["meccano"]
-    (15, 19, 25, 38, 50, 57, 60, 95, 133)
-    """
+    """Return the tooth counts of the wheels of each construction set in the shipped table, in ascending order."""
     text = files("geartrain.train").joinpath("wheel_sets.csv").read_text(encoding="utf-8")
     found: dict[str, list[int]] = {}
     for row in csv.DictReader(text.splitlines()):
@@ -156,17 +150,7 @@ def _form(raw: object) -> str:
 
 
 class OwnedWheels(Declared):
-    """Wheels from which a wheel of the train is chosen.
-
-    Examples
-    --------
-    >>> OwnedWheels(of={15: 2, 57: 1}).counts, OwnedWheels(of="lego").counts[:3]
-    ((15, 57), (8, 12, 16))
-
-    See Also
-    --------
-    Teeth : its field `search`
-    """
+    """Wheels from which a wheel of the train is chosen."""
 
     of: Annotated[
         Annotated[str, AfterValidator(_known), Tag("name")]

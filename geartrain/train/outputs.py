@@ -42,14 +42,7 @@ _EXTRA_DIGITS = 2  # of a computed period, more than the source prints
 
 @dataclass(frozen=True, slots=True)
 class PrintedPeriod(Figure):
-    """Time as printed in a source. Its `value` [s] and `half` [s] do not include its years.
-
-    Examples
-    --------
-    >>> printed = PrintedPeriod.parse("24 h 50 min 28.4 s")
-    >>> printed.value, printed.half, printed.text_of(Fraction(89428378, 1000), None)
-    (Fraction(447142, 5), Fraction(1, 20), '24 h 50 min 28.378 s')
-    """
+    """Time as printed in a source. Its `value` [s] and `half` [s] do not include its years."""
 
     years: Fraction
     """Number of years, which is 0 if none is printed."""
@@ -65,13 +58,7 @@ class PrintedPeriod(Figure):
 
     @classmethod
     def parse(cls, raw: object) -> PrintedPeriod:
-        """Parse a time with its units in descending order.
-
-        Raises
-        ------
-        ValueError
-            If `raw` is not such a time.
-        """
+        """Parse a time with its units in descending order."""
         if isinstance(raw, PrintedPeriod):
             return raw
         text = str(raw).strip()
@@ -317,12 +304,7 @@ Place = tuple[MeasuredLength, MeasuredLength]
 
 
 class FacePlate(Declared):
-    """Rectangular plates on which the dials of the front and of the back are engraved.
-
-    See Also
-    --------
-    Train : its field `dial_plate`
-    """
+    """Rectangular plates on which the dials of the front and of the back are engraved."""
 
     width: Annotated[MeasuredLength, above_zero("give a width such as 180 mm")] = Field(description="Width")
     height: Annotated[MeasuredLength, above_zero("give a height such as 330 mm")] = Field(description="Height")
@@ -379,12 +361,8 @@ class Dial(Graduation):
         """Return the extent of the engraving in a direction, divided by the radius of the dial. A spiral reaches this
         radius only at its outer end.
 
-        Parameters
-        ----------
-        right : float
-            Component of the direction to the right of the reader; its length is arbitrary.
-        up : float
-            Component of the direction upwards.
+        right   component of the direction to the right of the reader; its length is arbitrary
+        up      component of the direction upwards
         """
         if self.turns == 1 or self.around is not None:
             return 1.0
@@ -509,10 +487,7 @@ class Expect(Declared):
     def holds(self, speed: Any) -> bool:
         """Return True if a speed agrees with the expected value.
 
-        Parameters
-        ----------
-        speed : Fraction
-            Exact speed [unit of the train].
+        speed   exact speed [unit of the train]
         """
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 

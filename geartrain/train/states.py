@@ -66,12 +66,7 @@ DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in t
 
 
 class Fusee(Declared):
-    """Fusee on the driving link, by its constant torque or by its radii.
-
-    See Also
-    --------
-    SpringDrive : its field `fusee`
-    """
+    """Fusee on the driving link, by its constant torque or by its radii."""
 
     turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
         description="Turns of the fusee from fully wound to run down"
@@ -139,10 +134,7 @@ class SpringDrive(Declared):
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].
 
-        Parameters
-        ----------
-        unwound : float
-            Angle by which the link has turned [rad].
+        unwound   angle by which the link has turned [rad]
         """
         if (chained := self.chained) is not None:
             return chained.torque(unwound)
@@ -269,12 +261,7 @@ EXPANSIONS = {"steel": 11.5e-6, "brass": 19e-6, "pine": 4e-6, "invar": 1e-6}
 
 
 class Pendulum(Declared):
-    """Pendulum of an escapement. In a declaration, a length instead of a mapping sets `length`.
-
-    See Also
-    --------
-    Escapement : its field `pendulum`
-    """
+    """Pendulum of an escapement. In a declaration, a length instead of a mapping sets `length`."""
 
     SHORT: ClassVar = {"type": "string", "format": "length"}
 
@@ -353,12 +340,8 @@ class Escapement(Declared):
     def has_wheel(self, link: str, count: int | None) -> bool:
         """Return True if a wheel of a link is the escape wheel, which does not mesh with other wheels.
 
-        Parameters
-        ----------
-        link : str
-            Link of the wheel.
-        count : int or None
-            Tooth count of the wheel, if known.
+        link    link of the wheel
+        count   tooth count of the wheel, if known
         """
         return (link, count) == (self.link, self.teeth)
 
@@ -476,12 +459,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True)
 class OneWayAction(Result):
-    """Action of a one-way clutch in one state: it holds, or it overruns.
-
-    See Also
-    --------
-    StateCase : its field `one_way`
-    """
+    """Action of a one-way clutch in one state: it holds, or it overruns."""
 
     name: str
     """Name of the clutch."""
@@ -510,10 +488,7 @@ class OneWayAction(Result):
     def text(self, unit: str = "") -> str:
         """Return the action as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
 
-        Parameters
-        ----------
-        unit : str
-            Unit of speeds.
+        unit   unit of speeds
         """
         if self.holds:
             amount = "" if self.torque is None else f" ({f'{decimal(self.torque, 6)} {self.torque_unit}'.strip()})"

@@ -87,29 +87,7 @@ class TrainAccuracy(Tabular, TrainResult):
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
-    """Measure the run time and the error of every method that computes speeds, motion or torques.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train on which the methods are measured.
-    state : str, optional
-        A declared state; None only if the train has no states.
-    positions : int
-        Number of input positions at which motion is computed.
-
-    Returns
-    -------
-    TrainAccuracy
-        Run times and errors, with a row for each method, and the reason for each stage that is not measured.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> found = find_accuracy(geartrain.load("planetary-24-18-60"))
-    >>> [(row.stage, row.method) for row in found.methods]
-    [('speeds', 'exact'), ('speeds', 'floats')]
-    """
+    """Measure the run time and the error of every method that computes speeds, motion or torques."""
     stages: Mapping[Stage, Callable[[GearTrain, str | None, int], Iterator[MethodAccuracy]]] = {
         "speeds": _measure_speeds,
         "motion": _measure_motion,

@@ -145,7 +145,7 @@ def drawn(figure: Any, panel: int, gid: str) -> Any:
 @cache
 def figure() -> Any:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing import shapes_figure
+    from geartrain.drawing.transmission_curves import shapes_figure
     from geartrain.teeth.any_tooth_form import tooth_forms
 
     forms = ("involute", "uniform_stress", "uniform_temperature", "least_friction", "cycloidal", "lantern")
@@ -178,7 +178,7 @@ def test_a_comparison_is_drawn_to_a_file(tmp_path: File) -> None:
 @pytest.mark.parametrize("more", [{"internal": True}, {"shaft_angle": pi / 2}], ids=str)
 def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> None:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing import shapes_figure
+    from geartrain.drawing.transmission_curves import shapes_figure
     from geartrain.teeth import UniformStress
 
     path = UniformStress.declared({}).path(24, 60, **more)

@@ -21,9 +21,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from geartrain.drawing import shapes_figure, sweep_figure, triangular_figure
+from geartrain.drawing import sweep_figure
 from geartrain.drawing.power_sankey import power_figure
 from geartrain.drawing.theme_colours import themed
+from geartrain.drawing.transmission_curves import shapes_figure, triangular_figure
 from geartrain.dynamics import find_power_flow
 from geartrain.scene.palette import THEMES
 from geartrain.search.posterior.corner_plot import CountProbabilities, corner_figure

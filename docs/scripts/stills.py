@@ -116,7 +116,9 @@ def stills(
     with TemporaryDirectory() as folder, open_browser() as browser:
         path = Path(folder) / "page.html"
         path.write_text(page([scene]), encoding="utf-8")
-        sheet = browser.new_page(viewport={"width": width, "height": height}, device_scale_factor=1)
+        sheet = browser.new_page(
+            viewport={"width": width, "height": height}, device_scale_factor=1, reduced_motion="reduce"
+        )
         visit(sheet, path.as_uri(), "Boolean(globalThis.geartrain?.ready)")
         sheet.evaluate(_BARE, background)
         for each in turns:

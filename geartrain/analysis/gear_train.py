@@ -241,7 +241,7 @@ class GearTrain:
         labels : bool
             True to add names and numbers.
         outputs : sequence of str
-            Outputs whose dials are drawn; by default all.
+            Outputs whose dials are drawn; by default all outputs.
         """
         return imported_function("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
 
@@ -382,7 +382,7 @@ class GearTrain:
         counts : mapping of str to iterable of int
             Wheel -> tooth counts to evaluate.
         outputs : sequence of str
-            Names of outputs; by default all.
+            Names of outputs; by default all outputs.
         state : str, optional
             A declared state; None only if the train has no states.
 
@@ -813,7 +813,7 @@ class GearTrain:
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     """Load a train from a YAML file, the name of a train shipped with geartrain, YAML text, or plain data.
 
-    The circuits and the inputs, brakes and locks of all states are computed at once, so that every error of the
+    The circuits and the inputs, brakes and locks of all states are computed immediately, so that every error of the
     declaration is reported.
 
     Parameters

@@ -57,6 +57,7 @@ class VerbGroup(EndingGroup, LazyGroup):
             "posterior": "geartrain.search.posterior.verb",
             "export": "geartrain.workshop.export.verb",
             "montecarlo": "geartrain.workshop.monte_carlo.verb",
+            "feasibility": "geartrain.workshop.feasibility.verb",
             "budget": "geartrain.workshop.budget.verb",
         },
         entry_points="geartrain.wings",
@@ -66,7 +67,7 @@ class VerbGroup(EndingGroup, LazyGroup):
             "Speeds": ("solve", "gearbox", "sphere", "inspect"),
             "Teeth, losses and motion": ("mesh", "pin", "torques", "motion", "strength", "dynamics", "optimise"),
             "Search": ("teeth", "reconstruct", "posterior"),
-            "Make": ("export", "montecarlo", "budget"),
+            "Make": ("export", "montecarlo", "feasibility", "budget"),
         },
     )
 

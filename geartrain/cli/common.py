@@ -49,6 +49,14 @@ Without = Annotated[
         "--without", help="Omit a redundant gear pair, so that the teeth of a closed loop can turn; may be repeated."
     ),
 ]
+Cutting = Annotated[
+    Names,
+    typer.Option(
+        "--cutting",
+        metavar="KIND=SIZE",
+        help="Replace a declared cutting error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'; may be repeated.",
+    ),
+]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
@@ -267,7 +275,7 @@ def as_json(data: Any) -> str:
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; return an empty string if there are no rows."""
+    """Format rows with the same keys as CSV with a header; return an empty string without any rows."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

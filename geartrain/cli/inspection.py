@@ -28,14 +28,17 @@ _HERE = "geartrain.cli.inspection"
 class InspectGroup(LazyGroup):
     """Group of commands that print a train in other forms, for other tools or for checks."""
 
-    verbs = Verbs({name: f"{_HERE}:{name}" for name in ("equations", "formula", "graph", "bench", "schema")})
+    verbs = Verbs(
+        {name: f"{_HERE}:{name}" for name in ("equations", "formula", "graph", "bench", "schema")}
+        | {"wheels": "geartrain.workshop.cutting.verb"}
+    )
 
 
 app = typer.Typer(
     cls=InspectGroup,
     add_completion=False,
     no_args_is_help=True,
-    help="Print equations, formulas, graph or accuracy of a train, or the JSON Schema of the files.\n\n"
+    help="Print equations, formulas, graph, accuracy or measured wheels of a train, or the JSON Schema of files.\n\n"
     "Example: `geartrain inspect formula wolfrom-175`.",
 )
 

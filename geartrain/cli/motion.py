@@ -33,6 +33,7 @@ from geartrain.cli.common import (
 from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion, MotionRun
@@ -55,6 +56,10 @@ def run(
     wide: Annotated[bool, typer.Option("--wide", help="Report the contribution of each pair to every output.")] = False,
     state: StateName = None,
     without: Without = None,
+    measured: Annotated[
+        bool,
+        typer.Option("--measured", help="Use the measured teeth and the fixed errors of `cutting`, not perfect teeth."),
+    ] = False,
     phases: Annotated[
         int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of additional runs with random tooth phases.")
     ] = 0,
@@ -92,7 +97,9 @@ def run(
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     # an output that is also a link is reported once
-    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()))
+    how = state, tuple(dict.fromkeys(outputs)), tuple(without or ())
+    made = wing("workshop.cutting.measured_motion").measured_motion if measured else None
+    motion = train.motion(*how) if made is None else made(train, *how)
     requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
         _write_table(requested, to.path, resume, force)
@@ -102,7 +109,9 @@ def run(
     else:
         from geartrain.report.motion_report import separation_rates
 
-        of = train.name, state, partial(separation_rates, train, state, without or ())
+        # speeds of separation are known for perfect teeth only
+        separation = (lambda: None) if measured else partial(separation_rates, train, state, without or ())
+        of = train.name, state, separation
         _report(requested, json, (to, cut), of, phases, seed, spectrum, bool(wide or outputs))
     if plot is not None:
         from geartrain.drawing.output_error_plots import motion_figure

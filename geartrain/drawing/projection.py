@@ -268,7 +268,7 @@ def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 def broken_wheels(scene: Scene) -> set[str]:
-    """Return the wheels of broken pairs, whose loop does not close or whose teeth cannot run, by name."""
+    """Return the names of the wheels of broken pairs, whose loop does not close or whose teeth cannot run."""
     return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}
 
 

@@ -43,7 +43,7 @@ def picture(
     labels : bool
         True to add names and numbers.
     outputs : sequence of str
-        Outputs whose dials are drawn; by default all. Used by "dials".
+        Outputs whose dials are drawn; by default all outputs. Used by "dials".
 
     Returns
     -------

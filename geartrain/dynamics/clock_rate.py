@@ -81,6 +81,8 @@ class Timekeeping(Result):
     """Power at this link [W]."""
     efficiency: float
     """Fraction of the power that reaches the escape wheel; 0 if friction stops the train."""
+    lost_in_bearings: float
+    """Fraction of the power that is lost in bearings."""
     beat_energy: float
     """Energy of the escape wheel per beat [J]."""
     amplitude: float | None
@@ -118,7 +120,7 @@ def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
     found = None if escapement is None else escapement_torques(setting)
     if escapement is None or found is None:
         return None
-    source, torque, at_escape, lossless = found
+    source, torque, at_escape, lossless, lost = found
     own = setting.relative(escapement.link, setting.reacts_on(escapement.link))
     if not own or not setting.speeds.get(source):
         return None
@@ -146,6 +148,7 @@ def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
         torque / size,
         torque * speed,
         efficiency,
+        lost,
         beat_energy,
         amplitude,
         None if minimum is None else minimum / size,

@@ -84,7 +84,7 @@ class TrainMechanics(Shown):
 
     @property
     def planets_as_one(self) -> TrainMechanics:
-        """Train in which one planet has the inertia and stiffness of all its copies; self if there are no copies."""
+        """Train in which one planet has the inertia and stiffness of all its copies; self if it has only one copy."""
         return self._as_one if has_copies(self.declaration) else self
 
     @cached_property

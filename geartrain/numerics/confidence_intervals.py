@@ -57,7 +57,7 @@ class ProbabilityEstimate(Result):
 
 
 def wilson(count: float, of: float) -> tuple[float, float]:
-    """Return Wilson's 95 % score interval for `count` successes in `of` trials; (0, 1) if there are no trials.
+    """Return Wilson's 95 % score interval for `count` successes in `of` trials; (0, 1) without trials.
 
     For weighted trials `count` and `of` are effective numbers, which need not be integers.
     """

@@ -129,9 +129,9 @@ SPELT = {
 }
 
 
-def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
-    """Return a validation error for a declaration, with its fix."""
-    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
+def bad(kind: str, what: str, fix: str, why: str = "") -> PydanticCustomError:
+    """Return a validation error for a declaration, with its cause and its fix."""
+    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix, "why": why})
 
 
 def scale(unit: str) -> tuple[str, Fraction]:

@@ -42,6 +42,8 @@ def _rows(found: Timekeeping) -> Iterator[tuple[str, str]]:
     yield f"{kind} at {found.source}", _torque(found, found.torque)
     yield f"power at {found.source}", f"{1e6 * found.power:.6g} uW"
     yield "efficiency up to the escape wheel", f"{found.efficiency:.6f}"
+    if found.lost_in_bearings:
+        yield "lost in pivots", f"{100 * found.lost_in_bearings:.4g} %"
     yield "energy per beat", f"{1e6 * found.beat_energy:.6g} uJ"
     if found.amplitude is not None:
         yield "amplitude of the pendulum", f"{degrees(found.amplitude):.5g} deg"

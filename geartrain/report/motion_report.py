@@ -363,6 +363,8 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             "declared sense, with the fastest of the links that drive it through one-way clutches; otherwise friction "
             f"holds it. Not computed: the position of {', '.join(sorted(run.motion._problem.behind))} within a step."
         )
+    if measured := [source.id for source in run.motion._forward.used if source.transmission.measured]:
+        yield f"{', '.join(measured)}: teeth as measured, without random errors."
     if run.reversing_drivers:
         composition = run.motion._composition(run.turns)
         names = ", ".join(source.id for source in composition.used if source.id in run.reversing_drivers)

@@ -244,6 +244,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
         slips = ", ".join(f"{name} at {figure(slip, 6)}" for name, slip in found.overrunning.items())
         lines.append(f"One-way clutches that overrun, without torque and loss: {slips}.")
     tables = [_links(found, amounts), *_held(found, amounts), _pairs(found, amounts)]
+    tables += _bearings(found, amounts)
     if figures.belt_pulls:
         rows = [(name, f"{pull:.6g}") for name, pull in figures.belt_pulls.items()]
         tables.append(Table(("belt", "pull, tight side minus slack side (N)"), rows))
@@ -324,6 +325,14 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
         for pair in found.pairs.values()
     ]
     return Table(("pair", "driver", "torque on first", "on second", "on carrier", "power", "loss"), rows)
+
+
+def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
+    """Yield a table of the bearings whose friction depends on their load."""
+    loaded = [each for each in found.bearings if each.load is not None]
+    rows = [(each.link, each.carrier, figure(each.load, 6), amounts.plain(abs(each.torque), False)) for each in loaded]
+    if rows:
+        yield Table(("bearing of", "in", "load (N), from declared axes", "friction torque"), rows)
 
 
 # ------------------------------------------------------------------------------------------------------ flow and losses

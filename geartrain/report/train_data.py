@@ -140,7 +140,7 @@ class TrainReport(TrainAnswers):
     computed.
     """
     errata: tuple[Erratum, ...]
-    """Errors in the published sources, as declared."""
+    """Declared errors in the published sources."""
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:

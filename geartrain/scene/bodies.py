@@ -229,7 +229,7 @@ def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
 
 
 def find_bodies(stage: SceneContext) -> tuple[SceneBody, ...]:
-    """Return the bodies of all links, in the order declared."""
+    """Return the bodies of all links, in the order of declaration."""
     return tuple(_body(stage, link) for link in stage.train.declaration.links)
 
 
@@ -327,7 +327,7 @@ def _mates(stage: SceneContext, name: str) -> Iterator[str]:
 def find_wheels(
     stage: SceneContext, profiles: Mapping[str, ToothProfile], turns: Mapping[str, float]
 ) -> tuple[tuple[SceneWheel, ...], tuple[ToothProfile, ...]]:
-    """Return all wheels in the order declared, and the tooth profiles to which the wheels refer.
+    """Return all wheels in the order of declaration, and the tooth profiles to which the wheels refer.
 
     profiles   tooth profile by wheel
     turns      angle [rad] of the first tooth of each wheel about the direction of its body

@@ -94,7 +94,7 @@ def beside_axis(axis: Vector) -> Vector:
 
 
 def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[SceneHanger, ...]]:
-    """Return the shapes of all couplings other than pins, in the order declared, and their rods and ropes."""
+    """Return the shapes of all couplings other than pins, in the order of declaration, and their rods and ropes."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     found: list[ScenePart] = []
     rods: list[SceneHanger] = []

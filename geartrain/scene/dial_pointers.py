@@ -342,8 +342,8 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """Return a pointer for every output of the state, in the order declared, with the hands on one dial stacked in that
-    order.
+    """Return a pointer for every output of the state, in the order of declaration, with the hands on one dial stacked
+    in that order.
     """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found, spheres = [], 0

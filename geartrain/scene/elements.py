@@ -116,7 +116,7 @@ class SceneBody(Shown):
     bookkeeping: bool = False
     """True if the speed is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
     note: str = ""
-    """Note on the link, as declared."""
+    """Declared note on the link."""
     travels: bool = False
     """True if the link slides along its axis, by 1 mm for each turn of its angle."""
     base: int | None = None
@@ -191,9 +191,9 @@ class SceneWheel(Shown):
     status: str
     """Status of the wheel: surviving, reconstructed or hypothetical; empty if no status is declared."""
     source: str
-    """Source of the data on the wheel, or of its uncertainty, as declared; empty if none is declared."""
+    """Declared source of the data on the wheel, or of its uncertainty; empty if none is declared."""
     note: str
-    """Note on the wheel, or on its uncertainty, as declared; empty if none is declared."""
+    """Declared note on the wheel, or on its uncertainty; empty if none is declared."""
     doubt: str
     """Tooth counts that the evidence allows for the wheel, as a string; empty if the count is certain."""
     circuits: Sequence[str]

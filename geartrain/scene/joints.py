@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """Return all gear pairs in the order declared; `faults` maps the name of a pair to a description of its fault."""
+    """Return all gear pairs in the order of declaration; `faults` maps names of pairs to descriptions of faults."""
     forms = {mesh.name: mesh.form for mesh in stage.meshes}
     return tuple(
         ScenePair(
@@ -91,7 +91,7 @@ def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
 
 
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
-    """Return the brakes and clutches in the order declared, each engaged or open in one state."""
+    """Return the brakes and clutches in the order of declaration, each engaged or open in one state."""
     declared = stage.train.declaration
     case = stage.train.kinematics.cases[state]
     actions = {each.name: each for each in case.one_way}
@@ -116,7 +116,7 @@ _NONE = 1e-9  # mm: smaller distances are rounding errors
 
 
 def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoupling, ...]:
-    """Return all couplings by pins in the order declared."""
+    """Return all couplings by pins in the order of declaration."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     drawn = (each for each in stage.train.declaration.pin_couplings if not isinstance(each, Parallel))
     return tuple(_coupling(stage, moved, circuits[each.name], each) for each in drawn)

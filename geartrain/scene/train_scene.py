@@ -63,7 +63,7 @@ class DialFace(Shown):
     centre.
     """
     note: str = ""
-    """Note on the dial, as declared."""
+    """Declared note on the dial."""
     plate: float = 0.0
     """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if the scene has no such disc."""
     placed: bool = False
@@ -118,9 +118,9 @@ class SceneEpoch(Shown):
     calendar: str | None
     """Calendar in which dates are displayed; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str
-    """Source of the date, as declared."""
+    """Declared source of the date."""
     note: str
-    """Note on the date, as declared."""
+    """Declared note on the date."""
     settings: Sequence[SceneSetting] = ()
     """Pointers that are set at that date. Each pointer is listed after the pointer that sets its base."""
     unset: Sequence[str] = ()
@@ -140,7 +140,7 @@ class TourStop(Shown):
     name: str
     """Name of the part."""
     text: str
-    """Text about the part, as declared."""
+    """Declared text about the part."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,9 +173,9 @@ class Pointer(Shown):
     wheels: Sequence[int]
     """Indices of the wheels on the path from the input to the output."""
     note: str = ""
-    """Note on the output, as declared."""
+    """Declared note on the output."""
     targets: Sequence[PointerTarget] = ()
-    """Targets of the output, in the order declared; empty if nothing is driven, or the speed is not determined."""
+    """Targets of the output in the order of declaration; empty if nothing is driven or the speed is not determined."""
     level: float = 0.0
     """Height of the middle of the hand above the dial [mm]."""
     seat: float = 0.0
@@ -185,7 +185,7 @@ class Pointer(Shown):
     outline: Sequence[tuple[float, float]] = ()
     """Outline relative to the hand's length: distances from the axis and half widths; empty without a dial."""
     hand: str = "needle"
-    """Shape of the hand, as declared."""
+    """Declared shape of the hand."""
     ball: float = 0.0
     """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 without a sphere."""
 
@@ -204,13 +204,13 @@ class Scene(Shown):
     title: str
     """Title of the train."""
     note: str
-    """Note on the train, as declared; empty if none is declared."""
+    """Declared note on the train; empty if none is declared."""
     state: str | None
     """State of the train; None if it has no states."""
     unit: str
     """Unit of the speeds that are shown for bodies and pointers."""
     positive: str
-    """Sense of rotation of a positive speed, as declared."""
+    """Declared sense of rotation of a positive speed."""
     front: int
     """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
     driving_link: int | None
@@ -232,19 +232,19 @@ class Scene(Shown):
     remedy.
     """
     bodies: Sequence[SceneBody]
-    """Links, in the order declared, which is the order of their indices."""
+    """Links, in the order of declaration, which is the order of their indices."""
     wheels: Sequence[SceneWheel]
-    """Wheels, in the order declared, which is the order of their indices."""
+    """Wheels, in the order of declaration, which is the order of their indices."""
     profiles: Sequence[ToothProfile]
     """Distinct tooth profiles, to which the wheels refer by index."""
     pairs: Sequence[ScenePair]
-    """Gear pairs, in the order declared."""
+    """Gear pairs, in the order of declaration."""
     couplings: Sequence[SceneCoupling]
-    """Pins in slots and in round holes, in the order declared."""
+    """Pins in slots and in round holes, in the order of declaration."""
     dials: Sequence[DialFace]
     """Dials of the scene, with their scales."""
     pointers: Sequence[Pointer]
-    """Pointers of the outputs; of the first 100 links if no output is declared."""
+    """Pointers of the outputs, or of the first 100 links if no output is declared."""
     movement: Movement
     """Deviations of the bodies' angles from uniform motion, for positive turns of the driving link."""
     sources: Mapping[str, Mapping[str, str]]
@@ -256,12 +256,12 @@ class Scene(Shown):
     unit_days: str | None = None
     """Length of the unit in days, exact, if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
-    """Brakes and clutches, each engaged or open in this state, in the order declared."""
+    """Brakes and clutches, each engaged or open in this state, in the order of declaration."""
     epoch: SceneEpoch | None = None
     """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
     """
     tour: Sequence[TourStop] = ()
-    """Tour of the train, as declared."""
+    """Declared tour of the train."""
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
     asks: bool = True

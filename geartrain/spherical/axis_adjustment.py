@@ -137,7 +137,7 @@ def equalise_pitch(
     Minimum-norm steps keep all symmetries of the set. The residual after each step is the maximum magnitude of the
     logarithm of a pitch divided by the mean pitch [1].
 
-    movable   gears whose axes may move; default all
+    movable   gears whose axes may move; by default all gears
     """
     from scipy.sparse import csr_array, diags_array, hstack
 

@@ -463,8 +463,8 @@ class SurveyRow(Result):
     positions: int
     """Number of free parameters of the axes if the set keeps all symmetries of the solid."""
     angles: tuple[float, ...]
-    """Distinct angles between the axes of meshing gears [deg], ascending. Angles that differ by less than 1e-9 deg are
-    equal.
+    """Distinct angles between the axes of meshing gears [deg], in ascending order. Angles that differ by less than 1e-9
+    deg are equal.
     """
 
     @property

@@ -199,8 +199,8 @@ class ToothCountCompromise(Shown):
 
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
-    """Result of a search for tooth numbers: a sequence of `ToothCountCompromise`, best first, with the numbers of
-    rejected sets.
+    """Result of a search for tooth numbers: a sequence of `ToothCountCompromise` in the requested order, with the
+    numbers of rejected sets.
     """
 
     PAGE = "report.spherical_report:describe_suggestions"
@@ -228,7 +228,7 @@ class ToothCountSuggestions(Result):
     meshes: tuple[MeshKind, ...]
     """Kinds of mesh that occur in the set of gears."""
     found: tuple[ToothCountCompromise, ...]
-    """Sets of tooth numbers, best first."""
+    """Sets of tooth numbers in the requested order."""
     considered: int
     """Number of sets of tooth numbers within the bounds."""
     removed: Mapping[str, int]

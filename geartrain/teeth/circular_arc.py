@@ -240,7 +240,7 @@ class CircularArc(ToothForm):
         driver : {1, 2}
             Number of the driving wheel.
         direction : {1, -1}
-            Direction of rotation; with -1 the coast flanks drive.
+            Direction of rotation; with -1 the coast flanks are in contact.
         module : float, optional
             Module [m], required for lengths that are declared with a unit.
 

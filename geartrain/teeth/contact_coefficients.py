@@ -56,6 +56,31 @@ class CoulombFriction(NumberOrKeys):
         description="Standard deviation of the normal distribution of `sliding` in Monte Carlo runs; `static` keeps "
         "its ratio to `sliding`; default 0",
     )
+    range: tuple[Friction, Friction] | None = Field(
+        None,
+        description="Minimum and maximum of the uniform distribution of `sliding` in Monte Carlo runs, instead of "
+        "`deviation`",
+    )
+
+    @model_validator(mode="after")
+    def _check_range(self) -> CoulombFriction:
+        if self.range is None:
+            return self
+        low, high = self.range
+        if self.deviation is not None:
+            fix = "omit `deviation` for a uniform, or `range` for a normal distribution"
+            raise bad("friction", "`range` and `deviation` are both given", fix)
+        if not low.value <= self.sliding.value <= high.value:
+            what = f"the coefficient of friction {self.sliding.text} is outside its range {low.text} to {high.text}"
+            raise bad("friction", what, "give the minimum first, and a `sliding` between both")
+        return self
+
+    @property
+    def is_random(self) -> bool:
+        """True if the coefficient has a distribution of nonzero width."""
+        if self.range is not None:
+            return self.range[0].value < self.range[1].value
+        return self.deviation is not None and bool(self.deviation.value)
 
     @model_validator(mode="after")
     def _check_static(self) -> CoulombFriction:

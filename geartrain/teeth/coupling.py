@@ -82,7 +82,7 @@ class CouplingRow(NamedTuple):
     wheels: tuple[str, str] | None = None
     """Wheels of links i and j if a and b are their tooth counts, apart from the sign; else None."""
     carrier: str | None = None
-    """Link k as declared; None for the transfer vertex of links i and j."""
+    """Declared link k; None for the transfer vertex of links i and j."""
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:

@@ -64,7 +64,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def gear(self) -> DeclaredPair:
-        """Gear pair as declared."""
+        """Declared gear pair."""
         return self.wheels.gear
 
     @property

@@ -104,7 +104,7 @@ class GivenTransmission(DeviationTransmission, ToothTransmission):
     driver : {1, 2}
         Number of the driving wheel.
     direction : {1, -1}
-        Direction of rotation. With -1 the coast flanks drive.
+        Direction of rotation. With -1 the coast flanks are in contact.
     """
 
     def __init__(

@@ -69,7 +69,7 @@ class MeshingWheels:
     """Two wheels of a gear pair as a train declares them, from which a tooth form makes a mesh."""
 
     gear: DeclaredPair
-    """Gear pair as declared."""
+    """Declared gear pair."""
     place: str
     """Location of the pair's declaration in its file."""
     counts: tuple[int, int]

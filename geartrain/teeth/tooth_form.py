@@ -49,7 +49,7 @@ TwoAngles = Annotated[tuple[Angle, Angle], BeforeValidator(twice), _schema("angl
 
 
 class ToothForm(BaseModel, ABC):
-    """Tooth form of a gear pair as declared. Its method `mesh` returns the mesh of two wheels.
+    """Declared tooth form of a gear pair. Its method `mesh` returns the mesh of two wheels.
 
     See Also
     --------

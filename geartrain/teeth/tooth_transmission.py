@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 class ToothTransmission(TransmissionFunction):
     """Transmission function of a pair of toothed wheels with either wheel driving, forwards or backwards.
 
-    If the driver turns backwards, the coast flanks drive. Angles keep their sign convention, so they decrease.
+    If the driver turns backwards, the coast flanks are in contact. Angles keep their sign convention, so they decrease.
     """
 
     driver: int

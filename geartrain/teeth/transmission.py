@@ -150,6 +150,8 @@ class TransmissionFunction(Shown, ABC):
     """Fraction of the period during which the driven side is at rest; 1 if it moves in instantaneous steps."""
     at_once: bool = False
     """True if the driven side moves in instantaneous steps, so that the transmission error is discontinuous."""
+    measured: bool = False
+    """True for wheels with measured teeth."""
 
     @property
     def pitch(self) -> float:

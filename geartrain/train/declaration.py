@@ -49,6 +49,7 @@ from geartrain.train.fields import (
 from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
 from geartrain.train.mechanism import (
     Axis,
+    Direction,
     GearPair,
     Joint,
     Link,
@@ -187,6 +188,11 @@ class Train(Declared):
         {},
         validate_default=True,
         description="Directions and positions of axes, by label; default all axes are parallel",
+    )
+    gravity: Direction | None = Field(
+        None,
+        description="Direction in which weights pull, for the load of bearings: [0, -1, 0] is down for axes along z; "
+        "default without weights",
     )
     revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
     slides: Slides = Field((), description="Sliding pairs of the links, which form one tree with the turning pairs")
@@ -366,7 +372,7 @@ class Train(Declared):
 
     @property
     def pin_couplings(self) -> tuple[PinCoupling, ...]:
-        """Couplings by a pin or pins, in the order declared; also links kept parallel by any device."""
+        """Couplings by a pin or pins, in the order of declaration; also links kept parallel by any device."""
         if not self.couplings:
             return ()
         from geartrain.teeth.couplings.pins import PinCoupling
@@ -556,7 +562,11 @@ class Train(Declared):
         state : str or None
             A declared state; None for a train without states.
         """
-        return bool(self.loads_in(state)) or self.has_jumpers or any(link.bearing for link in self.links.values())
+        return (
+            bool(self.loads_in(state))
+            or self.has_jumpers
+            or any(link.bearing is not None and link.bearing.sliding.value for link in self.links.values())
+        )
 
     def _speed(self, speed: Quantity) -> Fraction:
         """Convert a prescribed speed to the train's unit."""

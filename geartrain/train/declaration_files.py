@@ -140,9 +140,21 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
 
 def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> Train:
     node = _with_parents(root, folder, chain)
+    _complete_table_paths(node)
     data = node.plain()
     data.setdefault("name", stem)
     return declare(data, node.place_of)
+
+
+def _complete_table_paths(node: YamlNode) -> None:
+    """Make the paths of tables of measured wheels absolute; each is relative to the file in which it was written."""
+    none = YamlNode({}, "")
+    wheels = [part.mapping.get("wheels", none).mapping for part in node.mapping.get("links", none).mapping.values()]
+    for wheel in (wheel for each in wheels for wheel in each.values()):
+        measured = wheel.mapping.get("cutting", none).mapping.get("measured", none).mapping
+        if (table := measured.get("csv")) is not None:
+            folder = Path(table.place.rpartition(":")[0]).parent
+            table.value = str(folder.absolute() / table.text)
 
 
 def files_of(path: Path) -> tuple[Path, ...]:

@@ -12,7 +12,9 @@ import csv
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from typing import Annotated, ClassVar
+from math import atan2, cos, pi, remainder, sin
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -26,7 +28,9 @@ from geartrain.numerics.quantity import (
     Pressure,
     Quantity,
     above_zero,
+    bad,
     checked,
+    not_below_zero,
 )
 from geartrain.train.fields import Declared, exactly_one, short_for
 
@@ -76,7 +80,9 @@ class Material(Declared):
         None, description="Density; the `density` of a wheel takes precedence"
     )
     spread: Annotated[Figure, _SPREAD] = Field(
-        Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
+        Figure.parse("0.3"),
+        description="Relative uncertainty of the strength to either side, 0 to less than 1; in Monte Carlo runs "
+        "`strength` is the median of a lognormal distribution, and `spread` the standard deviation of its logarithm",
     )
     what: str = Field("", description="Description of the material")
     source: str = Field("", description="Source of the values")
@@ -114,6 +120,9 @@ def material_table() -> Mapping[str, Material]:
     rows = csv.DictReader(text.splitlines())
     return {row.pop("name"): Material.model_validate(row) for row in rows}
 
+
+FEWEST_ANGLES = 4
+"""Minimum number of measured teeth: their mean and two components of the eccentricity leave one degree of freedom."""
 
 AngleOff = Annotated[Quantity, Dimension("angle or fraction", plain=True)]
 LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
@@ -163,7 +172,10 @@ class LengthError(_DeclaredError):
 
 
 class MeasuredTeeth(Declared):
-    """Errors measured on a real wheel, one value for each tooth in the order of rotation."""
+    """Measurements of the teeth of a real wheel, one value for each tooth in the order of rotation.
+
+    The teeth are described by their pitch deviations, or by `angles` seen from the axis of rotation.
+    """
 
     pitch_deviation: tuple[AngleOff, ...] | None = Field(
         None,
@@ -176,12 +188,91 @@ class MeasuredTeeth(Declared):
     aperture_deviation: tuple[AngleOff, ...] | None = Field(
         None, fail_fast=True, description="Deviation of the aperture angle of each tooth; positive if it is too wide"
     )
+    angles: tuple[Angle | None, ...] | None = Field(
+        None,
+        fail_fast=True,
+        description="Direction of each tooth seen from the axis of rotation, increasing from each tooth to the next; "
+        "null for a missing tooth",
+    )
+    csv: str | None = Field(
+        None,
+        description="CSV file with the angles, one row for each tooth and an empty cell for a missing tooth; relative "
+        "to the file of the declaration. A number without a unit is in degrees",
+    )
+    column: str = Field("angle", description="Header of the column of `csv` that contains the angles")
+    missing: Annotated[int, Field(ge=0)] = Field(
+        0, description="Number of missing teeth after the last one in `angles`"
+    )
+    error: Annotated[Angle, not_below_zero("give 0 or more, such as 0.05 deg")] | None = Field(
+        None, description="Standard deviation of the measurement error of an angle; default 0"
+    )
+    use: Literal["table", "eccentric", "law"] = Field(
+        "table",
+        description="Use of `angles`: as pitch deviations of this wheel (table); as a fitted eccentricity and the "
+        "remaining pitch deviations of this wheel (eccentric); or as the distribution from which other wheels of the "
+        "same maker are drawn (law)",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_angles_of_file(cls, raw: Any) -> Any:
+        if not isinstance(raw, dict) or raw.get("csv") is None:
+            return raw
+        if raw.get("angles") is not None:
+            what, why = "the angles are declared twice", "both `angles` and `csv` are given"
+            raise bad("measured", what, "remove one of them", why)
+        rest = {key: value for key, value in raw.items() if key not in ("csv", "column")}
+        return {**rest, "angles": _read_angles(Path(str(raw["csv"])), str(raw.get("column", "angle")))}
+
+    @model_validator(mode="after")
+    def _describes_pitches_once(self) -> MeasuredTeeth:
+        if self.angles is not None and (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
+            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
+            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
+        if self.angles is not None and self.pitch_deviation is not None:
+            what, why = "the pitches are declared twice", "both `pitch_deviation` and angles are given"
+            raise bad("measured", what, "remove one of them", why)
+        return self
+
+    def deviations(self, count: int) -> dict[int, float]:
+        """Return the measured angles minus those of an even division [rad], with circular mean 0, by tooth index.
+
+        They are positive for a tooth that is behind its nominal position.
+        """
+        given = {at: each.si - 2 * pi * at / count for at, each in enumerate(self.angles or ()) if each is not None}
+        mean = atan2(sum(map(sin, given.values())), sum(map(cos, given.values())))
+        return {at: remainder(each - mean, 2 * pi) for at, each in given.items()}
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:
         """Measured values by name, without the quantities that were not measured."""
         names = ("pitch_deviation", "tip", "aperture_deviation")
         return {name: column for name in names if (column := getattr(self, name)) is not None}
+
+
+def _read_angles(path: Path, column: str) -> list[str | None]:
+    """Read the angles of teeth from a column of a CSV file with a header; lines that begin with # are comments.
+
+    An empty cell is returned as None, and a number without a unit in degrees. Raises `PydanticCustomError`.
+    """
+    try:
+        if not path.is_file():
+            raise OSError("it is not a file")
+        text = path.read_text(encoding="utf-8-sig")
+        rows = list(csv.reader(line for line in text.splitlines() if not line.startswith("#")))
+    except (OSError, ValueError, csv.Error) as error:
+        fix = "give the path of a CSV file, relative to the file of the declaration"
+        raise bad("csv", f"the table '{path}' cannot be read", fix, str(error)) from None
+    header = [cell.strip() for cell in rows[0]] if rows else []
+    if column not in header:
+        what, why = f"the table '{path}' has no column '{column}'", f"its first row is '{','.join(header)}'"
+        raise bad("csv", what, f"name one of its columns, such as `column: {(header or ['angle'])[0]}`", why)
+    while not rows[-1]:
+        rows.pop()
+    at = header.index(column)
+    # a blank line is a missing tooth, because a table of one column has no other way to write an empty cell
+    cells = [row[at].strip() if at < len(row) else "" for row in rows[1:]]
+    return [(f"{cell} deg" if cell[-1] in "0123456789." else cell) if cell else None for cell in cells]
 
 
 class WheelManufacture(Declared):
@@ -191,6 +282,11 @@ class WheelManufacture(Declared):
         None,
         description="Pitch deviation of each tooth from its nominal position about the axis; positive in the direction "
         "of rotation",
+    )
+    stepping: Annotated[AngleError, short_for("normal")] | None = Field(
+        None,
+        description="Error of each step of dividers that set off each tooth from the previous one, normal or uniform; "
+        "the errors of the steps add up, and the gap left by the last step is divided evenly",
     )
     eccentricity: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Distance of the axis of rotation from the centre of the teeth"
@@ -207,6 +303,21 @@ class WheelManufacture(Declared):
     measured: MeasuredTeeth | None = Field(None, description="Deviations measured on a real wheel, tooth by tooth")
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
+
+    @model_validator(mode="after")
+    def _is_consistent(self) -> WheelManufacture:
+        if self.stepping is not None and self.stepping.value is not None:
+            what, why = (
+                "`stepping` is a fixed error",
+                "the even division of the gap removes an error that all steps share",
+            )
+            fix = f"give a standard deviation, such as `stepping: {{normal: {self.stepping.value}}}`"
+            raise bad("stepping", what, fix, why)
+        doubled = [key for key in ("pitch_deviation", "stepping", "eccentricity") if getattr(self, key) is not None]
+        if doubled and self.measured is not None and self.measured.angles is not None:
+            what, why = f"`{doubled[0]}` is counted twice", "the measured angles contain it already"
+            raise bad("measured", what, f"remove `{doubled[0]}`, or remove `measured`", why)
+        return self
 
 
 class Filing(Declared):

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
-from math import cos
+from math import cos, hypot
 from types import MappingProxyType
 from typing import Annotated, ClassVar, Literal
 
@@ -86,19 +86,41 @@ FrictionTorque = Annotated[
 
 
 class BearingFriction(Declared):
-    """Friction torque of a bearing, independent of load and speed. In a declaration, a single torque instead of a
-    mapping sets `sliding`.
+    """Friction of a bearing: a torque that does not depend on the load, and a part that is proportional to the load. In
+    a declaration, a single torque instead of a mapping sets `sliding`.
     """
 
     SHORT: ClassVar = {"type": ["string", "number"], "format": "torque"}
 
-    sliding: FrictionTorque = Field(description="Sliding friction torque, opposed to the rotation")
+    sliding: FrictionTorque = Field(
+        Quantity.parse(0, "torque", plain=True),
+        description="Sliding friction torque that does not depend on the load, opposed to the rotation; default 0",
+    )
     static: FrictionTorque | None = Field(
         None, description="Static friction torque that must be exceeded to start; at least `sliding`, default `sliding`"
+    )
+    coefficient: Annotated[Figure, not_below_zero("give a coefficient of friction such as 0.15")] | None = Field(
+        None,
+        description="Coefficient of friction of the bearing; its friction torque grows with the forces of the gear "
+        "pairs, whose `axes` need positions; default none",
+    )
+    radius: Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")] | None = Field(
+        None, description="Radius of the pivot in the bearing, for `coefficient`; default half the `pivot` of the arbor"
+    )
+    at: tuple[MeasuredLength, MeasuredLength] | None = Field(
+        None,
+        description="Positions of two bearings along the axis, as `along` of the wheels; default one bearing in the "
+        "plane of all forces",
     )
 
     @model_validator(mode="after")
     def _check_static(self) -> BearingFriction:
+        if self.at is not None and self.at[0].si == self.at[1].si:
+            raise bad(
+                "bearing", "two bearings have the same position", "give two positions, such as `at: [0 mm, 40 mm]`"
+            )
+        if not self.model_fields_set & {"sliding", "coefficient"}:
+            raise bad("bearing", "the friction is missing", "give `sliding`, a torque, or `coefficient` and `radius`")
         if self.static is None:
             return self
         # a torque of 0 needs no unit
@@ -367,6 +389,9 @@ class Wheel(Declared):
     face_width: FaceWidth | None = Field(
         None, description="Face width (width of the teeth along the axis); default from the train, or the thickness"
     )
+    along: MeasuredLength | None = Field(
+        None, description="Position of the middle of the teeth along the axis, for bearings with `at`; default 0"
+    )
     material: Id | None = Field(
         None,
         description="Name of the material, in the table (docs/strength.md) or in `materials`; default from the train",
@@ -458,12 +483,13 @@ class Link(Declared):
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
         None,
-        description="Mass of a link that slides or is on a moving carrier; default computed "
-        "from its wheels, as for `inertia`",
+        description="Mass of a link that slides, is on a moving carrier, or presses on its bearing by `gravity`; "
+        "default computed from its wheels, as for `inertia`, and 0 for `gravity`",
     )
     bearing: DeclaredBearing | None = Field(
         None,
-        description="Friction torque of the link's bearing, opposed to rotation, or `{sliding, static}`; default none",
+        description="Friction torque of the link's bearing, opposed to rotation, or `{sliding, static}`, or "
+        "the friction of a loaded pivot, `{coefficient, radius}`; default none",
     )
     drag: (
         Annotated[TorsionalDamping, not_below_zero("give its magnitude: drag is always opposed to the rotation")] | None
@@ -474,11 +500,47 @@ class Link(Declared):
     angle: Angle | None = Field(None, description="Angle at the start; default follows from the meshes")
     note: str | None = Field(None, description="Remark for readers")
 
+    @property
+    def friction_radius(self) -> float:
+        """Radius of the friction circle of the link's bearing [m]: mu/sqrt(1 + mu^2) times the radius of the pivot; 0
+        if its friction does not depend on the load.
+        """
+        if self.bearing is None or not self.bearing.coefficient or not self.bearing.coefficient.value:
+            return 0.0
+        mu, radius = float(self.bearing.coefficient.value), self.bearing.radius
+        pivot = None if self.arbor is None else self.arbor.pivot or self.arbor.diameter
+        return mu / hypot(1.0, mu) * (radius.si if radius is not None else pivot.si / 2 if pivot is not None else 0.0)
+
+    @model_validator(mode="after")
+    def _check_pivot(self) -> Link:
+        rubs = self.bearing is not None and self.bearing.coefficient is not None
+        if rubs and self.bearing is not None and self.bearing.radius is None and self.arbor is None:
+            fix = "give `radius`, such as `bearing: {coefficient: 0.15, radius: 1.5 mm}`, or the `arbor`"
+            raise bad("bearing", "the coefficient of friction of the bearing has no radius", fix)
+        return self
+
+
+def _not_zero(direction: tuple[Figure, Figure, Figure]) -> tuple[Figure, Figure, Figure]:
+    if not any(figure.value for figure in direction):
+        raise bad("axis", "the direction is the zero vector", "give a direction such as [0, 0, 1]")
+    return direction
+
+
+Direction = Annotated[tuple[Figure, Figure, Figure], AfterValidator(_not_zero)]
+"""Direction vector of any length above 0."""
+
+
+def unit_vector(direction: Direction) -> Vector:
+    """Return a declared direction as a unit vector."""
+    top = max(abs(part.value) for part in direction)  # scaled first, because a huge number would overflow as a float
+    x, y, z = (float(part.value / top) for part in direction)
+    return unit((x, y, z))
+
 
 class Axis(Declared):
     """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0."""
 
-    direction: tuple[Figure, Figure, Figure] = Field(
+    direction: Direction = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
         description="Direction vector about which speeds are positive; default [0, 0, 1]",
     )
@@ -490,11 +552,7 @@ class Axis(Declared):
     @property
     def way(self) -> Vector:
         """Unit vector of the direction of the axis."""
-        top = max(
-            abs(part.value) for part in self.direction
-        )  # scaled first, because a huge number would overflow as a float
-        x, y, z = (float(part.value / top) for part in self.direction)
-        return unit((x, y, z))
+        return unit_vector(self.direction)
 
     @property
     def point(self) -> Vector | None:
@@ -503,14 +561,6 @@ class Axis(Declared):
             return None
         x, y, z = (float(millimetres(part)) for part in self.position)
         return x, y, z
-
-    @model_validator(mode="after")
-    def _check_direction(self) -> Axis:
-        if not any(figure.value for figure in self.direction):
-            raise PydanticCustomError(
-                "axis", "the direction is the zero vector", {"fix": "give a direction such as [0, 0, 1]"}
-            )
-        return self
 
 
 class Joint(Declared):

@@ -127,7 +127,7 @@ class Period:
     source: str
     """Source of the value."""
     confidence: str
-    """Confidence in the value."""
+    """Confidence in the value: "high" or "medium"."""
 
 
 @cache

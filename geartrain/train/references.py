@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from itertools import combinations
-from math import hypot
+from itertools import combinations, pairwise
+from math import hypot, pi
 from typing import Any
 
 from geartrain.errors import Loc, Problem, dotted, suggest
@@ -337,21 +337,40 @@ def _materials(train: Train) -> Iterator[Problem]:
 
 
 def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
-    """Yield a problem for each table of measured values whose length differs from the tooth count."""
+    """Yield a problem for each table of measured values whose length differs from the tooth count, and for angles that
+    do not increase from tooth to tooth.
+    """
     count, cutting = train.links[link].wheels[wheel].count, train.links[link].wheels[wheel].cutting
     if cutting is None or cutting.measured is None or count is None:
         return
-    for name, column in cutting.measured.columns.items():
-        if len(column) != count:
+    measured, loc = cutting.measured, ("links", link, "wheels", wheel, "cutting", "measured")
+    lengths = {name: len(column) for name, column in measured.columns.items()}
+    if measured.angles is not None:
+        lengths["angles"] = len(measured.angles) + measured.missing
+    for name, length in lengths.items():
+        if length != count:
             yield Problem(
-                f"'{name}' has {len(column)} measured values, but wheel '{wheel}' has {count} teeth",
+                f"'{name}' has {length} measured values, but wheel '{wheel}' has {count} teeth",
                 "a table has one value for each tooth, in the order of rotation",
-                "complete the table, or correct the tooth count",
-                train.place("links", link, "wheels", wheel, "cutting", "measured", name),
+                "complete the table, or correct the tooth count"
+                + (", or give the number of `missing` teeth after the last angle" if name == "angles" else ""),
+                train.place(*loc, name),
             )
+            return
+    off = measured.deviations(count)
+    for (one, before), (two, after) in pairwise(off.items()):
+        if not abs(after - before) < (two - one) * 2 * pi / count:
+            what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' does not follow that of tooth {one + 1}"
+            why = f"angles increase from tooth to tooth, by about {360 / count:.5g} deg"
+            fix = "list the teeth in the order of rotation, and measure angles against the direction of rotation"
+            yield Problem(what, why, fix, train.place(*loc, "angles"))
+            return
 
 
 def _wheels(train: Train) -> Iterator[Problem]:
+    if train.cutting is not None and train.cutting.measured is not None:
+        what, why = "`measured` is declared for all wheels", "a table has one value for each tooth of one wheel"
+        yield Problem(what, why, "move it to the `cutting` of its wheel", train.place("cutting", "measured"))
     owner: dict[str, str] = {}
     for link, part in train.links.items():
         for wheel in part.wheels:

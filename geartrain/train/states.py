@@ -142,9 +142,18 @@ class SpringDrive(Declared):
 
 
 class HandDrive(Declared):
-    """Hand at the crank: a torque or a speed through a torsional stiffness, and the inertia of arm and crank."""
+    """Hand at the crank: a torque or a speed through a torsional stiffness, and the inertia of arm and crank.
+
+    In Monte Carlo trials of feasibility, the torque is the maximum that the hand can exert.
+    """
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
+    range: tuple[DriveTorque, DriveTorque] | None = Field(
+        None, description="Minimum and maximum of the uniform distribution of `torque` in Monte Carlo runs"
+    )
+    handle: Annotated[MeasuredLength, above_zero("give a length such as 30 mm")] | None = Field(
+        None, description="Radius of the crank's handle, at which the force of the hand is reported"
+    )
     rate: Speed | None = Field(None, description="Speed that the hand maintains")
     stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 5 N m/rad")] | None = Field(
         None, description="Torque per radian by which the crank lags behind the hand; default rigid"
@@ -162,6 +171,11 @@ class HandDrive(Declared):
                 "`stiffness` applies only to a hand with a `rate`",
                 {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
             )
+        if self.range is not None and (
+            self.torque is None or not self.range[0].base <= self.torque.base <= self.range[1].base
+        ):
+            fix = "give the minimum first, and a `torque` between both"
+            raise bad("drive", "the `range` of the hand does not contain its `torque`", fix)
         return self
 
 
@@ -222,8 +236,8 @@ class Drive(Declared):
     @property
     def torques(self) -> tuple[Quantity, ...]:
         """Torques of the drive that are declared directly."""
-        hand = None if self.hand is None else self.hand.torque
-        return tuple(torque for torque in (self.torque, hand) if torque is not None)
+        hand = () if self.hand is None else (self.hand.torque, *(self.hand.range or ()))
+        return tuple(torque for torque in (self.torque, *hand) if torque is not None)
 
     @property
     def arm(self) -> float | None:

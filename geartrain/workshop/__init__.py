@@ -4,6 +4,7 @@ export        outlines, plates, solids, graphs and tables of a train as files; p
 rexs          gear units in the exchange format REXS, written and read
 cutting       wheels with cutting errors: jams, clashes, loss of contact, and their transmission functions
 monte_carlo   Monte Carlo trials of cutting errors and of friction: probabilities with intervals, Sobol indices
+feasibility   probability that a train turns, jams, is too stiff or breaks, over declared spreads
 budget        error budget of each pointer: ratio, pins, teeth, lost motion, cutting (`find_budget`)
 sizes         radii, clearance factor and half angle of triangular teeth, optimised for one objective
 answers       result types that commands print as JSON
@@ -21,10 +22,18 @@ if TYPE_CHECKING:
     from geartrain.workshop.budget.train_budget import BudgetQuestion as BudgetQuestion
     from geartrain.workshop.budget.train_budget import find_budget as find_budget
     from geartrain.workshop.cutting.declared_errors import read_error_overrides as read_error_overrides
+    from geartrain.workshop.cutting.measured_motion import measured_motion as measured_motion
+    from geartrain.workshop.cutting.wheel_estimate import WheelEstimate as WheelEstimate
+    from geartrain.workshop.cutting.wheel_estimate import estimate_wheel as estimate_wheel
+    from geartrain.workshop.cutting.wheel_report import MeasuredWheels as MeasuredWheels
+    from geartrain.workshop.cutting.wheel_report import find_measured_wheels as find_measured_wheels
     from geartrain.workshop.export.file_set import export_files as export_files
     from geartrain.workshop.export.file_set import notices as notices
     from geartrain.workshop.export.file_set import train_file as train_file
     from geartrain.workshop.export.file_set import wheel_file as wheel_file
+    from geartrain.workshop.feasibility.feasibility_plan import find_feasibility_plan as find_feasibility_plan
+    from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult as FeasibilityResult
+    from geartrain.workshop.feasibility.feasibility_trials import run_feasibility as run_feasibility
     from geartrain.workshop.monte_carlo.clearance_study import jamming_map as jamming_map
     from geartrain.workshop.monte_carlo.friction_trials import FrictionPlan as FrictionPlan
     from geartrain.workshop.monte_carlo.friction_trials import try_frictions as try_frictions
@@ -51,7 +60,12 @@ __getattr__, __all__ = public_names(
         "budget.pointer_budget": "PointerBudget TrainBudget",
         "budget.train_budget": "BudgetQuestion find_budget",
         "cutting.declared_errors": "read_error_overrides",
+        "cutting.measured_motion": "measured_motion",
+        "cutting.wheel_estimate": "WheelEstimate estimate_wheel",
+        "cutting.wheel_report": "MeasuredWheels find_measured_wheels",
         "export.file_set": "export_files notices train_file wheel_file",
+        "feasibility.feasibility_plan": "find_feasibility_plan",
+        "feasibility.feasibility_trials": "FeasibilityResult run_feasibility",
         "monte_carlo.clearance_study": "jamming_map",
         "monte_carlo.friction_trials": "FrictionPlan try_frictions",
         "monte_carlo.monte_carlo_result": "MonteCarloResult",

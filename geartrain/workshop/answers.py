@@ -8,13 +8,17 @@ from typing import Any
 def answers() -> dict[str, Any]:
     """Return the result type of each workshop command that prints JSON, by name of the command."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
+    from geartrain.workshop.cutting.wheel_report import MeasuredWheels
+    from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
     from geartrain.workshop.sizes.train_size_search import BestTrainSizes
 
     return {
         "montecarlo": MonteCarloResult,
+        "feasibility": FeasibilityResult,
         "budget": TrainBudget,
         "optimise": BestTrainSizes,
+        "inspect wheels": MeasuredWheels,
         "mesh --form triangular --objective": BestToothSizes,
     }

@@ -49,6 +49,7 @@ class Shown:
 
 
 OpenPage = Callable[..., Shown]
+OpenWindow = Callable[..., Page]
 
 
 @pytest.fixture(scope="session")
@@ -73,34 +74,42 @@ def browser(program: str) -> Iterator[Browser]:
 
 
 @pytest.fixture
-def open_page(browser: Browser) -> Iterator[OpenPage]:
-    """Function that opens a file after running a script, and stops it at 0 turns unless `opening` is True; further
-    arguments are those of the window.
+def open_window(browser: Browser) -> Iterator[OpenWindow]:
+    """Function that opens an empty page in a window, which is closed after the test.
+
+    Reduced motion is preferred unless the arguments say otherwise: software rendering of a train in motion takes the
+    whole of a core.
     """
     contexts = []
 
-    def show(path: Path, before: str = "", opening: bool = False, **window: Any) -> Shown:
-        context = browser.new_context(**({"viewport": {"width": 900, "height": 640}} | window))
-        contexts.append(context)
-        context.add_init_script(before)
-        shown = _opened(context.new_page(), path)
-        if not opening:
-            shown.run("globalThis.geartrain.setTurns?.('0')")
-        return shown
+    def opened(**window: Any) -> Page:
+        contexts.append(browser.new_context(**({"reduced_motion": "reduce"} | window)))
+        return contexts[-1].new_page()
 
-    yield show
+    yield opened
     for context in contexts:
         context.close()
 
 
-def _opened(sheet: Page, path: Path) -> Shown:
-    shown = Shown(sheet)
-    address = path.resolve().as_uri()
-    _listen(shown, address)
-    sheet.set_default_timeout(PATIENCE)
-    sheet.goto(address)
-    wait(shown, "Boolean(globalThis.geartrain?.ready)")
-    return shown
+@pytest.fixture
+def open_page(open_window: OpenWindow) -> OpenPage:
+    """Function that opens a file after running a script, and sets it to 0 turns unless `opening` is True; further
+    arguments are those of the window.
+    """
+
+    def show(path: Path, before: str = "", opening: bool = False, **window: Any) -> Shown:
+        sheet = open_window(**({"viewport": {"width": 900, "height": 640}} | window))
+        sheet.add_init_script(before)
+        sheet.set_default_timeout(PATIENCE)
+        shown, address = Shown(sheet), path.resolve().as_uri()
+        _listen(shown, address)
+        sheet.goto(address)
+        wait(shown, "Boolean(globalThis.geartrain?.ready)")
+        if not opening:
+            shown.run("globalThis.geartrain.setTurns?.('0')")
+        return shown
+
+    return show
 
 
 @pytest.fixture

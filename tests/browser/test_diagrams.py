@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, pairwise
@@ -15,7 +15,8 @@ import diagram_data
 import diagrams
 import make_diagrams
 import pytest
-from playwright.sync_api import Browser, Locator, Page
+from conftest import OpenWindow
+from playwright.sync_api import Locator, Page
 from viewing import listen
 
 import geartrain
@@ -82,27 +83,21 @@ Opening = Callable[..., Drawn]
 
 
 @pytest.fixture
-def draw(browser: Browser, tmp_path: Path) -> Iterator[Opening]:
+def draw(open_window: OpenWindow, tmp_path: Path) -> Opening:
     """Function that opens a diagram as on the site, from disk and without a network."""
-    contexts = []
 
     def opened(kind: str, **window: Any) -> Drawn:
-        settings = {"viewport": {"width": 700, "height": 1100}, "offline": True, "reduced_motion": "reduce"}
-        context = browser.new_context(**(settings | window))
-        contexts.append(context)
         script, style = (path.read_text(encoding="utf-8") for path in diagrams.files().values())
         still = '<img alt="still" src="data:,">'
         text = f"<style>{style}</style>{diagrams.element(kind, still)}<script>{script}</script>"
         (tmp_path / "page.html").write_text(f'<!DOCTYPE html><meta charset="utf-8">{text}', encoding="utf-8")
-        page = context.new_page()
+        page = open_window(**({"viewport": {"width": 700, "height": 1100}, "offline": True} | window))
         drawn = Drawn(page, listen(page, "file:", "data:"))
         drawn.page.goto((tmp_path / "page.html").as_uri())
         drawn.page.wait_for_selector(".gd-alive" if window.get("java_script_enabled", True) else "gear-diagram")
         return drawn
 
-    yield opened
-    for context in contexts:
-        context.close()
+    return opened
 
 
 # ------------------------------------------------------------------------------------------------------------ of all
@@ -195,25 +190,6 @@ def test_a_finger_drags_on_a_phone(draw: Opening) -> None:
     for kind, points in (("touchStart", path[:1]), *(("touchMove", [point]) for point in path[1:]), ("touchEnd", [])):
         finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in points]})
     assert abs(float(drawn.fraction("ring", ARM) - before) - 0.8 / TURN) < 0.01
-
-
-def test_pages_of_the_site_have_their_diagrams_in_light_and_dark_and_on_phones(site: Path, browser: Browser) -> None:
-    for path in sorted((ROOT / "docs").glob("*.md")):
-        if count := path.read_text(encoding="utf-8").count("<!-- diagram: "):
-            page = browser.new_page(offline=True)
-            wrong = listen(page, "file:", "data:", "blob:")
-            page.goto((site / f"{path.stem}.html").as_uri())
-            assert page.locator("gear-diagram.gd-alive").count() == count, path.stem
-            paper = "getComputedStyle(document.querySelector('.gd-live')).backgroundColor"
-            colours = set()
-            for scheme in ("default", "slate"):
-                page.evaluate("(scheme) => document.body.setAttribute('data-md-color-scheme', scheme)", scheme)
-                colours.add(page.evaluate(paper))
-            assert len(colours) == 2
-            page.set_viewport_size({"width": 390, "height": 844})
-            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), path.stem
-            assert wrong == []
-            page.close()
 
 
 # --------------------------------------------------------------------------------------------------- Willis' inversion

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 import shipped
-from playwright.sync_api import Browser, Locator, Page
+from conftest import OpenWindow
+from playwright.sync_api import Locator, Page
 from viewing import contrast, listen, luminance
 
 from geartrain import load
 from geartrain.drawing import picture, render
-from geartrain.drawing.train_pictures import PictureKind
 from geartrain.report import Document, Picture, Section, Table, collect_report, to_html
 from geartrain.report.document import Branch, PageExtras, SceneText
 from geartrain.report.train_report import describe_shared_page
@@ -25,29 +25,23 @@ EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg" width="720pt" height="72pt"><path d="M 0 0 L 720 72" stroke="red"/></svg>'
 )
-DRAWN: tuple[PictureKind, ...] = ("plan", "dials")
 Opened = Callable[..., tuple[Page, list[str]]]
 
 
 @pytest.fixture
-def open_report(browser: Browser, tmp_path: Path) -> Iterator[Opened]:
+def open_report(open_window: OpenWindow, tmp_path: Path) -> Opened:
     """Function that returns an opened page with a list of errors, dialogs and requests to other addresses."""
-    contexts = []
 
     def show(text: str, **window: object) -> tuple[Page, list[str]]:
         path = tmp_path / "report.html"
         path.write_text(text, encoding="utf-8")
-        context = browser.new_context(**({"viewport": {"width": 1000, "height": 800}} | window))
-        contexts.append(context)
-        page = context.new_page()
+        page = open_window(**({"viewport": {"width": 1000, "height": 800}} | window))
         wrong = listen(page, path.as_uri(), "data:", "blob:", "about:")
         page.goto(path.as_uri())
         page.evaluate("document.querySelectorAll('details').forEach((each) => { each.open = true; })")
         return page, wrong
 
-    yield show
-    for context in contexts:
-        context.close()
+    return show
 
 
 def table(page: Page, heading: str) -> list[list[str]]:
@@ -181,13 +175,16 @@ def test_it_prints_on_white_without_what_can_only_be_clicked(freeth: str, open_r
     assert wrong == []
 
 
-def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(browser: Browser, tmp_path: Path) -> None:
+def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(open_window: OpenWindow, tmp_path: Path) -> None:
     """A window of 1280 x 800 pixels, with the plan and the dials of a train of 24 outputs."""
-    drawings = [Picture(kind, render(picture(shipped.train("freeth-2021"), kind), ".svg").decode()) for kind in DRAWN]
+    train = shipped.train("freeth-2021")
+    drawings = [
+        Picture("drawn", render(each, ".svg").decode()) for each in (picture(train, "plan"), picture(train, "dials"))
+    ]
     path = tmp_path / "report.html"
     text = to_html([describe_shared_page(shipped.report("freeth-2021"), drawings)])
     path.write_text(text, encoding="utf-8")
-    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page = open_window(viewport={"width": 1280, "height": 800})
     page.goto(path.as_uri())
     names = (".badge", "article > p:has-text('Verdict')", "table", "figure", "nav.contents")
     places = [page.locator(name).first.bounding_box() for name in names]
@@ -203,7 +200,6 @@ def test_the_first_screen_has_the_verdict_the_pointers_and_a_picture(browser: Br
         assert folded.get_attribute("open") is None
     pages = page.pdf(format="A4", margin=dict.fromkeys(("top", "bottom", "left", "right"), "10mm"))
     assert len(re.findall(rb"/Type\s*/Page\b", pages)) <= 4
-    page.close()
 
 
 def test_a_click_on_a_rank_shows_its_train_turning(open_report: Opened) -> None:

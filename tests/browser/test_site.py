@@ -1,4 +1,8 @@
-"""Site as published, with a few trains in its gallery, opened from disk in a browser."""
+"""Site as published, with a few trains in its gallery: opened from disk, and its page for trying the package, served
+without a network.
+
+One file, so that the site is built once.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +10,12 @@ import importlib
 import json
 import re
 from collections.abc import Iterator
+from functools import partial
 from html.parser import HTMLParser
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from threading import Thread
+from typing import Any
 from urllib.parse import unquote, urlsplit
 
 import gallery
@@ -15,10 +23,11 @@ import numpy as np
 import pytest
 import shipped
 import yaml
+from conftest import OpenWindow
 from package.test_public_names import SHOWING
 from PIL import Image
 from places import train_files
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Page, expect
 from viewing import GALLERY, listen
 
 ROOT = Path(__file__).parent.parent.parent
@@ -152,11 +161,11 @@ def test_pictures_of_the_gallery_turn_under_the_pointer_and_open_the_train(
     page.goto((site / "gallery.html").as_uri())
     picture = page.locator("a.turning[title=worm]")
     assert picture.evaluate(shown) == "none", "no film is fetched before it is wanted"
+    page.emulate_media(reduced_motion="no-preference")
     picture.hover()
     assert picture.evaluate(shown).endswith('film/worm.webp")')
     page.emulate_media(reduced_motion="reduce")
     assert picture.evaluate(shown) == "none"
-    page.emulate_media(reduced_motion="no-preference")
     picture.click()
     assert page.url.endswith("view/worm.html")
     assert wrong == []
@@ -182,6 +191,7 @@ def test_formulas_fit_their_column_and_pages_their_window(site: Path, sheet: tup
 
 def test_the_page_of_the_viewer_has_a_machine_that_turns(site: Path, sheet: tuple[Page, list[str]]) -> None:
     page, wrong = sheet
+    page.emulate_media(reduced_motion="no-preference")
     page.goto((site / "viewer.html").as_uri())
     frame = page.frame_locator(".turning-frame iframe")
     frame.get_by_role("button", name="Stop").wait_for()
@@ -243,12 +253,10 @@ def test_the_reference_of_python_is_made_from_the_docstrings(site: Path) -> None
 
 
 @pytest.fixture
-def sheet(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
+def sheet(open_window: OpenWindow) -> tuple[Page, list[str]]:
     """Page of the browser, with a list of errors and of requests to addresses other than files."""
-    context = browser.new_context(viewport={"width": 1100, "height": 800})
-    sheet = context.new_page()
-    yield sheet, listen(sheet, "file:", "data:")
-    context.close()
+    page = open_window(viewport={"width": 1100, "height": 800})
+    return page, listen(page, "file:", "data:")
 
 
 @pytest.mark.parametrize("name", ["index", "theory", "gallery", "api/index", "api/analysis"])
@@ -282,3 +290,196 @@ def test_light_and_dark_can_be_chosen(site: Path, sheet: tuple[Page, list[str]])
     page.locator("label[for^=__palette]:visible").first.click()
     assert {before, page.evaluate(scheme)} == {"default", "slate"}
     assert wrong == []
+
+
+def test_pages_of_the_site_have_their_diagrams_in_light_and_dark_and_on_phones(
+    site: Path, open_window: OpenWindow
+) -> None:
+    page = open_window(offline=True)
+    wrong = listen(page, "file:", "data:", "blob:")
+    for path in sorted((ROOT / "docs").glob("*.md")):
+        if count := path.read_text(encoding="utf-8").count("<!-- diagram: "):
+            page.set_viewport_size({"width": 1280, "height": 720})
+            page.goto((site / f"{path.stem}.html").as_uri())
+            assert page.locator("gear-diagram.gd-alive").count() == count, path.stem
+            paper = "getComputedStyle(document.querySelector('.gd-live')).backgroundColor"
+            colours = set()
+            for scheme in ("default", "slate"):
+                page.evaluate("(scheme) => document.body.setAttribute('data-md-color-scheme', scheme)", scheme)
+                colours.add(page.evaluate(paper))
+            assert len(colours) == 2
+            page.set_viewport_size({"width": 390, "height": 844})
+            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), path.stem
+            assert wrong == []
+
+
+# -------------------------------------------------------------------------------------- page for trying the package
+
+START = 120_000  # ms: Python on a busy machine
+PLANETARY = "#train=planetary-24-18-60"
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, *_: Any) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def address(site: Path) -> Iterator[str]:
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=str(site)))
+    Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(scope="module")
+def context(browser: Browser) -> Iterator[BrowserContext]:
+    context = browser.new_context(viewport={"width": 1300, "height": 900}, reduced_motion="reduce")
+    yield context
+    context.close()
+
+
+@pytest.fixture(scope="module")
+def opened(context: BrowserContext, address: str) -> Iterator[tuple[Page, list[str]]]:
+    """Page on which Python has started, without a network from then on, and a list of its errors."""
+    page = context.new_page()
+    wrong = listen(page, address, "about:", "blob:")
+    page.on("request", lambda requested: wrong.append(requested.method) if requested.method != "GET" else None)
+    page.goto(address + "try.html" + PLANETARY)
+    expect(page.locator("#try .progress")).to_be_visible()
+    expect(page.locator("#try .verdict.good")).to_be_visible(timeout=START)
+    context.set_offline(True)
+    yield page, wrong
+    context.set_offline(False)
+    page.close()
+
+
+@pytest.fixture
+def editor(opened: tuple[Page, list[str]]) -> Page:
+    return opened[0]
+
+
+def text_of(page: Page) -> str:
+    return "\n".join(page.locator("#try .cm-line").all_inner_texts())
+
+
+def replace(page: Page, old: str, new: str) -> None:
+    """Select a part of a line and type over it."""
+    line = page.locator("#try .cm-line", has_text=old).first
+    line.click()
+    page.keyboard.press("Home")
+    text = line.inner_text()
+    for _ in range(text.index(old) - (len(text) - len(text.lstrip()))):
+        page.keyboard.press("ArrowRight")
+    for _ in old:
+        page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.insert_text(new)
+
+
+def dial(page: Page, name: str) -> str:
+    return page.locator("#try .dial", has=page.locator(f"b:text-is('{name}')")).locator("code").inner_text()
+
+
+def test_the_trial_answers_exactly_and_asks_nobody(opened: tuple[Page, list[str]]) -> None:
+    editor, wrong = opened
+    assert editor.locator("#try .verdict").inner_text() == "determined: every speed follows from sun"
+    assert dial(editor, "carrier") == "2/7", "24 / (24 + 60)"
+    report = editor.frame_locator("#try .page iframe")
+    expect(report.locator("h2", has_text="Adjacency matrix").first).to_be_visible()
+    expect(report.locator("h2", has_text="Fundamental circuits")).to_be_visible()
+    assert wrong == []
+
+
+def test_without_a_network_it_answers_what_is_typed(editor: Page) -> None:
+    replace(editor, "{s: 24}", "{s: 30}")
+    replace(editor, "{p: 18}", "{p: 15}")
+    expect(editor.locator("#try .dial code").first).to_have_text("1/3")  # 30 / (30 + 60)
+    expect(editor.locator("#try .problems .error").first).to_contain_text("2/7")
+    replace(editor, "{s: 30}", "{s: 24}")
+    replace(editor, "{p: 15}", "{p: 18}")
+    expect(editor.locator("#try .verdict.good")).to_be_visible()
+
+
+def test_an_error_stands_under_its_line_with_its_cure(editor: Page) -> None:
+    number = text_of(editor).splitlines().index("inputs: {sun: 1}") + 1
+    replace(editor, "inputs", "input")
+    error = editor.locator("#try .problems .error", has_text=f"line {number}:")
+    expect(error).to_contain_text("did you mean 'inputs'?")
+    expect(editor.locator("#try .cm-lint-marker-error")).to_be_visible()
+    expect(editor.locator("#try .cm-lintRange-error")).to_have_text("input: {sun: 1}")
+    replace(editor, "input", "inputs")
+    expect(editor.locator("#try .cm-lint-marker-error")).to_have_count(0)
+
+
+def test_it_completes_keys_by_their_place_and_names_of_the_train(editor: Page) -> None:
+    last = editor.locator("#try .cm-line").last
+    chooser = editor.locator("#try .example")
+
+    def offered(*typed: str) -> list[str]:
+        last.click()
+        editor.keyboard.press("Control+End")
+        for each in typed[:-1]:
+            editor.keyboard.insert_text(each)
+            editor.keyboard.press("Enter")
+        editor.keyboard.insert_text(typed[-1])
+        editor.keyboard.press("Control+Space")
+        options = editor.locator("#try .cm-tooltip-autocomplete li")
+        options.first.wait_for()
+        found = options.all_inner_texts()
+        editor.keyboard.press("Escape")
+        chooser.select_option("worm")
+        chooser.select_option("planetary-24-18-60")
+        expect(editor.locator("#try .verdict.good")).to_be_visible()
+        return found
+
+    assert "couplings" in offered("coup")
+    assert {"carrier", "planet"} <= set(offered("fixed: ["))
+    assert "copies" in offered("links: {x: {co")
+    assert "pin_and_slot" in offered("couplings: [{kind: pin")
+
+
+def test_dials_and_pitch_circles_turn_by_exact_speeds(editor: Page) -> None:
+    turns = editor.locator("#try .turns")
+    turns.evaluate("(each) => { each.value = 1; each.dispatchEvent(new Event('input')); }")
+    hand = editor.locator("#try .dial .hand").first.get_attribute("transform") or ""
+    assert float(re.findall(r"-?[\d.]+", hand)[0]) == pytest.approx(-360 * 2 / 7)
+    planet = editor.locator("#try .plan g", has=editor.locator("title:text('p, on planet')"))
+    place = planet.get_attribute("transform") or ""
+    editor.locator("#try .play").click()
+    expect(planet).not_to_have_attribute("transform", place)
+    editor.locator("#try .play").click()
+    turns.evaluate("(each) => { each.value = 7; each.dispatchEvent(new Event('input')); }")
+    x, y, _ = (float(each) for each in re.findall(r"-?\d[\d.e-]*", planet.get_attribute("transform") or ""))
+    turns.evaluate("(each) => { each.value = 0; each.dispatchEvent(new Event('input')); }")
+    u, v, _ = (float(each) for each in re.findall(r"-?\d[\d.e-]*", planet.get_attribute("transform") or ""))
+    assert (x, y) == pytest.approx((u, v), abs=1e-9), "after 7 turns of the sun the carrier has made 2"
+    assert x**2 + y**2 == pytest.approx((12 + 9) ** 2)
+
+
+def test_an_address_holds_a_text_and_its_page_answers_it(
+    opened: tuple[Page, list[str]], context: BrowserContext, address: str
+) -> None:
+    editor, wrong = opened
+    replace(editor, "A simple planetary", "Mine, ünd more")
+    editor.locator("#try .share").click()
+    editor.wait_for_function("location.hash.startsWith('#text=')")
+    shared = editor.evaluate("location.hash")
+    context.set_offline(False)
+    other = context.new_page()
+    other.goto(address + "try.html" + shared)
+    expect(other.locator("#try .cm-line", has_text="Mine, ünd more")).to_be_visible()
+    assert text_of(other) == text_of(editor)
+    other.goto("about:blank")
+    other.goto(address + "try.html#train=zf-8hp70")
+    expect(other.locator("#try .state option")).to_have_count(9, timeout=START)
+    other.set_viewport_size({"width": 390, "height": 800})
+    assert other.evaluate("document.documentElement.scrollWidth <= innerWidth"), "it fits a phone"
+    other.close()
+    assert wrong == []
+
+
+def test_from_disk_the_trial_says_why_it_does_not_start(site: Path, open_window: OpenWindow) -> None:
+    page = open_window()
+    page.goto((site / "try.html").as_uri())
+    expect(page.locator("#try-absent")).to_be_visible()

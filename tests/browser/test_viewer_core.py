@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import shipped
 from matplotlib.image import imsave
-from viewing import SIMPLE, Opening, picture, wait
+from viewing import PLAN, SIMPLE, Opening, picture, wait
 
 from geartrain import load
 from geartrain.scene import build_scene
@@ -69,7 +69,7 @@ def test_pointers_of_ideal_trains_stand_where_fractions_say(show: Opening, name:
     texts = ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003")
     outputs = list(shipped.train(name).declaration.outputs)
     turns = (*texts, 0.1, -2.7, 1e9 + 0.1, 123456.789)  # a float is converted exactly
-    for each, angles in zip(turns, show(name).angles(turns, outputs), strict=True):
+    for each, angles in zip(turns, show(name, **PLAN).angles(turns, outputs), strict=True):
         expected = dict(directions(name, Fraction(each)))
         for output, angle in zip(outputs, angles, strict=True):
             assert apart(angle, expected[output]) < 1e-12, (output, each)
@@ -127,7 +127,7 @@ def test_pins_and_real_teeth_move_as_the_motion_says(show: Opening, name: str) -
     motion = shipped.train(name).motion()._with_angles({body.id: body.start for body in shipped.scene(name).bodies})
     turns = np.array([0.0, 0.4140625, 3.25, 1000.0, 76543.21875, 1e6 + 0.8125])
     errors = motion.at(turns).error
-    shown = show(name)
+    shown = show(name, **PLAN)
     angles = shown.angles(turns.tolist(), motion.outputs)
     for at, turn in enumerate(turns):
         mean = dict(directions(name, Fraction(turn)))
@@ -141,7 +141,7 @@ def test_backwards_the_other_flanks_drive(show: Opening) -> None:
     """Negative turns are compared with a run backwards; in forward motion the positions differ by the backlash."""
     name = "pennestri-2002-teeth"
     motion = shipped.train(name).motion()
-    shown = show(name)
+    shown = show(name, **PLAN)
     differ = 0.0
     for passage in motion._stretches(-37.6875, 5, first=1):
         forwards = motion.at(passage.turns).error

@@ -7,11 +7,11 @@ from fractions import Fraction
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
+from viewing import ANTIKYTHERA, MOVING, PLAN, SIMPLE, Opening, tab, turns, wait
 
 
 def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Opening) -> None:
-    shown = show(SIMPLE)
+    shown = show(SIMPLE, **PLAN)
     place = shown.page.get_by_label("Go to turn")
     for text, value in (("235/19", Fraction(235, 19)), ("1e6", Fraction(10**6)), ("-2.5", Fraction(-5, 2))):
         place.fill(text)
@@ -24,11 +24,10 @@ def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Openin
         assert turns(shown) == Fraction(-5, 2), text
         assert "not a number of turns" in shown.page.get_by_role("alert").inner_text()
         assert place.get_attribute("aria-invalid") == "true"
-    assert shown.errors == []
 
 
 def test_a_step_is_one_unit_of_the_input(show: Opening) -> None:
-    shown = show("clock-10000-years")
+    shown = show("clock-10000-years", **PLAN)
     step = Fraction(shipped.built("clock-10000-years").step)
     shown.page.get_by_label("one unit of the input forward").click(click_count=3)
     assert turns(shown) == 3 * step
@@ -37,7 +36,7 @@ def test_a_step_is_one_unit_of_the_input(show: Opening) -> None:
 
 
 def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **MOVING, **PLAN)
     shown.page.get_by_role("button", name="play", exact=True).click()
     wait(shown, "!String(geartrain.turns).startsWith('0')")
     shown.page.get_by_role("button", name="pause", exact=True).click()
@@ -50,7 +49,7 @@ def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> Non
 
 
 def test_reduced_motion_moves_by_jumps_of_a_second(show: Opening) -> None:
-    shown = show(SIMPLE, reduced_motion="reduce")
+    shown = show(SIMPLE, **PLAN)
     moves = shown.run(
         """async () => {
           const at = []; const began = performance.now(); let before = String(geartrain.turns);
@@ -70,7 +69,7 @@ def test_reduced_motion_moves_by_jumps_of_a_second(show: Opening) -> None:
 
 def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show: Opening) -> None:
     for name in (SIMPLE, "worm", "longcase-clock"):
-        shown = show(name)
+        shown = show(name, **PLAN)
         box = shown.page.get_by_role("slider", name="crank").bounding_box()
         x, y, reach = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0.36 * box["width"]
         shown.page.mouse.move(x, y - reach)

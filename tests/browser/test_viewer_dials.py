@@ -7,7 +7,7 @@ from math import hypot, pi
 
 import pytest
 import shipped
-from viewing import Opening
+from viewing import PLAN, Opening
 
 ANTIKYTHERA = "freeth-2008"
 
@@ -41,7 +41,7 @@ def test_pins_follow_their_spirals_and_are_set_back_at_the_end(show: Opening) ->
 
 @pytest.mark.parametrize("name", [ANTIKYTHERA, "longcase-clock", "prague-orloj", "al-biruni-box-of-the-moon"])
 def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> None:
-    shown = show(name)
+    shown = show(name, **PLAN)
     train = shipped.train(name)
     solved, declared = train.solve(), train.declaration
     scene = shipped.scene(name)
@@ -68,7 +68,7 @@ def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> No
 
 
 def test_what_is_engraved_stands_on_the_page_stroke_by_stroke(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **PLAN)
     drawn = shown.run(
         "[...document.querySelectorAll('.dial')].map((d) => [d.getAttribute('aria-label'), "
         "[...d.querySelectorAll('.letters')].map((p) => (p.getAttribute('d').match(/M/g) ?? []).length)"
@@ -111,5 +111,5 @@ def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show: Opening) -> N
 
 def test_dials_without_a_declared_place_say_that_their_layout_is_computed(show: Opening) -> None:
     cards = "[...document.querySelectorAll('.card')].map((each) => /layout computed/.test(each.textContent))"
-    assert not any(show(ANTIKYTHERA).run(cards))
-    assert show("longcase-clock").run(cards) == [True] * 3
+    assert not any(show(ANTIKYTHERA, **PLAN).run(cards))
+    assert show("longcase-clock", **PLAN).run(cards) == [True] * 3

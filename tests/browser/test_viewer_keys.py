@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
+from viewing import ANTIKYTHERA, MOVING, SIMPLE, Opening, tab, turns, wait
 
 CONTROLS = "button, select, input, summary, [tabindex='0'], a[href]"
 
@@ -33,7 +33,7 @@ FAULTS = """(controls) => {
 
 
 def test_the_keyboard_alone_suffices(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **MOVING)
     press = shown.page.keyboard.press
     press("ArrowRight")
     assert turns(shown) == Fraction(1, 72)

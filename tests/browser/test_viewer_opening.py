@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import shipped
 from conftest import Shown
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, tab, turns, wait
+from viewing import ANTIKYTHERA, LOCKED, MOVING, PLAN, SIMPLE, Opening, tab, turns, wait
 
 from geartrain import load
 from geartrain.errors import DeclarationError
@@ -35,7 +35,7 @@ def exact_turns(shown: Shown, train: str) -> dict[str, float]:
 
 
 def test_a_page_opens_in_motion(show: Opening) -> None:
-    shown = show(SIMPLE, opening=True)
+    shown = show(SIMPLE, opening=True, **MOVING)
     first = turns(shown)
     wait(shown, f"String(geartrain.turns) !== '{first}'")
     shown.page.get_by_role("button", name="pause", exact=True).click()
@@ -44,9 +44,9 @@ def test_a_page_opens_in_motion(show: Opening) -> None:
 
 @pytest.mark.parametrize("name", ["huygens-planetarium-1682", "prague-orloj", SIMPLE])
 def test_a_page_opens_with_its_pointers_apart_and_at_rest_for_users_who_prefer_it(show: Opening, name: str) -> None:
-    shown = show(name, opening=True, reduced_motion="reduce")
+    shown = show(name, opening=True, **PLAN)
     first = turns(shown)
-    shown.page.wait_for_timeout(1500)
+    shown.page.wait_for_timeout(300)
     assert turns(shown) == first != 0
     assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
     dials = {output: each.dial for output, each in shipped.train(name).declaration.outputs.items()}
@@ -57,24 +57,24 @@ def test_a_page_opens_with_its_pointers_apart_and_at_rest_for_users_who_prefer_i
 
 
 def test_a_script_that_sets_the_turns_ends_the_opening_motion(show: Opening) -> None:
-    shown = show(SIMPLE)
+    shown = show(SIMPLE, **MOVING)
     shown.page.wait_for_timeout(400)
     assert turns(shown) == 0
 
 
 def test_the_second_line_is_the_purpose_and_only_an_unusual_verdict_is_shown(show: Opening) -> None:
-    shown = show(SIMPLE)
+    shown = show(SIMPLE, **PLAN)
     note = str(shipped.train(SIMPLE).declaration.note)
     assert shown.page.locator(".names").inner_text() == note
     assert "determined" not in shown.page.locator(".head").inner_text()
     tab(shown, "About")
     assert "determined: every speed follows from sun" in shown.page.locator("article").inner_text()
-    assert show("worm").page.locator(".names").inner_text() == "screw drives wheel."
-    assert "locked" in show(text=LOCKED).page.locator(".head").inner_text()
+    assert show("worm", **PLAN).page.locator(".names").inner_text() == "screw drives wheel."
+    assert "locked" in show(text=LOCKED, **PLAN).page.locator(".head").inner_text()
 
 
 def test_one_list_has_each_output_once_and_dials_come_first(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **PLAN)
     tabs = shown.page.get_by_role("tab").all_inner_texts()
     assert tabs[0] == "Readings"
     assert not {"Dials", "Outputs", "Sky"} & set(tabs)
@@ -84,12 +84,12 @@ def test_one_list_has_each_output_once_and_dials_come_first(show: Opening) -> No
     assert sorted(listed) == sorted(outputs)
     assert sorted(listed[: len(read)]) == sorted(read)
     assert shown.page.locator("tr[data-output='lunar anomaly']").is_hidden(), "outputs without a dial are folded"
-    assert show("worm").page.locator(".dial").count() == 0
+    assert show("worm", **PLAN).page.locator(".dial").count() == 0
 
 
 @pytest.mark.parametrize("name", ["prague-orloj", "huygens-planetarium-1682"])
 def test_readings_are_exact_turns(show: Opening, name: str) -> None:
-    shown = show(name)
+    shown = show(name, **PLAN)
     shown.run("geartrain.setTurns('1234567/89')")
     wait(shown, "document.querySelector('[data-angle]').textContent !== ''")
     cells = "[...document.querySelectorAll('[data-angle]')].map((cell) => [cell.dataset.angle, cell.textContent])"
@@ -169,7 +169,7 @@ SEEN = """(name) => {
 
 
 def test_steps_move_the_camera_to_their_parts(show: Opening) -> None:
-    shown = show(SIMPLE, reduced_motion="reduce")
+    shown = show(SIMPLE)
     steps: Any = shipped.train(SIMPLE).declaration.tour
     shown.page.get_by_role("button", name="Tour").click()
     text, back = shown.page.locator(".tour p"), shown.page.locator(".tour").get_by_role("button", name="Back")
@@ -191,7 +191,7 @@ def test_steps_move_the_camera_to_their_parts(show: Opening) -> None:
 
 
 def test_a_part_behind_the_front_is_seen_from_behind(show: Opening) -> None:
-    shown = show(ANTIKYTHERA, reduced_motion="reduce")
+    shown = show(ANTIKYTHERA)
     shown.page.get_by_role("button", name="Tour").click()
     shown.page.get_by_role("button", name="Next").click(click_count=2)
     assert "slot of wheel k2" in shown.page.locator(".tour p").inner_text()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, Opening, go, tab, unfold, wait
+from viewing import ANTIKYTHERA, PLAN, Opening, go, tab, unfold, wait
 
 from geartrain import load
 
@@ -87,7 +87,7 @@ HANDS = (
 
 
 def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **PLAN)
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(100_003, 7)
@@ -110,7 +110,7 @@ def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
 
 
 def test_an_exact_value_is_copied_by_a_click(show: Opening) -> None:
-    shown = show(ANTIKYTHERA, permissions=["clipboard-read", "clipboard-write"])
+    shown = show(ANTIKYTHERA, permissions=["clipboard-read", "clipboard-write"], **PLAN)
     unfold(shown, "without a dial")
     shown.page.locator("tr[data-output='apsides'] button.copy").click()
     wait(shown, "document.querySelector('[role=status]').textContent === '-477/4237 copied'")

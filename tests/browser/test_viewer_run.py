@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shipped
 from conftest import OpenPage, Shown
-from viewing import Opening, tab, wait
+from viewing import MOVING, Opening, tab, wait
 
 from geartrain import load
 from geartrain.scene import Scene, build_scene
@@ -25,8 +25,8 @@ def played() -> Played:
 
 
 @pytest.fixture
-def shown(played: Played, show_html: OpenPage) -> Shown:
-    return show_html(page([played[1]], teeth=False))
+def shown(played: Played, show_html: OpenPage, request: pytest.FixtureRequest) -> Shown:
+    return show_html(page([played[1]], teeth=False), **getattr(request, "param", {}))
 
 
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
@@ -137,6 +137,7 @@ def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
     assert shown.run("geartrain.machines[0].time()") > later
 
 
+@pytest.mark.parametrize("shown", [MOVING], indirect=True)
 def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
     shown.page.get_by_label("Repeat").uncheck()
     shown.page.get_by_role("slider", name="Speed").fill("1")

@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 import pytest
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, contrast, go, luminance, tab, unfold, wait
+from viewing import ANTIKYTHERA, LOCKED, MOVING, SIMPLE, Opening, contrast, go, luminance, tab, unfold, wait
 
 SMALL = """() => [...document.querySelectorAll('button, select, input:not([type=checkbox]), .tick, summary, .handle')]
   .filter((each) => each.checkVisibility())
@@ -52,7 +52,7 @@ PRESSED = """() => [...document.querySelectorAll('[data-look], .wheels button')]
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_text_and_edges_stand_out_in_both_themes(show: Opening, scheme: str) -> None:
-    shown = show(ANTIKYTHERA, color_scheme=scheme, reduced_motion="reduce")
+    shown = show(ANTIKYTHERA, color_scheme=scheme)
     assert shown.run("document.documentElement.dataset.theme") == scheme
     shown.page.get_by_label("Colours").select_option("status")
     shown.page.locator("[data-wheel='e5']").evaluate("(button) => button.click()")
@@ -73,7 +73,7 @@ def test_text_and_edges_stand_out_in_both_themes(show: Opening, scheme: str) -> 
 
 def test_what_is_wrong_stands_out_in_both_themes(show: Opening) -> None:
     for scheme in ("light", "dark"):
-        shown = show(text=LOCKED, color_scheme=scheme, reduced_motion="reduce")
+        shown = show(text=LOCKED, color_scheme=scheme)
         for where, ink, ground, minimum in shown.run(TEXTS):
             assert contrast(ink, ground) >= minimum, (scheme, where, ink, ground)
 
@@ -135,7 +135,7 @@ def test_the_head_of_a_phone_leaves_the_screen_to_the_picture(show: Opening) -> 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_pressed_button_can_be_read_at_once(show: Opening, scheme: str) -> None:
-    shown = show(SIMPLE, color_scheme=scheme)  # with all motion enabled
+    shown = show(SIMPLE, color_scheme=scheme, **MOVING)
     shown.page.locator("[data-look='front']").hover()
     tab(shown, "Wheels")
     pressed = shown.run(PRESSED)

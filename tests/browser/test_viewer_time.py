@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, SIMPLE, Opening, go, tab, turns, unfold, wait
+from viewing import ANTIKYTHERA, MOVING, PLAN, SIMPLE, Opening, go, tab, turns, unfold, wait
 
 from geartrain import GearTrain
 from geartrain.drawing.dial_faces import pointer_readings
@@ -55,18 +55,17 @@ def told(day: Fraction, calendar: str | None = None) -> str:
 
 
 def test_the_crank_tells_the_date_of_its_turns(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **PLAN)
     told_by = shown.page.locator(".date")
     assert told_by.inner_text() == told(START)
     draw = random.Random(0)
     for at in [Fraction(19, 470), *(Fraction(draw.randrange(-(10**7), 10**7), 1000) for _ in range(12))]:
         go(shown, at)
         assert told_by.inner_text() == told(START + at * YEAR), at
-    assert shown.errors == []
 
 
 def test_a_date_that_is_typed_is_reached_exactly(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **PLAN)
     day = shown.page.get_by_label("Go to date")
     for text, same in (
         ("-204-05-12", "-204-05-12"),
@@ -90,20 +89,20 @@ def test_a_date_that_is_typed_is_reached_exactly(show: Opening) -> None:
         assert "This is not a date" in shown.page.get_by_role("alert").inner_text()
 
 
-def test_the_page_turns_to_a_date_and_back_and_stops_there(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
-    for text in ("1901-01-01", "-204-05-12"):
-        began = turns(shown)
+def test_the_page_turns_to_a_date_in_motion_and_at_once_for_users_who_prefer_it(show: Opening) -> None:
+    for window, text in ((MOVING, "1592-10-15"), ({}, "1600-02-29")):
+        shown = show(text=CALENDAR, **PLAN, **window)
         shown.page.get_by_label("Go to date").fill(text)
         shown.page.get_by_role("button", name="Run").click()
-        wait(shown, f"String(geartrain.turns) !== '{began}'")
-        wanted = (julian_day(read_date(text)) - START) / YEAR
+        wanted = str((date.fromisoformat(text) - date(1582, 10, 15)).days)
+        if window:
+            wait(shown, f"!['0', '{wanted}'].includes(String(geartrain.turns))")
         wait(shown, f"String(geartrain.turns) === '{wanted}'")
         assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
 
 
 def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **PLAN)
     at = Fraction(100_003, 7)
     go(shown, at)
     unfold(shown, "Comparison")
@@ -166,9 +165,9 @@ def same_angle(one: float, other: float) -> float:
     return (one - other + 180) % 360 - 180
 
 
-@pytest.mark.parametrize("date", ["-204-05-12", "1000-03-03", "2026-11-28 18:30"])
+@pytest.mark.parametrize("date", ["-204-05-12", "2026-11-28 18:30"])
 def test_pointers_set_to_the_sky_agree_with_a_train_whose_epoch_is_that_date(show: Opening, date: str) -> None:
-    shown = show("freeth-2021")
+    shown = show("freeth-2021", **PLAN)
     day = julian_day(read_date(date))
     shown.page.get_by_label("Go to date").fill(date)
     shown.page.keyboard.press("Enter")
@@ -190,7 +189,6 @@ def test_pointers_set_to_the_sky_agree_with_a_train_whose_epoch_is_that_date(sho
         assert same_angle(pointer, readings[output]) == pytest.approx(0, abs=0.006), output
         assert same_angle(pointer - heaven, ahead) == pytest.approx(0, abs=0.02), output
     assert misfits(shown) == pytest.approx([0] * 37, abs=1e-6)
-    assert shown.errors == []
 
 
 def misfits(shown: Shown) -> list[float]:
@@ -213,7 +211,7 @@ def misfits(shown: Shown) -> list[float]:
 
 
 def test_today_sets_the_pointers_to_the_sky_of_the_clock(show: Opening) -> None:
-    shown = show("freeth-2021")
+    shown = show("freeth-2021", **PLAN)
     shown.page.clock.set_fixed_time("2026-11-28T12:00:00Z")
     shown.page.get_by_role("button", name="Today").click()
     assert shown.page.locator(".date").inner_text() == "28 November 2026, 12:00"
@@ -235,12 +233,12 @@ def test_today_sets_the_pointers_to_the_sky_of_the_clock(show: Opening) -> None:
 
 def test_a_zodiac_without_positions_has_no_date(show: Opening) -> None:
     unset = CALENDAR.replace("outputs: {week: {", "dials: {z: {names: zodiac}}\noutputs: {week: {dial: z, ")
-    shown = show(text=unset)
+    shown = show(text=unset, **PLAN)
     assert shown.page.locator(".date").inner_text() == "not set to the sky"
     assert shown.page.get_by_label("Go to date").count() == 0
     unfold(shown, "Comparison")
     assert "not set to the sky" in shown.page.locator("[data-heaven=week]").inner_text()
-    shown = show(text=unset.replace("dial: z, ", "dial: z, at_epoch: 33.1 deg, "))
+    shown = show(text=unset.replace("dial: z, ", "dial: z, at_epoch: 33.1 deg, "), **PLAN)
     assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"
     go(shown, "7/2")
     reading = shown.page.locator("[data-angle=week]").inner_text()
@@ -248,19 +246,19 @@ def test_a_zodiac_without_positions_has_no_date(show: Opening) -> None:
 
 
 def test_the_speed_is_in_days_a_second_where_there_are_dates(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(text=CALENDAR, **PLAN, **MOVING)
     shown.page.clock.install(time="2026-01-01T00:00:00Z")
     shown.page.clock.pause_at("2026-01-01T01:00:00Z")
     shown.page.get_by_label("days a second").fill("50")
     shown.page.get_by_role("button", name="play", exact=True).click()
     shown.page.clock.run_for(2000)
-    assert float(turns(shown) * YEAR) == pytest.approx(100, rel=0.03)
-    shown = show(SIMPLE)
+    assert float(turns(shown)) == pytest.approx(100, rel=0.03)
+    shown = show(SIMPLE, **PLAN)
     assert shown.page.get_by_label("turns a second").count() == 1
 
 
 def test_errors_of_very_long_times_stay_in_their_column(show: Opening) -> None:
-    shown = show(ANTIKYTHERA)
+    shown = show(ANTIKYTHERA, **PLAN)
     unfold(shown, "Comparison")
     for at in ("1e18", "1/1000000"):
         go(shown, at)
@@ -270,13 +268,13 @@ def test_errors_of_very_long_times_stay_in_their_column(show: Opening) -> None:
 
 
 def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening) -> None:
-    shown = show(text=CALENDAR)
+    shown = show(text=CALENDAR, **PLAN)
     assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"
     go(shown, "-1")
     assert shown.page.locator(".date").inner_text() == "14 October 1582, 12:00"  # in the Gregorian calendar
     unfold(shown, "Comparison")
     exact = shown.run("[...document.querySelectorAll('.sky .copy')].map((each) => each.dataset.exact)")
     assert exact == ["0", "1/56"]  # (-1/7 + 1/8) turns per day, one day earlier
-    shown = show(SIMPLE)
+    shown = show(SIMPLE, **PLAN)
     assert shown.page.get_by_role("tab", name="Sky").count() == 0
     assert shown.page.get_by_label("Go to date").count() == 0

@@ -15,7 +15,8 @@ from pathlib import Path
 
 import pytest
 from clusters import PATIENCE, next_line
-from playwright.sync_api import Browser, Page
+from conftest import OpenWindow
+from playwright.sync_api import Page
 from viewing import listen
 
 pytest.importorskip("tornado", reason="the extra 'watch' is not installed")
@@ -69,9 +70,9 @@ def follow(page: Page, version: int) -> None:
 
 
 def test_the_page_follows_the_file_and_keeps_crank_and_camera(
-    browser: Browser, served: tuple[str, subprocess.Popen[str]], file: Path, parent: Path
+    open_window: OpenWindow, served: tuple[str, subprocess.Popen[str]], file: Path, parent: Path
 ) -> None:
-    page = browser.new_page(viewport={"width": 1200, "height": 700})
+    page = open_window(viewport={"width": 1200, "height": 700})
     wrong = listen(page, served[0], served[0].replace("http", "ws"), "data:", "blob:", "about:")
     page.goto(served[0])
     follow(page, 1)
@@ -97,14 +98,13 @@ def test_the_page_follows_the_file_and_keeps_crank_and_camera(
     told.wait_for(state="hidden")
     report.get_by_text("Second").first.wait_for()
     assert not wrong
-    page.close()
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost"])
 def test_the_outer_page_runs_its_own_script_and_reaches_its_own_server_only(
-    browser: Browser, served: tuple[str, subprocess.Popen[str]], host: str
+    open_window: OpenWindow, served: tuple[str, subprocess.Popen[str]], host: str
 ) -> None:
-    page = browser.new_page()
+    page = open_window()
     broken: list[str] = []
     page.on("console", lambda message: broken.append(message.text) if message.type == "error" else None)
     answer = page.goto(served[0].replace("127.0.0.1", host))
@@ -119,7 +119,6 @@ def test_the_outer_page_runs_its_own_script_and_reaches_its_own_server_only(
     )
     assert page.evaluate("window.ran") is None
     assert len([each for each in broken if "Content Security Policy" in each]) >= 3
-    page.close()
 
 
 def test_it_answers_this_machine_alone(served: tuple[str, subprocess.Popen[str]]) -> None:

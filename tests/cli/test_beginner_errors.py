@@ -240,14 +240,3 @@ def test_a_file_of_a_train_that_is_not_as_expected_is_written_with_a_note(comman
         done = ended(command, "my.yaml", "-o", f"{expected.replace('/', '')}.html")
         assert done.returncode == code
         assert ("`geartrain check` lists why" in done.stderr) == (code == 1)
-
-
-def test_a_wheel_that_is_in_no_pair_is_reported_by_check() -> None:
-    Path("my.yaml").write_text(SOUND.replace("{w: 60}", "{w: 60, x: 10}"), encoding="utf-8")
-    first, _ = ended("check", "my.yaml").stdout.splitlines()
-    what, *fixes = first.split("; ")
-    assert what == "note my.yaml:4: wheel 'x' is not in mesh"
-    assert fixes == [
-        "no pair in `gears` contains it",
-        "add its gear pair, give its purpose in its `note`, or remove it [W1]",
-    ]

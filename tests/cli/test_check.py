@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 
 import pytest
 from commands import RIGHT, call
-from shipped import every_train
 
-from geartrain import load, shipped
+from geartrain import load
 
 
 def written(tmp_path: Path, outputs: str) -> Path:
@@ -133,17 +131,6 @@ def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
         notes = [line for line in done.stdout.splitlines() if line.startswith("note")]
         assert all(any(found.text in line for line in notes) for found in load(path).build_findings)
     assert call("check", "--quiet", "prague-orloj").stdout == ""
-
-
-@pytest.mark.parametrize("name", every_train())
-def test_no_train_with_figures_is_said_to_have_none(name: str) -> None:
-    text = shipped()[name].read_text(encoding="utf-8")
-    outputs = [output for answer in load(name).answers() for output in answer.outputs.values()]
-    expected = sum(output.output.expect is not None for output in outputs)
-    published = sum(output.output.published is not None for output in outputs)
-    said = call("check", name).stdout.splitlines()[-1]
-    counts = [int(count) for count in re.findall(r"(\d+) (?:expectation|published)", said)]
-    assert counts == [count for count in (expected, published) if count], text[:80]
 
 
 # -------------------------------------------------------------------------------------- what motion in time contradicts

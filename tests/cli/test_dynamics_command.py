@@ -15,8 +15,6 @@ import pytest
 from answer_schemas import holds
 from commands import HEAVY, call, interrupt_after
 
-from geartrain.errors import GearTrainError
-
 Write = Callable[..., Path]
 TURN = ("--rate", "0.3", "--turns", "1", "--skip", "0", "--steps", "1000", "--no-fast")
 
@@ -133,17 +131,6 @@ def test_the_picture_has_a_panel_for_each_pair_with_backlash_and_marks_impacts(t
 @pytest.mark.parametrize("text", ["0.3", "0.3 turn/s", "18 rpm"])
 def test_a_plain_rate_is_in_turns_a_second(pin: Path, text: str) -> None:
     assert answer(pin, *TURN, "--rate", text)["rate"] == pytest.approx(0.3 * tau)
-
-
-def test_a_train_without_rate_or_inertia_says_what_to_add(pin: Path) -> None:
-    done = call("dynamics", pin)
-    assert isinstance(done.exception, GearTrainError)
-    assert "no input speed is declared" in str(done.exception)
-    done = call("dynamics", "moon-triangular", *TURN)
-    assert isinstance(done.exception, GearTrainError)
-    for link in ("sun", "c", "d", "moon"):
-        assert link in str(done.exception)
-    assert "declare `inertia: " in str(done.exception)
 
 
 def test_an_interrupted_run_gives_what_was_done(pin: Path, monkeypatch: pytest.MonkeyPatch) -> None:

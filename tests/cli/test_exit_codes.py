@@ -238,9 +238,6 @@ def test_a_journal_of_another_question_is_refused_and_kept(
     assert not kept.exists()
 
 
-def test_resume_is_refused_where_nothing_could_be_resumed(run: Callable[..., tuple[int, str, str]]) -> None:
-    code, _, err = run("motion", "moon-triangular", "--resume", "--samples", "64")
-    assert code == 2
-    assert "--resume" in err
+def test_a_table_of_motion_begins_anew_where_nothing_can_be_resumed(run: Callable[..., tuple[int, str, str]]) -> None:
     code, _, err = run("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--resume", "-o", "x.csv")
     assert (code, "nothing to resume" in err) == (0, True)

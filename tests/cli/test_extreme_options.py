@@ -22,7 +22,6 @@ import geartrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
-from geartrain.teeth.couplings.pin_transmission import PinTransmission
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -236,7 +235,7 @@ def test_any_option_of_a_number_takes_or_refuses_any_number(
 # ------------------------------------------------------------------------------------------------------- the library
 
 ODD = st.sampled_from((0.0, -1.0, 1e-300, 1e300, nan, inf, -inf, 0.3, 1.01, 30.0))
-Pins = type[PinTransmission]
+Pins = type[PinToSlotTransmission] | type[SlotToPinTransmission]
 
 
 def right_or_refused(make: Callable[[], TransmissionFunction]) -> bool:

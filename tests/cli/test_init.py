@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 from commands import call
+from places import ROOT
 
 import geartrain
-from geartrain.cli.declarations import TEMPLATES
 from geartrain.train.declaration_style import with_short_forms
 
+TEMPLATES = ROOT / "geartrain" / "cli" / "templates"
 KINDS = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
 
 

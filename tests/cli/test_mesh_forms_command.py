@@ -14,7 +14,7 @@ import pytest
 from commands import call, without
 from places import DATA
 
-from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
+from geartrain import teeth
 
 PRINTED = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 ROWS = {(row[0], row[1].split(" Q*")[0]): row[2:] for row in PRINTED["performance"]}
@@ -142,14 +142,18 @@ def drawn(figure: Any, panel: int, gid: str) -> Any:
     return np.asarray(line.get_xydata())
 
 
+def form_of(name: str) -> Any:
+    """Return the class of a tooth form."""
+    return getattr(teeth, teeth.TOOTH_FORMS[name])
+
+
 @cache
 def figure() -> Any:
     pytest.importorskip("matplotlib")
     from geartrain.drawing.transmission_curves import shapes_figure
-    from geartrain.teeth.any_tooth_form import tooth_forms
 
     forms = ("involute", "uniform_stress", "uniform_temperature", "least_friction", "cycloidal", "lantern")
-    return shapes_figure({form: tooth_forms()[form].declared({}).path(24, 36) for form in forms})  # type: ignore[attr-defined]
+    return shapes_figure({form: form_of(form).declared({}).path(24, 36) for form in forms})
 
 
 def test_each_panel_draws_what_it_says() -> None:
@@ -196,9 +200,9 @@ def test_a_friction_that_locks_is_part_of_the_verdict() -> None:
     assert "the teeth run" not in done.output
 
 
-@pytest.mark.parametrize("form", [form for form in TOOTH_FORMS if form != "ideal"])
+@pytest.mark.parametrize("form", [form for form in teeth.TOOTH_FORMS if form != "ideal"])
 def test_the_keys_of_a_form_are_those_of_its_declaration(form: str) -> None:
-    model = tooth_form(form)
+    model = form_of(form)
     declared = {*model.model_json_schema()["properties"]} - {"form", "stiffness", "damping"}
     rows = json_rows(call("mesh", "--form", form, "--keys", "-o", "-").output)
     assert {*rows} == declared - (set() if model.any_distance else {"centre_distance"})
@@ -231,20 +235,15 @@ def test_teeth_without_a_path_are_cut_as_finely_as_is_requested_and_the_page_tel
 
 
 def test_a_page_on_teeth_off_their_design_distance_does_not_say_that_they_keep_the_ratio() -> None:
-    from geartrain.report.pair_page import collect_pair, describe_pair
-    from geartrain.teeth import UniformStress
-    from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.train import GearPair
-
-    wheels = MeshingWheels(GearPair(pair=("a", "b")), "", (24, 36), friction=0.05)
-    at_home = UniformStress.declared({}).mesh(wheels, lambda: None)
-    apart = UniformStress.declared({"centre_distance": "30.02"}).mesh(wheels, lambda: None)
-    assert "keep the ratio exactly" in " ".join(describe_pair(at_home).summary)
-    assert "keep the ratio exactly at every instant." not in " ".join(describe_pair(apart).summary)
-    assert collect_pair(at_home).to_dict()["losses_and_stresses"]["one_pair"]["loss"] == pytest.approx(
-        0.109176344569, rel=1e-9
+    requested = ("mesh", 24, 36, "--form", "uniform_stress", "--friction", 0.05)
+    (at_home, data), (apart, off) = (
+        (" ".join(call(*words).output.split()), json.loads(call(*words, "--json").stdout))
+        for words in (requested, (*requested, "-p", "centre_distance=30.02"))
     )
-    assert collect_pair(apart).to_dict()["transmission_error"]["peak_to_peak"] > 1e-6
+    assert "keep the ratio exactly" in at_home
+    assert "keep the ratio exactly at every instant." not in apart
+    assert data["losses_and_stresses"]["one_pair"]["loss"] == pytest.approx(0.109176344569, rel=1e-9)
+    assert off["transmission_error"]["peak_to_peak"] > 1e-6
 
 
 def test_an_option_that_is_no_text_is_read_as_its_form_has_it() -> None:

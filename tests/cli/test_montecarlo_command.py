@@ -16,8 +16,6 @@ from geartrain import GearTrainError, load
 from geartrain.errors import MissingExtraError, QuestionError
 from geartrain.numerics.files import ColumnTable
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
-from geartrain.workshop.monte_carlo.clearance_study import read_clearances
-from geartrain.workshop.monte_carlo.trial_run import trial_tasks
 
 PAIR = """
     name: pair
@@ -57,7 +55,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
     with (here / "t.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert columns["trial"] == list(range(300))
-    assert pyarrow.parquet.ParquetFile(here / "t.parquet").metadata.num_row_groups == len(trial_tasks(300))
+    assert pyarrow.parquet.ParquetFile(here / "t.parquet").metadata.num_row_groups > 1
     for name, column in columns.items():
         assert [float(row[name]) for row in rows] == column
     told = json.loads((here / "t.json").read_text())
@@ -191,12 +189,6 @@ def test_without_its_extra_it_says_which_one(here: Path, monkeypatch: pytest.Mon
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(MissingExtraError, match=r"pip install 'pandas>=2\.2' 'pyarrow>=16'"):
         ColumnTable(here / "t.parquet", {})
-
-
-def test_sweeps_read_as_they_are_written() -> None:
-    assert read_clearances("clearance_factor=1.01:1.03:3") == pytest.approx([1.01, 1.02, 1.03])
-    assert read_clearances("window=0.5:0.5:1") == [0.5]
-    assert len(read_clearances("window=0.1:0.9:9")) == 9
 
 
 def test_a_few_wheels_that_cannot_be_cut_are_left_out_and_said(train_file: Write) -> None:

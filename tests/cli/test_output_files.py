@@ -73,6 +73,7 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("optimise", "-o"): (SIZED_TRAIN, (".md", ".html", ".json", ".yaml")),
     ("optimise", "--plot"): (SIZED_TRAIN, (".svg",)),
     ("inspect bench", "-o"): (("inspect", "bench", "worm"), (".md", ".html", ".json")),
+    ("inspect wheels", "-o"): (("inspect", "wheels", "{measured}"), (".md", ".html", ".json")),
     ("inspect schema", "-o"): (("inspect", "schema"), (".json",)),
     ("mesh triangular", "-o"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".md", ".json")),
     ("mesh triangular", "--plot"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".svg",)),
@@ -127,7 +128,10 @@ def _trains(tmp_path_factory: pytest.TempPathFactory) -> None:
     doubt = RIGHT.replace("expect: 1/2", "targets: [{speed: 1/2, tolerance: 10 %}]")
     hands = RIGHT.replace("z: 40", "z: {teeth: {search: [30, 50]}}")
     loaded = RIGHT + "loads: {c: -1 N m}\n"
-    for name, text in {"doubt": doubt, "hands": hands, "loaded": loaded, "heavy": HEAVY}.items():
+    angles = ", ".join(f"{18 * tooth} deg" for tooth in range(20))
+    measured = RIGHT.replace("x: 20", f"x: {{teeth: 20, cutting: {{measured: {{angles: [{angles}]}}}}}}")
+    texts = {"doubt": doubt, "hands": hands, "loaded": loaded, "heavy": HEAVY, "measured": measured}
+    for name, text in texts.items():
         TRAINS[f"{{{name}}}"] = folder / f"{name}.yaml"
         TRAINS[f"{{{name}}}"].write_text(text, encoding="utf-8")
 

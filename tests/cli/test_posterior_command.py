@@ -122,5 +122,9 @@ def test_an_interrupted_exact_run_prints_a_short_sample_and_keeps_nothing(
     found = json.loads(result.stdout)
     assert (found["ended"], found["method"], found["ranked"]) == ("interrupted", "sample", False)
     assert any("has no partial result" in remark for remark in found["remarks"])
+    assert found["examined"] == 1 << 16
+    assert float(found["evidence"]["low"]) < len(FITS) / 15 < float(found["evidence"]["high"])
     assert "stopped before any work was finished" in result.stderr
+    few = json.loads(call("posterior", train, "--method", "exact", "--samples", "1000", "--json").stdout)
+    assert few["examined"] == 1000, "no more is drawn than was allowed"
     assert not list(train.parent.glob("*.partial.jsonl"))

@@ -75,7 +75,22 @@ teeth orery moon=29.53 | did you mean 'orrery'?
 teeth ratio 1e-29 --stages 1 --range 12:200000 | cannot be approximated
 teeth ratio 1e300 --stages 1 --range 12:200000 | from 1e-30 to 1e30
 
+teeth train planetary-24-18-60 --planets three | --planets:
+teeth train planetary-24-18-60 --planets 3,4 | --planets:
+teeth train planetary-24-18-60 --clearance much | --clearance:
+teeth train planetary-24-18-60 --max-radius '20 deg' | --max-radius:
+teeth train planetary-24-18-60 --planets three --clearance much | --planets: | --clearance:
+
+# reconstruct
+reconstruct back-train --same E4=e3 | give --rank too
+reconstruct back-train --rank price-1974 --same E4 | such as E4=e3
+reconstruct back-train --rank price-1974 --same E44=e3 | 'E44' is not a wheel or an output
+reconstruct back-train --rank vitruvius-hodometer | no wheel of 'b'
+reconstruct front-inferior-planets --rank freeth-2021 | cannot be ranked if arbors turn on a carrier
+
 # dynamics
+dynamics pin.yaml | no input speed is declared
+dynamics moon-triangular --rate 0.3 --turns 1 | sun | c | d | moon | declare `inertia:
 dynamics pin.yaml --rate 0.3 --turns 1 --skip 0 --steps 1000 --no-fast --rate 0 | --rate
 dynamics pin.yaml --rate 0.3 --turns 1 --skip 0 --steps 1000 --no-fast --turns 0 | turns must be above 0
 dynamics pin.yaml --rate 0.3 --turns 1 --skip 0 --steps 1000 --no-fast --turns x | number of turns
@@ -108,6 +123,10 @@ export planetary-24-18-60 --to d --bore '1.5 m' | a bore of 1500 mm cannot be ma
 export planetary-24-18-60 --to d --backlash '1.5 m' | a backlash of 1500 mm cannot be made | why:
 export planetary-24-18-60 --to d --sheet 1x1km | a side of a sheet of 1e+06 mm cannot be made | why:
 export planetary-24-18-60 -o x.stl --thickness two | two
+export watch-going-train --to d --as svg --sheet 300 | --sheet
+export watch-going-train --to d --as svg --sheet 300x200 | --sheet
+export watch-going-train --to d --as svg --sheet ax2mm | --sheet
+export watch-going-train --to d --as svg --sheet 300x200x1mm | --sheet
 
 # view
 view planetary-24-18-60 -o . | folder | why:
@@ -215,6 +234,12 @@ mesh 24 36 --form lantern --form cycloidal | --form | add --compare
 mesh | Z1 Z2 | the tooth counts are missing
 
 # others
+pin 9mm 9mm | through the slot's axis
+pin 1mm 9mm --driver slot | cannot drive
+pin -- 9mm -1mm | an offset of 0 or more
+pin 9mm 8mm --driver slot --friction 2 | locks
+motion moon-triangular --resume --samples 64 | --resume
+torques pin.yaml --turns 1 --samples 20 --trials 5 | declares no random friction
 solve zf-8hp70 --of OOT | no output or link 'OOT' | did you mean 'OUT'?
 solve planetary --state 'ring fixt' | no state 'ring fixt' | did you mean 'ring fixed'?
 inspect equations zf-8hp70 --state 9 | no state '9' | 1, 2, 3, 4, 5, 6, 7, 8, R

@@ -149,8 +149,3 @@ def test_trials_are_the_same_whoever_works(pin: Path) -> None:
     words = ("torques", pin, "--turns", "1", "--samples", "20", "--trials", "12", "--json")
     alone, together = (json.loads(call(*words, *more).stdout)["friction_trials"] for more in ((), ("--workers", "2")))
     assert alone == together
-
-
-def test_trials_need_a_spread(pin: Path) -> None:
-    done = call("torques", pin, "--turns", "1", *SAMPLES, "--trials", "5")
-    assert "declares no random friction" in str(done.exception)

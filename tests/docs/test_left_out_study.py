@@ -14,11 +14,10 @@ from studies.left_out_records import LeftOutRecord, LeftOutRecords
 from studies.left_out_study import fewest_new_arbors, find_trees, left_out
 from studies.measurement import gathered
 
-from geartrain import shipped
+from geartrain import load, shipped
 from geartrain.search.reconstruct import Additions, ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
 from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence, lost_wheels
-from geartrain.train.declaration_files import read_declaration
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
@@ -94,7 +93,7 @@ gears: [a1 ~ b1, b2 ~ c1, c2 ~ d1]
 inputs: {a: 1}
 outputs: {d: {expect: -1/8}}
 """
-    tree = find_spur_tree(read_declaration(text))
+    tree = find_spur_tree(load(text).declaration)
     for lost in (["c"], ["b", "c"], ["d"]):
         row = LeftOutRecord("beside", lost, lost_wheels(tree, lost), [], [], None, False, None)
         problem = evidence_question(lost_evidence(tree, lost)).problem

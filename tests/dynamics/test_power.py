@@ -614,7 +614,8 @@ LARGE = ("numpy", "scipy", "matplotlib", "networkx", "jinja2")
 def test_a_report_without_loads_imports_nothing_of_torques() -> None:
     code = """
 import sys, geartrain
-from geartrain.report import collect_report, describe_train
+from geartrain.report.train_data import collect_report
+from geartrain.report.train_report import describe_train
 train = geartrain.load(sys.argv[1])
 describe_train(collect_report(train)), collect_report(train).to_dict()
 print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)

@@ -440,7 +440,7 @@ def test_the_command_prints_keys_and_verdicts(tmp_path: Path) -> None:
     (data,) = json.loads(call("torques", path, "--json").output)["states"]
     assert set(data) == {
         "state", "verdict", "efficiency", "circulating", "links", "pairs", "power_in", "loss", "drives",
-        "flow", "losses", "watts_per_unit", "held", "neglected", "belt_pulls",
+        "flow", "losses", "bearings", "watts_per_unit", "held", "neglected", "belt_pulls",
     }  # fmt: skip
     assert data["links"]["sun"]["requested"] is True
     assert set(data["pairs"]["s~p"]) == {"driver", "torques", "power", "loss", "shared"}

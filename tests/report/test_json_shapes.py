@@ -22,6 +22,19 @@ TWO_STATES = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}, o
     "{expect: 1/2}", "{}"
 )
 LOADED = RIGHT + "loads: {c: -1 N m}\n"
+HAND = """
+name: hand
+links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 1 mm}}}, b: {wheels: {w: {teeth: 30, module: 1 mm}}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [p ~ w]
+inputs: {a: 1}
+outputs: {b: {}}
+tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
+thickness: 2 mm
+material: ancient-bronze
+loads: {b: 30 N mm}
+drive: {hand: {torque: 100 N mm, range: [50 N mm, 150 N mm]}}
+"""
 FREE = RIGHT.replace("inputs: {a: 1}", "inputs: {}").replace("{expect: 1/2}", "{}")
 LONG = RIGHT.replace("{expect: 1/2}", "{targets: [{speed: 1/2, tolerance: 1 %}]}")
 KINDS = {
@@ -48,7 +61,12 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("geartrain.analysis.accuracy._ENOUGH", 0.0)  # no shape depends on how well it is timed
     monkeypatch.setattr("geartrain.analysis.accuracy._LONG", 0.0)
-    for name, text in {**KINDS, "heavy": HEAVY}.items():
+    for name, off in {"measured": 0.0, "stepped": 0.3}.items():
+        # even angles, and two groups of teeth apart from each other
+        angles = ", ".join(f"{18 * tooth + off * (tooth > 9)} deg" for tooth in range(20))
+        text = RIGHT.replace("x: 20", f"x: {{teeth: 20, cutting: {{measured: {{angles: [{angles}]}}}}}}")
+        (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
+    for name, text in {**KINDS, "heavy": HEAVY, "hand": HAND}.items():
         (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "cube.txt").write_text("a b\nb c\nc d\nd a\ne f\nf g\ng h\nh e\na e\nb f\nc g\nd h\n", encoding="utf-8")
     return tmp_path
@@ -141,12 +159,17 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
         ("budget", "moon-triangular", "--turns", "1", "--cutting", "pitch_deviation=1 %", "--trials", "4"),
     ],
     "montecarlo": [CUT, (*CUT, "--of", "moon"), (*CUT, "--vary", "window=0.2:0.8:2")],
+    "feasibility": [
+        ("feasibility", "moon-triangular", "--trials", "8"),
+        ("feasibility", "hand.yaml", "--trials", "8", "--cutting", "pitch_deviation=6 %", "--accuracy", "0.1:1:2"),
+    ],
     "posterior": [
         DOUBT,
         (*DOUBT, "--gaussian"),
         (*DOUBT, "--method", "sample", "--samples", "500"),
         (*DOUBT, "--scale", "0"),
     ],
+    "inspect wheels": [("inspect", "wheels", "measured.yaml"), ("inspect", "wheels", "stepped.yaml")],
     "inspect bench": [
         ("inspect", "bench", "moon-triangular", "--samples", "50"),
         ("inspect", "bench", "lantern-mill", "--samples", "50"),

@@ -220,6 +220,10 @@ RESULTS: dict[str, Case] = {
         ("montecarlo", "moon-triangular", "--trials", "4", "--cutting", "pitch_deviation=2 %"),
     ),
     "friction trials": (friction_trials, None),
+    "feasibility": (
+        lambda: room("workshop").run_feasibility(room("workshop").find_feasibility_plan(load("moon-triangular")), 4),
+        ("feasibility", "moon-triangular", "--trials", "4"),
+    ),
     "budget": (
         budget,
         ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--of", "moon"),

@@ -449,21 +449,3 @@ def test_the_command_reads_what_is_requested_from_texts(planets: Any, tmp_path: 
     rules = [[*part.rules] for part in search_train(load(PLANETS).declaration, rules=options).parts]
     assert sum(map(len, rules)) > 4
     assert [part["rules"] for part in json.loads(found.stdout)["parts"]] == rules
-
-
-@pytest.mark.parametrize(
-    "texts",
-    [
-        {"planets": "three"},
-        {"planets": "3,4"},
-        {"clearance": "much"},
-        {"max-radius": "20 deg"},
-        {"planets": "three", "clearance": "much"},
-    ],
-)
-def test_what_cannot_be_read_is_refused_with_advice(texts: dict[str, str]) -> None:
-    given = (f"--{name}={text}" for name, text in texts.items())
-    found = call("teeth", "train", "planetary-24-18-60", *given)
-    problems = str(found.exception).split("\n--")
-    assert len(problems) == len(texts)
-    assert all(f"{name}: " in problem and "fix: " in problem for name, problem in zip(texts, problems, strict=True))

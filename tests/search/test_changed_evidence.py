@@ -108,12 +108,6 @@ def test_what_each_fact_of_the_back_train_carries() -> None:
     assert found["without the fact that the arbor of metonic is lost"] == (0, 0, 4)
 
 
-def test_what_cannot_be_requested_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
-    one, *_ = answered(TOY).findings.assumptions
-    assert (one.solutions, one.refused, one.fewest, one.total) == ((), "not today", None, 0)
-
-
 NOTHING = ReconstructionProblem(
     sure_arbor("in", i=20),
     (sure_arbor("a", a1=31),),
@@ -155,14 +149,6 @@ def test_a_misread_count_of_the_back_train_is_found() -> None:
     found = missing(read_evidence(text.replace("e3: {teeth: 223", "e3: {teeth: 224")))
     assert [(one.change, one.solutions) for one in found.uncertainties] == [("if e3 has 223 teeth", (0, 0, 4))]
     assert dials(found) == [("metonic", 1, None), ("saros", 2, None)]
-
-
-def test_a_search_that_refuses_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
-    found = missing(NOTHING)
-    assert dials(found) == [("p", None, "not today"), ("q", None, "not today")]
-    assert found.uncertainties == ()
-    assert len(found.refused) == found.requested
 
 
 def test_the_page_tells_why_nothing_fits(monkeypatch: pytest.MonkeyPatch) -> None:

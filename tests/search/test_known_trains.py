@@ -25,7 +25,7 @@ from geartrain.search.reconstruct import (
     read_evidence,
     reconstruct,
 )
-from geartrain.search.reconstruct.candidate_rules import broken_rules, find_known_train
+from geartrain.search.reconstruct.candidate_rules import broken_rules
 from geartrain.train import Train, declare
 
 
@@ -116,32 +116,12 @@ def test_a_place_is_that_among_all_trains_of_plain_growth() -> None:
 PRICE = {"E4": "e3", "E3": "e4", "G2": "g1", "E2i": "e2", "four years": "metonic"}
 
 
-def sure_back() -> ReconstructionProblem:
-    return evidence_question(read_evidence("back-wheels-sure"), 3).problem
-
-
 def ranked(
     train: Train, same: Mapping[str, str] | None = None, name: str = "back-wheels-sure", **options: Any
 ) -> ReconstructionAnswer:
     """Answer in which the train is the known one; no other is listed."""
     request = {"wheels": 3, "counts_only": True} | options
     return reconstruct(ReconstructionRequest(read_evidence(name), known=(train,), same=same or {}, **request))
-
-
-def test_the_train_of_2008_is_one_of_21() -> None:
-    (found,) = ranked(load("freeth-2008").declaration).known
-    assert found.wheels == {"m3": 27, "n1": 53, "nO": 57}
-    assert (found.arbors, found.broken) == (1, ())
-    assert found.place is not None
-    assert (found.place.ranks, found.place.trains, found.place.dearer) == ((1, 21), 21, 1)
-    assert not found.telling, "none of 21 is listed"
-
-
-def test_the_train_of_2006_has_another_dial_on_o() -> None:
-    (found,) = ranked(load("freeth-2006").declaration).known
-    (speed,) = found.broken
-    assert (speed.rule, speed.subject, speed.change) == ("speed", ("games",), "if games turns at -1/76")
-    assert found.place is None
 
 
 def test_prices_train_breaks_many_rules() -> None:
@@ -160,20 +140,15 @@ def test_prices_train_breaks_many_rules() -> None:
 
 
 def test_names_are_found_whatever_their_capitals_unless_told_otherwise() -> None:
-    problem, train = sure_back(), load("price-1974").declaration
-    told = find_known_train(train, problem, PRICE).arbor
-    assert {wheel.name for wheel in told.wheels()} > {"b2", "l1", "l2", "m1", "m2", "c1", "d2", "e2"}
-    plain = {wheel.name for wheel in find_known_train(train, problem).arbor.wheels()}
-    assert "e2" not in plain
-    with pytest.raises(GearTrainError, match="is not a wheel or an output"):
-        ranked(train, {"E44": "e3"})
+    train = load("price-1974").declaration
+    added, plain = (ranked(train, same).known[0].wheels for same in (PRICE, None))
+    assert not {"b2", "l1", "l2", "m1", "m2", "c1", "d2", "E2i"} & {*added}
+    assert "E2i" in plain
     with pytest.raises(GearTrainError, match="is not a wheel or a dial"):
         ranked(train, {"E4": "e33"})
 
 
-def test_a_train_without_the_input_or_with_a_loop_is_refused() -> None:
-    with pytest.raises(GearTrainError, match="no wheel of 'b'"):
-        ranked(load("vitruvius-hodometer").declaration)
+def test_a_train_with_a_loop_is_refused() -> None:
     looped = declare(
         {
             "name": "loop",
@@ -208,9 +183,8 @@ def test_wheels_that_are_on_other_arbors_are_not_taken_for_those_that_survive() 
             "inputs": {"b": 1},
         }
     )
-    known = find_known_train(parted, sure_back())
+    (known,) = ranked(parted).known
     assert known.notes == ("c2 is not fixed to the other wheels of c, and is therefore not identified with c2",)
-    assert concrete(known.arbor) == ("b", (), (), ())
 
 
 # what singles a train out

@@ -537,16 +537,6 @@ def test_a_solution_is_written_down_as_a_change_of_its_train(tmp_path: Path) -> 
     assert all(result.holds for result in child.solve().outputs.values())
 
 
-def test_findings_are_plain_data_for_json() -> None:
-    found = find(two_outputs())
-    plain = json.loads(json.dumps(found.to_dict()))
-    assert plain["count"] == found.count
-    assert plain["complete"] is True
-    assert plain["parts"][0]["solutions"][0]["teeth"] == dict(found.solutions[0].teeth)
-    (standing,) = found.standing(found.solutions[0].teeth)
-    assert json.loads(json.dumps(standing.to_dict()))["rank"] == 1
-
-
 # ---------------------------------------------------------------------------------------------------------- real trains
 
 

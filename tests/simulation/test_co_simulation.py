@@ -20,10 +20,10 @@ import fmpy
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
-from geartrain import load, shipped
+from geartrain import load
 from geartrain.errors import GearTrainError
 from geartrain.simulation import CoSimulationCase, fmu_file
-from geartrain.train.declaration_files import read_declaration, write_declaration
+from geartrain.train.declaration_files import write_declaration
 
 TRAIN, STEP = "moon-triangular-inertia", 2.5e-4
 
@@ -59,9 +59,10 @@ def test_the_description_is_valid_and_names_what_goes_in_and_comes_out(unit: Pat
 
 
 def test_it_moves_as_the_train_does_here(unit: Path) -> None:
-    run = load(TRAIN).dynamics(rate=tau, turns=0.1, skip=0, steps=2000, restitution=0.3, fast=False)
+    run = load(TRAIN).dynamics(rate=tau, turns=0.03, skip=0, steps=2000, restitution=0.3, fast=False)
     assert run.step == STEP
-    found = fmpy.simulate_fmu(str(unit), stop_time=0.1, output_interval=2 * STEP, start_values={"drive.speed": tau})
+    assert run.impacts.total > 0
+    found = fmpy.simulate_fmu(str(unit), stop_time=0.03, output_interval=2 * STEP, start_values={"drive.speed": tau})
     assert found["time"][1:] == pytest.approx(run.time)
     assert np.array_equal(found["angles.moon"][1:], run.angles["moon"])
     assert np.array_equal(found["speeds.moon"][1:], run.speeds["moon"])
@@ -143,8 +144,8 @@ def test_the_same_train_is_the_same_file_and_holds_no_way_back_to_this_machine(u
 
 def test_a_declaration_written_out_is_read_back_as_it_was() -> None:
     names = ("moon-triangular-inertia", "freeth-2008-doubt", "bevel-differential", "longcase-clock-bs978")
-    for own in (read_declaration(shipped()[name]) for name in names):
-        again = read_declaration(write_declaration(own))
+    for own in (load(name).declaration for name in names):
+        again = load(write_declaration(own)).declaration
         for field in type(own).model_fields.keys() - {"extends", "remove"}:
             assert getattr(again, field) == getattr(own, field), field
 

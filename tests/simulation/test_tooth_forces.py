@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan, cos, radians, sin, sqrt, tan
+from math import atan, cos, hypot, radians, sin, sqrt, tan
 from typing import Any
 
 import numpy as np
@@ -119,18 +119,43 @@ def test_the_helical_pinion_of_shigleys_example_13_7() -> None:
 @pytest.mark.parametrize("loss", [", tooth_form: {form: involute}, friction: 0.15", ", efficiency: 0.8"])
 @pytest.mark.parametrize("load", ["a: 2 N m", "b: 1 N m"])
 def test_wheels_push_each_other_alike_whatever_friction_takes(loss: str, load: str) -> None:
-    """The force along the pitch circles is that of the wheel whose torque over its radius is the greater."""
+    """The force along the pitch circles is between the torques over the radii of both wheels."""
     lean = "module: 2 mm, helix_angle: 25 deg, hand:"
     found = forces(f"teeth: 20, {lean} left", f"teeth: 35, {lean} right", "", loss, load)
     balance(found, (UP, UP), ((1, 0, 0), (-1, 0, 0)))
     given, at = (2e3, 0) if load.startswith("a") else (1e3, 1)
     # the wheel whose torque is given is the driven one: its driver's torque over the radius is greater
     assert abs(found[at].tangential) > 1.005 * given / found[at].radius
+    # the moments of one force and its opposite about both axes differ by force times centre distance
+    moments = sum(1e3 * abs(each.torque) for each in found)
+    assert moments == pytest.approx(abs(found[0].tangential) * sum(each.radius for each in found), rel=1e-12)
     axes = "A: {direction: [1, 0, 0]}, B: {direction: [0, 0, 1]}"
     wheel = "kind: bevel, module: 2 mm"
     one, other = forces(f"teeth: 20, {wheel}", f"teeth: 40, {wheel}", axes, loss, load)
     assert abs(one.tangential) == pytest.approx(abs(other.tangential))
     assert (one.axial, one.radial) == pytest.approx((other.radial, other.axial))
+    # axes along x and y, the pitch line of 20:40 between them: the moment of the force about the apex has the torques
+    # as components along the axes, and its component across the pitch line is tangential force times distance
+    moment = np.array([1e3 * abs(one.torque), -1e3 * abs(other.torque)])
+    pitch_line = np.array([40, 20]) / np.hypot(20, 40)
+    across = moment[0] * pitch_line[1] - moment[1] * pitch_line[0]
+    assert across == pytest.approx(abs(one.tangential) * hypot(one.radius, other.radius), rel=1e-12)
+
+
+def test_a_ring_and_its_wheel_push_each_other_with_the_difference_of_their_torques() -> None:
+    train = geartrain.load(
+        """
+extends: planetary-24-18-60
+links:
+  frame: {wheels: {ring: {teeth: 60, internal: true, module: 1 mm}}}
+  planet: {wheels: {p: {teeth: 18, module: 1 mm}}}
+gears: [{pair: [s, p]}, {pair: [p, ring], efficiency: 0.9}]
+loads: {carrier: -1 N m}
+"""
+    )
+    wheel, ring = (each for each in train.strength().forces if each.pair == "p~ring")
+    assert 1e3 * (abs(ring.torque) - abs(wheel.torque)) == pytest.approx(21 * abs(wheel.tangential), rel=1e-12)
+    assert abs(ring.tangential) == pytest.approx(abs(wheel.tangential), rel=1e-15)
 
 
 def triangles(angle: str, clearance: float) -> geartrain.GearTrain:

@@ -7,14 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from commands import call
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
-from geartrain.report import to_markdown
 from geartrain.simulation import TimeRun, find_separation
-from geartrain.simulation.steps.simulation import StepPlan, simulate
-from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
-from geartrain.simulation.time.train_in_time import model_in_time
 
 GRAVITY = 9.80665  # m/s2
 INERTIA = {"sun": 3e-5, "c": 5e-6, "d": 8e-6, "moon": 2e-6}
@@ -209,13 +206,11 @@ def test_figures_of_a_part_of_a_turn_have_no_interval() -> None:
 
 def test_a_figure_that_depends_on_the_step_is_named_with_its_error_and_the_steps_to_ask_for() -> None:
     # a pitch is passed within one step, so that what is taken for the speed of its blow doubles with half the step
-    train = load("longcase-clock")
-    run = train.dynamics(turns=1 / 360, skip=0, steps=30_000, fast=False)
-    page = to_markdown([describe_time_run(collect_time_report(train, run))])
+    requested = ("dynamics", "longcase-clock", "--turns", 1 / 360, "--skip", 0, "--no-fast", "-o", "-")
+    page = call(*requested, "--steps", 30_000).stdout
     assert "NOT CONVERGED: escape hardest impact." in page
     assert "at most 50 % (escape hardest impact): `--steps 1500000` reduces it to 1 %" in page
-    run = train.dynamics(turns=1 / 360, skip=0, fast=False)
-    assert "NOT CONVERGED" not in to_markdown([describe_time_run(collect_time_report(train, run))])
+    assert "NOT CONVERGED" not in call(*requested).stdout
 
 
 @pytest.mark.slow
@@ -275,10 +270,9 @@ def test_a_planetary_set_speeds_up_as_its_reduced_inertia_says() -> None:
 def test_below_the_rate_of_separation_impacts_that_come_together_part_no_flanks() -> None:
     # after 5.1275 turns corners of two pairs pass within two steps, and the second is moved on by the blow at the first
     train, rate = load("moon-triangular-inertia"), 0.95 * 0.4808275
-    model = model_in_time(train.mechanics, None, (), tau * rate, 0.0).model
-    for steps in range(12_000, 24_000, 900):
-        plan = StepPlan(1 / rate / steps, round(5.125 * steps), round(0.004 * steps), 1)
-        assert (simulate(model, plan, fast=True).forces[plan.skip :] > 0).all()
+    for steps in range(12_000, 24_000, 1800):  # figures are computed with half the step too
+        run = train.dynamics(rate=f"{rate} turn/s", turns=0.004, skip=5.125, steps=steps, restitution=0, fast=True)
+        assert (run.torques.values[:, run.time > run.skip] > 0).all()
 
 
 WEIGHT_ON_TEETH = """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -26,7 +27,11 @@ def schema() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("text", TEXTS)
-def test_every_example_loads_and_meets_its_expectations(text: str) -> None:
+def test_every_example_loads_and_meets_its_expectations(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "wheel.csv").write_text("tooth,angle\n" + "".join(f"{n},{60 * n}\n" for n in range(6)))
     if "reconstruct:" in text:
         assert read_evidence(f"{text}\n").reconstruct is not None
     else:

@@ -17,7 +17,7 @@ from matplotlib.textpath import TextPath
 
 from geartrain import load
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.workshop.export.file_set import export_files, wheel_file
+from geartrain.workshop import export_files, wheel_file
 
 SVG = "{http://www.w3.org/2000/svg}"
 HELICAL = """

@@ -104,13 +104,6 @@ def test_sheets_hold_every_flat_part_at_its_compensated_size(tmp_path: Path) -> 
     assert sum(loops) == sum(count * often for count, often in zip(single, times, strict=True))
 
 
-@pytest.mark.parametrize("text", ["300", "300x200", "ax2mm", "300x200x1mm"])
-def test_a_sheet_that_is_none_is_refused(text: str, tmp_path: Path) -> None:
-    done = call("export", "watch-going-train", "--to", tmp_path / "set", "--as", "svg", "--sheet", text)
-    assert isinstance(done.exception, GearTrainError)
-    assert "--sheet" in str(done.exception)
-
-
 def test_wheels_without_a_thickness_are_of_one_stock() -> None:
     """Two and a half modules of most wheels, as sheets are sold: 21 modules would ask for as many sheets."""
     for name, stock in (("freeth-2008", 1.2), ("longcase-clock-cycloidal", 2.5)):

@@ -19,9 +19,7 @@ from shipped import train as load
 import geartrain
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.workshop import train_file
-from geartrain.workshop.rexs.unit_export import omitted_parts
-from geartrain.workshop.rexs.unit_import import declaration_of
+from geartrain.workshop import notices, train_file
 
 # ------------------------------------------------------------------------------------- what version 1.4 allows
 
@@ -199,10 +197,10 @@ def test_a_loaded_set_has_its_torques_and_the_flanks_of_its_gears() -> None:
 
 
 def test_parts_that_rexs_cannot_represent_are_named() -> None:
-    named = {name: " ".join(each.what for each in omitted_parts(solid(load(name)))) for name in OMITTED}
+    named = {name: " ".join(each.what for each in notices(solid(load(name)), ["rexs"])) for name in OMITTED}
     for name, expected in OMITTED.items():
         assert expected in named[name]
-    assert not [*omitted_parts(solid(load("planetary-24-18-60")))]
+    assert not notices(solid(load("planetary-24-18-60")), ["rexs"])
     jack = [part["name"] for part in parts(rexs("screw-jack")) if "rotational_speed" in values(part)]
     assert jack == ["screw"], "the travel of the ram is not a speed of rotation"
 
@@ -240,6 +238,14 @@ def written(train: GearTrain, folder: Path, suffix: str = ".rexsj") -> Path:
     return path
 
 
+def unit(path: Path) -> GearTrain:
+    """Return the train that `init` reads from a file."""
+    done = call("init", "--from", path, "-o", "-")
+    if done.exception is not None:
+        raise done.exception
+    return geartrain.load(done.stdout)
+
+
 def assert_same_speeds(train: GearTrain, read: GearTrain) -> None:
     """Every link of the read train has its speed in the written one; speeds are in turns per minute in the file."""
     states = train.states or (None,)
@@ -275,8 +281,7 @@ PLANETARY = [
 @pytest.mark.parametrize("name", PLANETARY)
 def test_a_planetary_is_read_with_the_same_speeds_in_every_state(name: str, tmp_path: Path) -> None:
     train = load(name)
-    texts = {suffix: declaration_of(written(train, tmp_path, suffix))[0] for suffix in (".rexsj", ".rexs")}
-    read = {suffix: geartrain.load(text) for suffix, text in texts.items()}
+    read = {suffix: unit(written(train, tmp_path, suffix)) for suffix in (".rexsj", ".rexs")}
     assert read[".rexsj"].declaration.model_dump() == read[".rexs"].declaration.model_dump()
     assert_same_speeds(train, read[".rexsj"])
 
@@ -289,12 +294,12 @@ def test_every_train_is_read_with_the_same_speeds_or_what_is_missing_is_named(na
     ways = {(0.0, 0.0, 1.0), *(axis.way for axis in train.declaration.axes.values())}
     if kinds & {"bevel", "worm", "contrate"} or len(ways) > 1:
         with pytest.raises(GearTrainError, match=r"stage is not read|not parallel") as found:
-            declaration_of(path)
+            unit(path)
         assert all(each.why and each.fix for each in found.value.problems)
     elif train.declaration.couplings:
-        assert [each for each in omitted_parts(solid(train)) if "coupling" in each.what]
+        assert [each for each in notices(solid(train), ["rexs"]) if "coupling" in each.what]
     else:
-        assert_same_speeds(train, geartrain.load(declaration_of(path)[0]))
+        assert_same_speeds(train, unit(path))
 
 
 def test_sizes_loads_teeth_and_copies_are_read_with_their_units(tmp_path: Path) -> None:
@@ -302,7 +307,7 @@ def test_sizes_loads_teeth_and_copies_are_read_with_their_units(tmp_path: Path) 
         "face_width: 50 mm}", "face_width: 50 mm, helix_angle: 12 deg, hand: left}"
     )
     train = geartrain.load(helical + "loads: {sun: 10 N m}\ntooth_form: {form: involute, pressure_angle: 25 deg}\n")
-    read = geartrain.load(declaration_of(written(train, tmp_path))[0]).declaration
+    read = unit(written(train, tmp_path)).declaration
     wheels: dict[str, Any] = {name: wheel for name, (_, wheel) in read.wheels.items()}
     form: Any = read.tooth_form
     assert {name: wheel.count for name, wheel in wheels.items()} == {"g17": 17, "g61": 61, "g22": 22}
@@ -322,7 +327,7 @@ def test_sizes_loads_teeth_and_copies_are_read_with_their_units(tmp_path: Path) 
 
 
 def test_clutches_and_gears_are_states(tmp_path: Path) -> None:
-    read = geartrain.load(declaration_of(written(load("ravigneaux-set"), tmp_path))[0]).declaration
+    read = unit(written(load("ravigneaux-set"), tmp_path)).declaration
     assert {name: each.fixes or each.locks for name, each in read.clutches.items()} == {
         **{"K1": ("IN", "SMALL"), "K2": ("IN", "LARGE"), "K3": ("IN", "CARRIER")},
         **{"B1": "LARGE", "B2": "CARRIER"},
@@ -338,7 +343,7 @@ def test_gears_of_a_unit_without_load_cases_are_states(tmp_path: Path) -> None:
     model = json.loads(path.read_text(encoding="utf-8"))
     del model["model"]["load_spectrum"]
     path.write_text(json.dumps(model), encoding="utf-8")
-    engaged = [{*state.engaged} for state in geartrain.load(declaration_of(path)[0]).declaration.states.values()]
+    engaged = [{*state.engaged} for state in unit(path).declaration.states.values()]
     assert engaged == [{"K1", "B2"}, {"K1", "B1"}, {"K1", "K3"}, {"K3", "B1"}, {"K2", "B2"}]
 
 
@@ -424,19 +429,19 @@ def old_file(folder: Path, changes: dict[str, str] | None = None, related: list[
 
 
 def test_a_planetary_of_another_program_is_read(tmp_path: Path) -> None:
-    text, notes = declaration_of(old_file(tmp_path))
-    read = geartrain.load(text)
+    done = call("init", "--from", old_file(tmp_path), "-o", "-")
+    read = geartrain.load(done.stdout)
     assert {link: str(speed) for link, speed in read.solve().speeds.items()} == {
         **{"Casing": "0", "Arm": "4250/13", "Sun": "1500", "Ring": "0", "Planet": "-6375/11"},
     }
     assert read.declaration.links["Planet"].copies == 2
     assert read.torques().external["Arm"] == Fraction(-3183, 2) * Fraction(78, 17)
-    assert "Not read: 1 material." in notes
-    assert "# Read from old.rexs (Program, REXS 1.1)." in text
+    assert "note: Not read: 1 material." in done.stderr
+    assert "# Read from old.rexs (Program, REXS 1.1)." in done.stdout
 
 
 def test_planets_that_are_not_evenly_spaced_stay_separate(tmp_path: Path) -> None:
-    read = geartrain.load(declaration_of(old_file(tmp_path, {"<c>-78</c>": "<c>70</c>"}))[0])
+    read = unit(old_file(tmp_path, {"<c>-78</c>": "<c>70</c>"}))
     assert [link for link in read.declaration.links if link.startswith("Planet")] == ["Planet", "Planet 17"]
     assert read.solve()["Arm"] == Fraction(4250, 13)
 
@@ -445,7 +450,7 @@ def test_an_archive_is_read(tmp_path: Path) -> None:
     old_file(tmp_path)
     with ZipFile(tmp_path / "old.rexsz", "w") as archive:
         archive.write(tmp_path / "old.rexs", "rexs-model.rexs")
-    assert geartrain.load(declaration_of(tmp_path / "old.rexsz")[0]).solve()["Arm"] == Fraction(4250, 13)
+    assert unit(tmp_path / "old.rexsz").solve()["Arm"] == Fraction(4250, 13)
 
 
 def helical(reverse: bool, folder: Path) -> Path:
@@ -507,7 +512,7 @@ def helical(reverse: bool, folder: Path) -> Path:
 def test_load_cases_are_states_and_speeds_are_about_the_u_axis_of_a_shaft(
     reverse: bool, last: int, tmp_path: Path
 ) -> None:
-    read = geartrain.load(declaration_of(helical(reverse, tmp_path))[0])
+    read = unit(helical(reverse, tmp_path))
     # 600 (20/60) (25/50) about the axis of the first shaft, whichever way the u-axis of the last one points
     assert read.solve("1")["Shaft 14"] == 100
     assert read.solve("2")["Shaft 14"] == 50
@@ -515,7 +520,7 @@ def test_load_cases_are_states_and_speeds_are_about_the_u_axis_of_a_shaft(
         "5 N m",
         "7.5 N m",
     ]
-    again = geartrain.load(declaration_of(with_input_at_last(reverse, tmp_path, last))[0])
+    again = unit(with_input_at_last(reverse, tmp_path, last))
     assert again.solve("1")["Shaft"] == 600
 
 
@@ -561,10 +566,10 @@ def test_what_cannot_be_read_is_named(changes: dict[str, str], lost: str, said: 
     path = old_file(tmp_path, changes, [each for each in RELATED if each != lost])
     if not said:
         # the carrier is known from its parts as well
-        assert geartrain.load(declaration_of(path)[0]).solve()["Arm"] == Fraction(4250, 13)
+        assert unit(path).solve()["Arm"] == Fraction(4250, 13)
         return
     with pytest.raises(GearTrainError) as found:
-        declaration_of(path)
+        unit(path)
     assert any(said in f"{each.what} {each.why}" for each in found.value.problems)
     assert all(each.place and each.why and each.fix for each in found.value.problems)
 

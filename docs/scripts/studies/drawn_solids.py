@@ -236,7 +236,8 @@ def opened(browser: Browser, scene: Scene) -> Iterator[DrawnTeeth]:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "page.html"
         path.write_text(page([scene]), encoding="utf-8")
-        sheet = browser.new_page(viewport={"width": 320, "height": 240})
+        # a page in motion is drawn without end, by this processor
+        sheet = browser.new_page(viewport={"width": 320, "height": 240}, reduced_motion="reduce")
         sheet.set_default_timeout(PATIENCE)
         try:
             sheet.goto(path.as_uri())

@@ -529,9 +529,17 @@ class Motion(Shown):
         """Run with the default options of `geartrain motion`, which `print` shows."""
         return self.run()
 
-    def _of(self, outputs: Sequence[str]) -> Motion:
+    def _with_transmissions(self, transmissions: Mapping[str, Any]) -> Motion:
+        """Return the motion with other transmission functions of some pairs, by name."""
+        meshes = dict(self._problem.meshes)
+        meshes |= {name: replace(meshes[name], transmission=each) for name, each in transmissions.items()}
+        motion = self._of(tuple(self.outputs), replace(self._problem, meshes=meshes))
+        motion._shown = self._shown
+        return motion
+
+    def _of(self, outputs: Sequence[str], problem: MotionProblem | None = None) -> Motion:
         shown = {name: self.outputs[name] for name in outputs}
-        motion = Motion(self._problem, shown)
+        motion = Motion(problem or self._problem, shown)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
         return motion
 
@@ -577,7 +585,7 @@ class Motion(Shown):
         Parameters
         ----------
         *outputs : str
-            Names of the outputs to draw, by default all.
+            Names of the outputs to draw; by default all outputs.
         turns : float
             Revolutions of the input, from position 0.
         samples : int

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.flow_patterns import solve_block
 from geartrain.dynamics.torques.torque_analysis import build_balance, find_idle_pairs, find_torques, power_inputs
+from geartrain.dynamics.torques.torque_balance import equal_planets
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.numerics.elimination import LinearForm
 from geartrain.teeth.meshing_wheels import MeshDriver
@@ -251,7 +252,7 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
     """Return the directions of power in every pair for any combination of loads with positive factors."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting) if loads else ():
-        like = _equal_planets(build_balance(setting, {}, requested))
+        like = equal_planets(build_balance(setting, {}, requested))
         spread = {name: _spread(each, like) for name, each in loads.items()}
         loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
         # equal planets remain equal under equal loads; the numbers only distinguish the loaded links
@@ -273,19 +274,6 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
         yield links
     else:
         yield from ((links[0], *rest) for rest in combinations(links[1:], len(inputs) - 1))
-
-
-def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
-    """Return for each planet the planets that are equal to it, including itself."""
-    ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
-    found: dict[str, tuple[str, ...]] = {}
-    for group in balance.ties:
-        common = set.intersection(*(set(ends[name]) for name in group))
-        if not common:  # of two kinds of planets, which mesh with each other
-            continue
-        planets = tuple(sorted(link for name in group for link in ends[name] if link not in common))
-        found |= dict.fromkeys(planets, planets)
-    return found
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:

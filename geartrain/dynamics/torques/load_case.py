@@ -6,7 +6,7 @@ with the constraints. The condition does not contain speeds, so a torque may be 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -234,23 +234,40 @@ class LoadCase:
         """Return the speed of a circuit's first link relative to its carrier; at 0 no power flows through the pair."""
         return self._difference(circuit.i, circuit.subtracted[0])
 
-    @cached_property
-    def bearings(self) -> tuple[BearingTorque, ...]:
-        """Friction torque of every bearing with friction, against the rotation of its link: equation (10). It includes
-        the mean torque of jumpers on the link.
+    def bearings(self, loaded: Mapping[str, tuple[float, float]], steady: bool = True) -> tuple[BearingTorque, ...]:
+        """Return the friction torque of every bearing with friction, against the rotation of its link: equation (10).
+        It includes the mean torque of jumpers on the link.
 
         The torque is 0 if the speed in the joint is 0 or undetermined.
+
+        loaded   friction torque that depends on the load, and the load, by link
+        steady   False to omit friction that does not depend on the load
         """
+        own = {(link, self.tree.borne_by(link)): Fraction(torque) for link, (torque, _) in loaded.items()}
         found = []
-        for (link, carrier), friction in self._rubbing.items():
+        for link, carrier in {**(self._rubbing if steady else {}), **own}:
+            friction = own.get((link, carrier), Fraction(0)) + (self._rubbing.get((link, carrier), 0) if steady else 0)
+            ends = {end: friction * torque for end, torque in self.friction_senses(link, carrier)}
             relative = self.relative(link, carrier) or Fraction(0)
-            # Coulomb friction has the sign of the relative speed
-            torque = friction * ((relative > 0) - (relative < 0))
-            reaction = Fraction(0) if carrier == self.train.frame else self.sense(carrier) * torque
-            found.append(BearingTorque(link, carrier, -self.sense(link) * torque, reaction, torque * relative))
+            torque, reaction = (ends.get(end, Fraction(0)) for end in (link, carrier))
+            load = loaded[link][1] if (link, carrier) in own else None
+            found.append(BearingTorque(link, carrier, torque, reaction, friction * abs(relative), load))
         return tuple(found)
 
-    @property
+    def friction_senses(self, link: str, carrier: str | None = None) -> Iterator[tuple[str, int]]:
+        """Yield the torque on a link, and on the link that carries it unless that is the frame, of a unit friction
+        torque in the bearing between them, each about its own axis.
+
+        Friction has the sign opposed to the relative speed (Coulomb friction).
+        """
+        carrier = self.tree.borne_by(link) if carrier is None else carrier
+        relative = self.relative(link, carrier) or Fraction(0)
+        way = (relative > 0) - (relative < 0)
+        yield link, -self.sense(link) * way
+        if carrier != self.train.frame:
+            yield carrier, self.sense(carrier) * way
+
+    @cached_property
     def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
         """Friction torques above 0 that do not depend on the load, by the link and the link that carries it."""
         own = (

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
 from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
 
 _NO_FORM = (
     "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
@@ -26,12 +30,16 @@ def find_neglected_effects(
     neither: Sequence[str],
     idle: Sequence[str],
     bearings: bool,
+    loads: BearingLoads | None = None,
+    loose: Sequence[str] = (),
 ) -> tuple[NeglectedEffect, ...]:
     """Return all effects that the mean torques of one load case neglect.
 
     neither   pairs neither of whose torques is constant over a revolution
     idle      pairs without torque, which have no losses
-    bearings  False if friction of bearings was not requested
+    bearings  False if constant friction of bearings was not requested
+    loads     loads of the bearings whose friction depends on them
+    loose     pairs with undetermined torque
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
@@ -44,7 +52,25 @@ def find_neglected_effects(
             "the value for a constant load torque is used, or for a constant driving torque where loads drive"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
+    found += [] if loads is None else unknown_forces(loads, idle, loose)
     return (*found, *_drag(setting), *_variation(setting, busy), *_inertia(setting))
+
+
+def unknown_forces(
+    loads: BearingLoads, idle: Sequence[str] = (), loose: Sequence[str] = ()
+) -> Iterator[NeglectedEffect]:
+    """Yield the pairs and links whose forces on bearings are unknown, and the weights that move."""
+    for why, names in loads.missing.items():
+        if busy := tuple(name for name in names if name not in set(idle)):
+            yield NeglectedEffect("forces on bearings", busy, why)
+    if shared := tuple(force.name for force in loads.forces if force.name in set(loose)):
+        yield NeglectedEffect("forces on bearings", shared, "their shares of the load are not determined")
+    if light := tuple(link for link, mass in loads.masses.items() if mass is None):
+        yield NeglectedEffect("weight on bearings", light, "the `mass` of these links is not declared")
+    moving = (link for link, mass in loads.masses.items() if mass)
+    if lifted := tuple(link for link in moving if loads.setting.bearer(link) != loads.setting.train.frame):
+        why = "they press on bearings, but the torques that lift them with their carriers are not included"
+        yield NeglectedEffect("moments of weights", lifted, why)
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:

@@ -159,7 +159,7 @@ class _Decision:
 
     def _contradictory(self) -> ClutchPattern:
         """Return a pattern with contradictory speeds, if possible one that is reached by stopping the clutches that
-        would turn the wrong way.
+        would turn in the wrong sense.
         """
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:

@@ -9,17 +9,28 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies, balancing_torque, unbalanced_motions
 from geartrain.dynamics.torques.torque_balance import LoadedPair, LoadShares, TorqueBalance, generic_balance, idle_pairs
-from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
+from geartrain.dynamics.torques.torque_results import (
+    BearingTorque,
+    HoldingTorque,
+    NeglectedEffect,
+    PairTorque,
+    Torques,
+    TorqueVerdict,
+)
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import decimal
 from geartrain.numerics.quantity import TRAVEL_ARM
 from geartrain.train import Train
 
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
+
+_MOST_ROUNDS = 8  # maximum changes of the pattern of power flow by the friction of loaded bearings
 _GREAT = 10**12  # lambda of section 6: factor of the load that makes constant friction negligible
 
 
@@ -38,6 +49,12 @@ class LoadedBalance:
     """
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
+    bearings: tuple[BearingTorque, ...] = ()
+    """Friction torques of the bearings; `bearing_friction` is their sum by link, without the friction that depends on
+    the load.
+    """
+    bearing_loads: BearingLoads | None = None
+    """Loads of the bearings whose friction depends on them; None if there are none."""
 
     @property
     def names(self) -> str:
@@ -56,8 +73,38 @@ class LoadedBalance:
 
     @property
     def has_friction(self) -> bool:
-        """True if both a load and friction of bearings act."""
-        return any(self.loads.values()) and any(self.bearing_friction.values())
+        """True if both a load and friction of bearings act that is not proportional to it."""
+        weighs = self.bearing_loads is not None and self.bearing_loads.weighs
+        return any(self.loads.values()) and (weighs or any(self.bearing_friction.values()))
+
+    def sorted_flows(self, balance: TorqueBalance) -> tuple[list[FlowPattern], bool]:
+        """Return the patterns of power flow of a balance, and True if all patterns were tried.
+
+        Patterns with fewer undetermined torques come first, then those with smaller losses.
+        """
+        found, complete = find_flow_patterns(balance)
+        # the known powers are the same in all flows, so the power of the unknown torques orders the losses
+        return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow))), complete
+
+    def solve(self) -> tuple[LoadedBalance, list[FlowPattern], bool]:
+        """Return the balance with the friction of bearings under their loads, its patterns of power flow as in
+        `sorted_flows`, and True if all patterns were tried. The friction agrees with the loads in the first pattern.
+        """
+        found, loads = self, self.bearing_loads
+        flows, complete = self.sorted_flows(self.balance)
+        if loads is None:
+            return self, flows, complete
+        for _ in range(_MOST_ROUNDS):
+            loaded = loads.friction_torques(self.balance, flows[0], self.loads) if flows else None
+            if loaded is None:
+                break
+            bearings = loads.setting.bearings(loaded, loads.steady)
+            known = _acting(self.loads, _bearing_friction(loads.setting, bearings))
+            found = replace(self, balance=replace(self.balance, known=known), bearings=bearings)
+            before, (flows, complete) = flows[0].pattern, self.sorted_flows(found.balance)
+            if flows and flows[0].pattern == before:
+                return found, flows, complete
+        return self, [], complete
 
     def power(self, flow: FlowPattern) -> Fraction:
         """Return the power that the unknown torques put into the train [unit of torque times unit of speed]."""
@@ -69,10 +116,9 @@ class LoadedBalance:
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
         """Return the flow patterns under a load so large that constant friction is negligible."""
-        known = dict(self.bearing_friction)
-        for link, torque in self.loads.items():
-            known[link] = known.get(link, Fraction(0)) + _GREAT * torque
-        return find_flow_patterns(replace(self.balance, known=known))[0]
+        loads = {link: _GREAT * torque for link, torque in self.loads.items()}
+        known = _acting(loads, self.bearing_friction)
+        return tuple(replace(self, loads=loads, balance=replace(self.balance, known=known)).solve()[1])
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
@@ -166,6 +212,22 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
     return TorqueVerdict("self-locking", text)
 
 
+def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
+    """Return the verdict that no torques balance the load because the friction of bearings grows with their load."""
+    assert question.bearing_loads is not None
+    links = ", ".join(question.bearing_loads.links)
+    if question.has_friction and question.heavily_loaded():
+        text = (
+            f"the load is too small to overcome the friction of the bearings of {links}: a larger load turns the train"
+        )
+        return TorqueVerdict("stalled", text)
+    text = (
+        f"no torque on {question.names} balances {question.load} while the train turns this way: the friction of the "
+        f"bearings of {links} grows with the load and locks the train; without it the train turns"
+    )
+    return TorqueVerdict("self-locking", text)
+
+
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
     """Return a note on a load that puts power in but cannot drive the train by itself; "" otherwise."""
     if question.driving <= 0 or question.power(flow) <= 0:
@@ -175,8 +237,9 @@ def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
         )
+    parts = "teeth" if question.bearing_loads is None else "teeth and bearings"
     return (
-        "; no load in this sense drives the train, because the teeth dissipate all of its power: "
+        f"; no load in this sense drives the train, because the {parts} dissipate all of its power: "
         f"{question.names} must drive as well"
     )
 
@@ -347,7 +410,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return ()
-    known = _acting(question.loads, _bearing_friction(setting))
+    known = _acting(question.loads, _bearing_friction(setting, setting.bearings({})))
     return idle_pairs(generic_balance(build_balance(setting, known, question.links)))
 
 
@@ -392,7 +455,9 @@ class EscapementTorques(NamedTuple):
     at_escape: float
     """Torque at the escape wheel in the sense of its rotation; 0 or less if friction stops the train."""
     without_bearings: float
-    """Torque at the escape wheel without friction of bearings."""
+    """Torque at the escape wheel without the friction of bearings that does not depend on the load."""
+    lost_in_bearings: float
+    """Fraction of the power that is lost in bearings."""
 
 
 def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
@@ -418,13 +483,12 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
     # the pallets may turn, too
     ahead = setting.relative(escapement.link, setting.reacts_on(escapement.link)) or 0
     sense = setting.sense(escapement.link) * (1 if ahead > 0 else -1)
-    found = []
-    for bearings in (True, False):
-        resisting = _balanced(setting, question, bearings, flows_only=True).external.get(escapement.link)
-        if resisting is None:
-            return None
-        found.append(float(-resisting * sense))
-    return EscapementTorques(source, float(known * way), *found)
+    found, without = (_balanced(setting, question, bearings, flows_only=True) for bearings in (True, False))
+    if not found.verdict or not without.verdict:
+        return None
+    at_escape, lossless = (float(-each.external[escapement.link] * sense) for each in (found, without))
+    lost = float(found.bearing_loss / found.power_in) if found.power_in else 0.0
+    return EscapementTorques(source, float(known * way), at_escape, lossless, lost)
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
@@ -510,7 +574,8 @@ def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | N
 
 
 def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True, flows_only: bool = False) -> Torques:
-    bearing_friction = _bearing_friction(setting) if bearings else {}
+    constant = setting.bearings({}) if bearings else ()
+    bearing_friction = _bearing_friction(setting, constant)
     known = _acting(unknown.loads, bearing_friction)
     state = setting.case.state
     if not unknown.enough and (lacking := find_imbalance(setting, known, unknown.links)) is not None:
@@ -520,14 +585,26 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
-    found, complete = find_flow_patterns(balance)
-    if balance.senses and not found and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
+    if (
+        balance.senses
+        and not find_flow_patterns(balance)[0]
+        and (any_way := find_flow_patterns(replace(balance, senses={}))[0])
+    ):
         names = _overrunning(setting, any_way[0])
         text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
         return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
-    question = LoadedBalance(balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open)
-    # the known powers are the same in all flows, so the power of the unknown torques orders the losses
-    flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
+    question = LoadedBalance(
+        balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open, constant
+    )
+    loads = None
+    if any(part.friction_radius for part in setting.train.links.values()):
+        from geartrain.dynamics.torques.bearing_loads import BearingLoads
+
+        loads = BearingLoads(setting, bearings)
+        question = replace(question, bearing_loads=loads)
+    question, flows, complete = question.solve()
+    if loads is not None and not flows and find_flow_patterns(balance)[0]:
+        return Torques(state, _locked_bearings(question), unknown.links)
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
     neglected: tuple[NeglectedEffect, ...] = ()
@@ -535,12 +612,12 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
         from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 
         missed = [name for name in idle if name not in loose]
-        neglected = find_neglected_effects(setting, means, neither, missed, bearings)
+        neglected = find_neglected_effects(setting, means, neither, missed, bearings, loads, loose)
     verdict = find_torque_verdict(question, flows, complete, neglected)
     if not flows:
         verdict = _with_reason(unknown, verdict)
         return Torques(state, verdict, unknown.links, neglected=neglected)
-    return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
+    return _torques(setting, question.balance, flows[0], question.bearings, verdict, neglected)
 
 
 def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
@@ -582,6 +659,8 @@ def build_balance(
     shared = {name for _, parts in shares for name in parts}
     # planets with declared shares need not be loaded equally
     planets = {link for mesh in meshes if mesh.id in shared for link in mesh.links[:2]}
+    # planets with different pivots are not equal
+    pivots = {link: Fraction(part.friction_radius) for link, part in train.links.items() if part.friction_radius}
     return TorqueBalance(
         tuple(link for link in train.links if link != train.frame),
         meshes,
@@ -589,7 +668,7 @@ def build_balance(
         requested,
         _brakes(setting),
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
-        find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
+        find_ties(setting.circuits, meshes, _acting(known, pivots), {train.frame} | held | planets),
         shares,
         _reactions(setting, requested),
         case.senses,
@@ -636,10 +715,10 @@ def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fracti
     }
 
 
-def _bearing_friction(setting: LoadCase) -> dict[str, Fraction]:
+def _bearing_friction(setting: LoadCase, bearings: Sequence[BearingTorque]) -> dict[str, Fraction]:
     """Return the friction torque of all bearings on each link, as the link in a bearing or as its carrier."""
     found: dict[str, Fraction] = {}
-    for bearing in setting.bearings:
+    for bearing in bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
             if link != setting.train.frame:
                 found[link] = found.get(link, Fraction(0)) + torque
@@ -650,7 +729,7 @@ def _torques(
     setting: LoadCase,
     balance: TorqueBalance,
     flow: FlowPattern,
-    bearing_friction: Mapping[str, Fraction],
+    bearings: tuple[BearingTorque, ...],
     verdict: TorqueVerdict,
     neglected: tuple[NeglectedEffect, ...],
 ) -> Torques:
@@ -667,7 +746,7 @@ def _torques(
     for base, torque in reactions.values():
         external[base] = external.get(base, Fraction(0)) + torque
     # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
-    for link, torque in bearing_friction.items():
+    for link, torque in _bearing_friction(setting, bearings).items():
         external[link] -= torque
     arms = setting.arms
     return Torques(
@@ -680,7 +759,7 @@ def _torques(
             mesh.id: _pair(setting, mesh, circuit, flow)
             for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
         },
-        setting.bearings if bearing_friction else (),
+        bearings,
         _held(setting, flow),
         neglected,
         reactions,

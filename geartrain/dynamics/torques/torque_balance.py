@@ -340,3 +340,16 @@ def generic_balance(balance: TorqueBalance) -> TorqueBalance:
         for at, mesh in enumerate(balance.meshes, 1)
     )
     return replace(balance, meshes=meshes)
+
+
+def equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
+    """Return for each planet the planets that are equal to it, including itself."""
+    ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
+    found: dict[str, tuple[str, ...]] = {}
+    for group in balance.ties:
+        common = set.intersection(*(set(ends[name]) for name in group))
+        if not common:  # of two kinds of planets, which mesh with each other
+            continue
+        planets = tuple(sorted(link for name in group for link in ends[name] if link not in common))
+        found |= dict.fromkeys(planets, planets)
+    return found

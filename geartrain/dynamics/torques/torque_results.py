@@ -71,8 +71,11 @@ class MemberTorques(NamedTuple):
     """Torque on the carrier of the pair [N m, or number without a unit]."""
 
 
-class BearingTorque(NamedTuple):
+@dataclass(frozen=True)
+class BearingTorque(Result):
     """Friction torques of one bearing: equation (10) of docs/torques.md."""
+
+    KEYS = ("link", "carrier", *(Key(key, to=as_float) for key in ("torque", "reaction", "loss")), "load")
 
     link: str
     """Link that turns in the bearing."""
@@ -86,6 +89,10 @@ class BearingTorque(NamedTuple):
     """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
     """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
+    load: float | None = None
+    """Load on the bearing, or the sum of the loads on its two bearings [N]; None if its friction does not depend on
+    the load.
+    """
 
 
 @dataclass(frozen=True)
@@ -187,7 +194,7 @@ class TorqueVerdict(Result):
 
     - `determined`: all torques follow from the loads, and no declared effect is neglected.
     - `incomplete`: all torques follow from the loads, but `Torques.neglected` lists neglected effects.
-    - `self-locking`: no torques balance the load, however large, while the train turns this way.
+    - `self-locking`: no torques balance the load, however large, while the train turns in this sense.
     - `stalled`: no torques balance this load, which is too small to overcome the friction of bearings.
     - `ambiguous`: several patterns of power flow balance the load; the one with minimum loss is returned.
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
@@ -293,6 +300,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         Key("links", "link_torques"),
         "held",
         "pairs",
+        "bearings",
         Key("power_in", "known_power_in", as_float),
         Key("loss", "known_loss", as_float),
         "neglected",
@@ -351,7 +359,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def _units(self) -> Mapping[str, str]:
-        """Units of torque, speed and power, as declared."""
+        """Declared units of torque, speed and power."""
         declared = self._declaration
         torque, speed = "N m, or the unit of the loads", "unit of the train"
         if declared is not None:
@@ -447,7 +455,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output divided by power input; a float if pairs have mean efficiencies over teeth.
+        """Power output divided by power input; a float if pairs have mean efficiencies over teeth, or if friction of
+        bearings depends on their load.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """
@@ -455,7 +464,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
             return None
         # the net external power is the loss, even if torques of pairs are undetermined
         found = 1 - self._missing / self.power_in
-        return found if all(pair.exact for pair in self.pairs.values()) else float(found)
+        exact = all(pair.exact for pair in self.pairs.values()) and all(each.load is None for each in self.bearings)
+        return found if exact else float(found)
 
     @property
     def _missing(self) -> Fraction:

@@ -44,6 +44,8 @@ class ContactTorques(NamedTuple):
     driver: Floats
     barred: Bools | None = None
     """Mask of positions at which no power can flow; None if power can flow everywhere."""
+    lean: Floats | None = None
+    """Separating force divided by the tangential force; None for their mean ratio."""
 
 
 class PairForce(NamedTuple):
@@ -55,6 +57,8 @@ class PairForce(NamedTuple):
     second: Floats
     barred: Bools | None
     """Mask of positions at which no power can flow; None if power can flow everywhere."""
+    lean: Floats | None = None
+    """Separating force divided by the tangential force; None for their mean ratio."""
 
 
 class DriverState(NamedTuple):
@@ -139,12 +143,32 @@ class SlidingFriction(ContactLosses):
         return self.sliding != self.static
 
 
+@dataclass(frozen=True)
 class ToothFriction(SlidingFriction):
     """Friction of teeth: each tooth pair in contact multiplies the torque by (1 + f out)/(1 + f into).
 
     Here `into` and `out` are the friction terms of input and output power, and f is the coefficient of friction,
     negative if the driven side of the transmission function drives.
     """
+
+    turned: int = 1
+    """-1 for a ring, whose wheels turn in the same sense; otherwise 1."""
+
+    def lean(self, tau: Floats, rubbing: tuple[Floats, Floats], f: Floats, way: Floats) -> Floats:
+        """Return the separating force divided by the tangential force: docs/torques.md (29).
+
+        rubbing   friction terms `into` and `out` of each tooth pair, NaN for pairs that do not touch
+        f         coefficient of friction, negative if the driven side of the transmission function drives
+        """
+        into, out = rubbing
+        # components of the normal and of the sliding direction across the line of centres, times D/n2
+        c, s = tau + self.turned, tau * into + self.turned * out
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # the tooth pairs share the torque of the driving side equally
+            normal = 1 / (1 + f * np.where(way > 0, into, out))
+            apart, across = normal * (np.abs(s) - f * c * np.sign(s)), normal * (c + f * s)
+        found: Floats = np.nansum(apart, axis=0) / np.abs(np.nansum(across, axis=0))
+        return found
 
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
@@ -155,6 +179,7 @@ class ToothFriction(SlidingFriction):
         touching = ~np.isnan(out)  # NaN marks pairs of teeth that do not touch at this position
         own = self.static if static else self.sliding
         f = way * (own(sliding, np.abs(at.turning)) if callable(own) else own)
+        lean = self.lean(tau, (into, out), f, way)
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + f * into, 1 + f * out
             # driving side: if friction exceeds the driving component of the contact force, the pair locks
@@ -165,7 +190,7 @@ class ToothFriction(SlidingFriction):
         share = np.where(touching, given, 0.0).sum(axis=0) / np.maximum(count, 1)
         share = np.where((count > 0) & ~locks, share, 1.0)
         barred = locks if locks.any() else None
-        return ContactTorques(np.where(way > 0, share, 1.0), tau * np.where(way < 0, share, 1.0), barred)
+        return ContactTorques(np.where(way > 0, share, 1.0), tau * np.where(way < 0, share, 1.0), barred, lean)
 
 
 @dataclass(frozen=True)
@@ -260,7 +285,8 @@ class PairContact:
         # the driving side follows from the flank and from the sense of motion
         found = self.losses.torques(tau, transmission, at, side * np.sign(at.turning), static)
         driven, driver = self.sense * found.driven, -self.way * found.driver
-        return PairForce(driver, driven, found.barred) if self.first else PairForce(driven, driver, found.barred)
+        both = (driver, driven) if self.first else (driven, driver)
+        return PairForce(*both, found.barred, found.lean)
 
 
 def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> set[str]:
@@ -344,13 +370,15 @@ def _constant_efficiency(setting: LoadCase, circuit: Circuit, first: bool) -> Co
 
 def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:
     transmission, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
+    turned = -1 if any(mesh.wheels.internal) else 1
     declared = setting.train.friction_of(setting.gears[circuit.id]) if mesh.has_shape else None
     static = coefficient if declared is None else declared.static
     if transmission is None:
-        return ToothFriction(coefficient, static)
+        return ToothFriction(coefficient, static, turned)
     # proportional to the driver's speed, which varies with the position
     pitch_line = (pitch_line_speed(setting, circuit, mesh) or 0.0) / (source.mean or 1.0)
-    return ToothFriction(lambda sliding, turning: PairFriction(transmission, pitch_line * turning)(sliding), static)
+    law = PairFriction
+    return ToothFriction(lambda sliding, turning: law(transmission, pitch_line * turning)(sliding), static, turned)
 
 
 class BearingTorques(NamedTuple):
@@ -359,6 +387,8 @@ class BearingTorques(NamedTuple):
     sliding: float
     static: float
     drag: float = 0.0
+    radius: float = 0.0
+    """Friction torque divided by the load of the bearing [m], added to both friction torques."""
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
@@ -371,7 +401,8 @@ def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
         sliding, static = (0.0, 0.0) if part.bearing is None else (
             float(part.bearing.sliding.base), float(part.bearing.at_rest.base)
         )  # fmt: skip
-        each = BearingTorques(sliding, static, 0.0 if part.drag is None else part.drag.si * (unit or 0.0))
+        drag = 0.0 if part.drag is None else part.drag.si * (unit or 0.0)
+        each = BearingTorques(sliding, static, drag, part.friction_radius)
         if link != train.frame and any(each):
             found[link] = each
     return found

@@ -15,7 +15,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
-from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
+from geartrain.dynamics.torques.neglected_effects import neglected_over_turn, unknown_forces
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
@@ -152,7 +152,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     for link, friction in bearings.items():
         # only the presence of friction matters here; the odd factor prevents it from cancelling a load by chance
         for end in (link, setting.tree.borne_by(link)):
-            known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
+            known[end] = known.get(end, Fraction(0)) + Fraction(sum(friction[1:])) * _ODD
     known.pop(frame, None)
     whole = generic_balance(build_balance(setting, known, question.links))
     balance = without_pairs(whole, idle_pairs(whole))
@@ -168,7 +168,12 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     positions = PositionMotion(motion, followed_pairs(busy, teeth))
     contacts = find_contacts(busy, positions, teeth)
     loads = {link: float(torque) for link, torque in question.loads.items()}
-    return TurnBalance(busy, positions, balance, contacts, loads, bearings)
+    pressed = None
+    if any(each.radius for each in bearings.values()):
+        from geartrain.dynamics.torques.bearing_loads import BearingLoads
+
+        pressed = BearingLoads(busy)
+    return TurnBalance(busy, positions, balance, contacts, loads, bearings, pressed)
 
 
 def _refuse_jumps(setting: LoadCase) -> None:
@@ -262,6 +267,8 @@ class _RunResults:
         found = neglected_over_turn(
             train.setting, tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
         )
+        if train.bearing_loads is not None:
+            found += tuple(unknown_forces(train.bearing_loads))
         if links := dragging_links(train.setting):
             why = (
                 "it depends on speed, and torques or speeds have no units: give `rate` or the inputs a unit, and the "

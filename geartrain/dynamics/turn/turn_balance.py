@@ -19,6 +19,7 @@ from geartrain.dynamics.turn.train_contacts import DriverState, PairForce
 from geartrain.numerics.arrays import joined, some
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.torques.torque_balance import TorqueBalance, TorqueUnknown
     from geartrain.dynamics.turn.position_motion import LinkMotion, PositionMotion
@@ -34,6 +35,8 @@ SINGULAR = 1e-13  # of the product of the row norms (Hadamard's bound): a smalle
 SAME = 1e-8  # of the maximum torque: solutions closer than this are equal
 AT_REST = 1e-12  # of the maximum speed: slower links are at rest
 FAINT = 1e-9  # of the maximum torque through a pair: smaller torques do not press on a flank
+CONVERGED = 1e-14  # of the maximum friction torque: smaller changes end the iteration of loaded bearings
+_MOST_LOADED = 200  # maximum iterations of loaded bearings; one that needs more is at the limit of locking
 ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 
 
@@ -294,6 +297,8 @@ class _State(NamedTuple):
     resting: Mapping[str, Bools]
     """Mask of positions at which each link is at rest within the backlash of its pairs, by link."""
     static: bool
+    loaded: Mapping[str, Floats] = {}
+    """Friction torque of each bearing that depends on its load, by link."""
 
 
 @dataclass
@@ -309,6 +314,8 @@ class TurnBalance:
     loads: Mapping[str, float]
     """Load on each link about its own axis. `bearings` has friction and drag by link."""
     bearings: Mapping[str, BearingTorques]
+    bearing_loads: BearingLoads | None = None
+    """Loads of the bearings whose friction depends on them; None if there are none."""
     complete: bool = True
     """False if not all patterns of power flow were tried."""
     on_done: Callable[[int], object] | None = None
@@ -388,8 +395,7 @@ class TurnBalance:
         for round_ in range(ROUNDS):
             touching = {name: row for name, row in zip(self.flanked, coasting, strict=True) if row.any()}
             state = self._state(self.motion.at(turns[left], touching), resting, static)
-            layers = self._solved(state)
-            best = self._extreme(layers, state, 1)
+            state, layers, best = self._balanced(state)
             result, found = self._position_torques(state, layers, best), self._coasting(best)
             result = result._replace(unresolved=np.asarray(resting.any(axis=0)))
             if round_ == 0:
@@ -450,7 +456,64 @@ class TurnBalance:
 
     # -------------------------------------------------------------------------------------------------- the balance
 
-    def _solved(self, state: _State) -> list[BalanceLayer]:
+    def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
+        """Return the state with the friction of loaded bearings, all solutions, and the one with minimum loss.
+
+        The friction follows from the solution by fixed-point iteration, which is damped if it converges slowly, because
+        friction may relieve a bearing. Where it diverges, no torques balance.
+        """
+        pieces = [self._pieces(column, state) for column in self.columns]
+        for round_ in range(_MOST_LOADED):
+            layers = self._solved(state, pieces)
+            best = self._extreme(layers, state, 1)
+            if self.bearing_loads is None:
+                return state, layers, best
+            after = self._loaded_friction(self.bearing_loads, best, state)
+            before = np.array([state.loaded.get(link, np.zeros(after.shape[1])) for link in self.bearing_loads.links])
+            off = np.max(np.abs(after - before), axis=0) > CONVERGED * np.max(after, axis=0)
+            if not off.any():
+                break
+            after = after if round_ < _MOST_LOADED / 4 else (before + after) / 2
+            state = state._replace(loaded=dict(zip(self.bearing_loads.links, after, strict=True)))
+        for layer in layers:
+            layer.valid &= ~off
+        best.valid = best.valid & ~off
+        return state, layers, best
+
+    def _loaded_friction(self, bearings: BearingLoads, best: BalanceLayer, state: _State) -> Floats:
+        """Return the friction torque of each loaded bearing in one solution, shape (links, n)."""
+        turns = state.motion.turns
+        reactions, angles, leans = np.zeros((3, len(bearings.forces), len(turns)))
+        for row, force in enumerate(bearings.forces):
+            leans[row] = force.lean
+            if force.links[0] is not None:
+                first, second = self._member_torques(force.name, best, state)
+                reactions[row] = -(first + second)
+                column = self.of_pair[force.name]
+                by_side = state.forces[self.columns[column].meshes[0].id]
+                pressed = np.where(best.values[column] < 0, -1, 1)
+                for side, contact in by_side.items() if len(by_side) > 1 else ():
+                    if contact.lean is not None:
+                        leans[row] = np.where(pressed == side, contact.lean, leans[row])
+            elif force.name in self.requested:
+                reactions[row] = best.values[self.requested_columns[self.requested.index(force.name)]]
+            else:
+                reactions[row] = self.loads.get(force.name, 0.0)
+            if force.carrier != self.setting.train.frame:
+                # transmission errors of the carrier do not change the directions noticeably
+                link = self.motion.links[force.carrier]
+                angles[row] = 2 * np.pi * turns * self.motion.senses[link] * self.motion.means[link]
+        return bearings.friction(bearings.loads(reactions, angles, leans), self.balance)
+
+    def _member_torques(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
+        """Return the torques of a pair on its first and second link, about the reference direction."""
+        column = self.columns[self.of_pair[name]]
+        pressed, forces = best.values[self.of_pair[name]], state.forces[column.meshes[0].id]
+        ahead, back = (self._for_planet(name, forces.get(side, forces[1])) for side in (1, -1))
+        first, second = (pressed * np.where(pressed < 0, back[end], ahead[end]) for end in (0, 1))
+        return first, second
+
+    def _solved(self, state: _State, pieces: Sequence[ColumnPieces]) -> list[BalanceLayer]:
         size = len(state.motion.turns)
         rows = self.balance.links
         known = np.zeros((max([len(rows), *(row + 1 for row in self.balance.rows)]), size))
@@ -459,7 +522,6 @@ class TurnBalance:
         for link in self.bearings:
             for bearer, rubbing in self._friction(state, link):
                 known[rows.index(bearer)] += rubbing
-        pieces = [self._pieces(column, state) for column in self.columns]
         layers, complete = solve_positions(pieces, self.balance.parts, known)
         self.complete &= complete
         return layers
@@ -478,10 +540,10 @@ class TurnBalance:
         """Return the magnitude of the friction torque of a bearing; drag is 0 for static friction and for a link at
         rest.
         """
-        own = self.bearings[link]
+        own, loaded = self.bearings[link], state.loaded.get(link, np.zeros(len(speed)))
         if state.static:
-            return np.full(len(speed), own.static)
-        return np.where(state.resting[link], 0.0, own.sliding + own.drag * np.abs(speed))
+            return own.static + loaded
+        return np.where(state.resting[link], 0.0, own.sliding + loaded + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
         """Return the coefficients of one unknown torque in each row; equal planets have the coefficients of the first
@@ -585,15 +647,13 @@ class TurnBalance:
 
     def _flow(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
         """Return the lost power of a pair, and the power input of its driving side, relative to the carrier."""
-        column = self.columns[self.of_pair[name]]
-        pressed = best.values[self.of_pair[name]]
-        forces = state.forces[column.meshes[0].id]
         circuit = self.contacts[name].circuit
-        powers = []
-        for end, (link, base) in enumerate(zip((circuit.i, circuit.j), circuit.subtracted, strict=True)):
-            ahead, back = (self._for_planet(name, forces.get(side, forces[1]))[end] for side in (1, -1))
-            torque = np.where(pressed < 0, back, ahead) * pressed
-            powers.append(torque * self._speed(state.motion, link, base))
+        powers = [
+            torque * self._speed(state.motion, link, base)
+            for torque, link, base in zip(
+                self._member_torques(name, best, state), (circuit.i, circuit.j), circuit.subtracted, strict=True
+            )
+        ]
         return -(powers[0] + powers[1]), np.maximum(-powers[0], 0) + np.maximum(-powers[1], 0)
 
 

@@ -462,8 +462,8 @@ def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Eliminate exactly within a budget of operations. Raises `TooDenseError` at once if the predicted fill-in exceeds
-    it.
+    """Eliminate exactly within a budget of operations. Raises `TooDenseError` immediately if the predicted fill-in
+    exceeds it.
 
     The prediction is the same elimination modulo a prime, with short numbers and its own limit.
     """

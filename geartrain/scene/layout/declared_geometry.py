@@ -171,7 +171,7 @@ class DialEnds(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DeclaredGeometry:
-    """Declared geometry of a train: axes by label, and gear pairs and couplings in the order declared."""
+    """Declared geometry of a train: axes by label, and gear pairs and couplings in the order of declaration."""
 
     lines: Mapping[str, AxisLine]
     axis: Mapping[str, str]

@@ -214,7 +214,7 @@ _RIM = 2.0  # mm: width of plate round a pin
 
 @dataclass(frozen=True, slots=True)
 class PinCircle:
-    """Circle of pins in round holes, as declared."""
+    """Declared circle of pins in round holes."""
 
     name: str
     """Name of the coupling of the pins."""

@@ -66,7 +66,7 @@ class ManufacturingSizes(Shown):
     arms: int | None = None
     """Number of spokes of each wheel with enough space for openings between spokes, 3 or more; None for solid webs."""
     sheet: tuple[float, float] | None = None
-    """Width and height of the sheets on which flat parts are arranged [mm], above 0; None for no sheets."""
+    """Width and height of the sheets on which flat parts are arranged [mm], above 0; None without sheets."""
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` if a size is out of range or the process is unknown."""

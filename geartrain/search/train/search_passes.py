@@ -234,7 +234,7 @@ class PassResult:
     removed: dict[str, int] = field(default_factory=dict)
     """Number of assignments that each constraint rejected, by its name, in the order of evaluation."""
     best: tuple[Assignment, ...] = ()
-    """Best assignments, best first."""
+    """Best assignments in the order of the search criterion."""
     listed: bool = True
     """False if there were too many assignments to enumerate; `best` is then empty."""
     cut: bool = False

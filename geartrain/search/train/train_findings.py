@@ -124,7 +124,7 @@ class PartFindings(Result):
     reason: str
     """Reason why the search is not complete or the solutions are not ranked; "" otherwise."""
     solutions: tuple[Assignment, ...]
-    """Best assignments, best first."""
+    """Best assignments in the order of the search criterion."""
     shortfall: Shortfall
     """Number of rejected assignments by constraint, in the order of evaluation.
 

@@ -95,6 +95,7 @@ def find_separation(
     declared, case = train.declaration, train.kinematics.case(state)
     acting = find_inertial_loads(declared, case, train.tree, inertias, moving.speeds)
     rubbing, uncounted = separate_rubbing(moving, (*declared.gears, *declared.couplings))
+    uncounted += tuple(f"bearing {link}" for link, part in declared.links.items() if part.friction_radius)
     contacts = InertialContacts(moving, acting, rubbing=rubbing)
     period = contacts.motion.period
     # without a common period one revolution is searched
@@ -199,7 +200,9 @@ class SeparationRates(Result):
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the links, as used in the computation."""
     uncounted: tuple[str, ...] = ()
-    """Names of the pairs with a constant ratio and of the pins, whose friction the computation neglects."""
+    """Names of the pairs with a constant ratio and of the pins, and `bearing LINK` for each bearing whose friction
+    grows with the load; the computation neglects their friction.
+    """
 
     @property
     def first(self) -> PairSeparation | None:
@@ -246,7 +249,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
     """Yield sentences on the first pair that separates, the searched input range, and links of unknown inertia."""
     yield _first_separation(found)
     if found.uncounted:
-        yield f"Pairs whose friction is not included: {', '.join(found.uncounted)}."
+        yield f"Parts whose friction is not included: {', '.join(found.uncounted)}."
     if not found.complete:
         yield f"The search covered {found.turns:.6g} turns of '{found.input}', which is not a full period."
     if found.unknown:

@@ -111,6 +111,11 @@ class TrainModel:
         left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.computes_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
+        if loaded := [link for link, part in self.train.links.items() if part.friction_radius]:
+            found.append(
+                f"friction of the bearings of {', '.join(loaded)} that grows with the load: time steps include only "
+                "their constant `sliding` torques"
+            )
         found += unmodelled_properties(self.train.couplings)
         return tuple(found)
 

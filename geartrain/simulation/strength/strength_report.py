@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 _FORCES = (
     "Mean forces at the operating pitch circles. Axial: positive along the direction of the axis; radial: positive "
-    "towards the axis. Both wheels of a pair have the same force, the larger torque divided by radius, because "
-    "friction reduces the torque on one of them; crossed axes are an exception. Friction is included for sliding "
-    "along the teeth, not along their profiles. The pressure angle is 20 degrees by default."
+    "towards the axis. Both wheels of a pair have the same force, the sum of both torques divided by the sum of "
+    "both radii (the differences for a ring); crossed axes are an exception. The pressure angle is 20 degrees by "
+    "default."
 )
 _CONTACT = (
     "Hertz pressure of smooth flanks under the mean torque. Tooth pairs in contact at the same time carry the same "

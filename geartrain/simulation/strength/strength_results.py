@@ -293,8 +293,7 @@ class WheelForce(Result):
     tangential: float
     """Tangential force at the pitch circle, with the sign of the torque [N].
 
-    On parallel axes and on bevels both wheels of a pair have the same force, from the larger torque divided by radius,
-    because friction reduces the other torque.
+    On parallel axes and on bevels both wheels of a pair have the same force: docs/strength.md (32).
     """
     axial: float
     """Axial force, positive along the direction of the wheel's axis [N]."""
@@ -392,7 +391,7 @@ class PinContact(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if unknown."""
+        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if either is unknown."""
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property

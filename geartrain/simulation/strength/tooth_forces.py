@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from math import atan, copysign, cos, sin, tan
 from typing import TYPE_CHECKING, NamedTuple
 
+from geartrain.dynamics.torques.bearing_loads import separation
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
 from geartrain.errors import RangeError
 from geartrain.kinematics.circuits.fundamental import shaft_angle
@@ -60,11 +61,17 @@ class ToothForces:
             return
         loads = [float(each) * _MM * self.swings.get(circuit.id, 1.0) for each in torque.torques[:2]]
         if self._is_parallel(circuit):
-            found = self._both(loads, [self._rolling_radius(circuit, at) for at in (0, 1)])
+            found = self._both(
+                loads,
+                [self._rolling_radius(circuit, at) for at in (0, 1)],
+                [-1.0 if wheel.internal else 1.0 for wheel in wheels],
+            )
             parts = [(radius, self._parallel(circuit, at, push)) for at, (radius, push) in enumerate(found)]
         elif (crossing := _shaft_angle(self.setting, circuit)) is not None:
             middles = [self._middle(circuit, at, crossing) for at in (0, 1)]
-            found = self._both(loads, [middle.radius(1) for middle in middles])
+            found = self._both(
+                loads, [middle.radius(1) for middle in middles], [cos(middle.cone(1)) for middle in middles]
+            )
             parts = [
                 (radius, bevel_force(push, middles[at].cone(1), self._angle(circuit), wheels[at].facing))
                 for at, (radius, push) in enumerate(found)
@@ -78,13 +85,15 @@ class ToothForces:
             yield WheelForce(circuit.id, name, radius, *force, load / _MM)
 
     @staticmethod
-    def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
-        """Return radii and tangential forces of both wheels; the larger force is used for both, as friction reduces one
-        torque.
+    def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
+        """Return radii and tangential forces of both wheels, which are opposite: docs/strength.md (32).
+
+        cosines   cosine of the angle of each pitch cone: 1 for parallel axes, -1 for a ring
         """
-        pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
-        maximum = max(map(abs, pushes))
-        return [(radius, copysign(maximum, push)) for radius, push in zip(radii, pushes, strict=True)]
+        others = cosines[::-1]
+        lever = sum(radius * other for radius, other in zip(radii, others, strict=True))
+        force = abs(sum(abs(load) * other for load, other in zip(loads, others, strict=True)) / lever)
+        return [(radius, copysign(force, load)) for radius, load in zip(radii, loads, strict=True)]
 
     def is_crossed(self, circuit: Circuit) -> bool:
         """Return True for a pair of helical wheels, or of a worm and its wheel, on crossed axes."""
@@ -148,12 +157,9 @@ class ToothForces:
         wheel, mesh = self._wheel(circuit, at), self.meshes.get(circuit.id)
         # a ring is pushed outwards
         outwards = -1 if wheel.internal else 1
-        if mesh is None:
-            force = helical_force(push, wheel.helix, self._angle(circuit))
-            return force.tangential, force.axial, outwards * force.radial
         # the lead is the same at all radii, so the helix angle increases with the radius
         lean = tan(wheel.helix) * self._rolling_radius(circuit, at) / self._radius(circuit, at)
-        apart = mesh.separation
+        apart = separation(self.setting, circuit, mesh)
         # 0.0 - x instead of -x avoids -0.0 for spur wheels
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 

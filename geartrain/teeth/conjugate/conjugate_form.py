@@ -265,7 +265,7 @@ class ConjugateToothForm(ToothForm):
         driver : {1, 2}
             Number of the driving gear.
         direction : {1, -1}
-            Direction of rotation; with -1 the coast flanks drive.
+            Direction of rotation; with -1 the coast flanks are in contact.
         pitch_distance, internal, shaft_angle, helix
             As in `path`.
 

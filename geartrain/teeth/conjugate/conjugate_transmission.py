@@ -89,7 +89,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
     driver : {1, 2}
         Number of the driving gear.
     direction : {1, -1}
-        Direction of rotation. With -1 the coast flanks drive, and the driven wheel is ahead by the backlash.
+        Direction of rotation. With -1 the coast flanks are in contact, and the driven wheel is ahead by the backlash.
 
     See Also
     --------

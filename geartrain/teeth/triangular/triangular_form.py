@@ -324,7 +324,7 @@ class Triangular(ToothForm):
         driver : {1, 2}
             Number of the driving wheel.
         direction : {1, -1}
-            Direction of rotation; with -1 the coast flanks drive.
+            Direction of rotation; with -1 the coast flanks are in contact.
         pitch_distance : float, optional
             As in `sizes` [m].
         ring : {0, 1, 2}

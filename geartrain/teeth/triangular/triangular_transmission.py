@@ -51,8 +51,8 @@ class TriangularTransmission(ToothTransmission):
     friction : float
         Coefficient of friction, 0 or more.
     direction : {1, -1}
-        Direction of rotation. With -1, angles S and q keep their sign convention and decrease, and the coast flanks
-        drive.
+        Direction of rotation. With -1, angles S and q keep their sign convention and decrease, and the coast flanks are
+        in contact.
 
     See Also
     --------

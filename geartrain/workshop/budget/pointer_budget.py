@@ -127,7 +127,7 @@ class PointerBudget(Result):
     drifts: tuple[RatioDrift, ...] = ()
     """Drift relative to each target. The cause "ratio" is the magnitude of the first drift over the span."""
     pairs: Mapping[str, float] | None = None
-    """Peak-to-peak pointer error due to the teeth of one pair only [deg], by pair, descending; None if unknown."""
+    """Peak-to-peak pointer errors due to the teeth of each single pair [deg], in descending order; None if unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]

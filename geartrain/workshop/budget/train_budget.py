@@ -88,7 +88,7 @@ class BudgetQuestion:
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
     """Clearances at which jams are counted: fractions of each pair's clearance window, or clearance factors above 1."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Body whose true motion an output represents, by output, if its name does not indicate it; None for no body."""
+    """Body whose true motion an output represents, by output, unless its name indicates it; None if there is none."""
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import (
+    Cutting,
     File,
     FirstState,
     Force,
@@ -52,13 +53,7 @@ def run(
             "--samples", min=2, max=MOST_COUNT, help="Number of input positions over the revolutions given by --turns."
         ),
     ] = 20_000,
-    cutting: Annotated[
-        Names,
-        typer.Option(
-            "--cutting",
-            help="Replace a declared cutting error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'; may be repeated.",
-        ),
-    ] = None,
+    cutting: Cutting = None,
     trials: Annotated[
         int, typer.Option("--trials", min=1, max=MOST_COUNT, help="Number of Monte Carlo trials of cutting errors.")
     ] = 256,

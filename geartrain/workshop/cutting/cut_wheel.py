@@ -137,7 +137,7 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """Return the mirror image, which turns the other way; its tooth i is tooth `first` - i of this wheel."""
+        """Return the mirror image, which turns in the opposite sense; its tooth i is tooth `first` - i of this one."""
         # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
@@ -318,7 +318,7 @@ class CutGearPair:
 
     @cached_property
     def mirrored(self) -> CutGearPair:
-        """Mirror image of the pair, which turns the other way.
+        """Mirror image of the pair, which turns in the opposite sense.
 
         Its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
 

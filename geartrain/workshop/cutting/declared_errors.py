@@ -15,13 +15,16 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Train, Wheel
-    from geartrain.train.manufacturing import AngleError, LengthError, PairMounting, WheelManufacture
+    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth, PairMounting, WheelManufacture
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
-OF_WHEELS = ("pitch_deviation", "eccentricity", "tip", "aperture_deviation")
+OF_WHEELS = ("pitch_deviation", "stepping", "eccentricity", "tip", "aperture_deviation")
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
-MOST = {kind: 1.0 if kind in ("pitch_deviation", "aperture_deviation") else 2.0 for kind in ERROR_KINDS}
+_ANGLES = ("pitch_deviation", "stepping", "aperture_deviation")
+_OF_PITCHES = ("pitch_deviation", "stepping", "eccentricity")
+"""Kinds of errors that the measured angles of the teeth of a wheel contain."""
+MOST = {kind: 1.0 if kind in _ANGLES else 2.0 for kind in ERROR_KINDS}
 """Exclusive upper limits of errors as fractions of pitch, half angle or depth; at the limit no tooth remains."""
 
 
@@ -49,9 +52,10 @@ class WheelErrors:
 
     pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth divided by its tip radius
     ring               True for an internal wheel
-    errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, lengths in depths
+    errors             by kind: pitch_deviation and stepping in pitches, aperture_deviation in half angles, lengths in
+                       depths
     towards            direction of the eccentricity from the first tooth (rad); None for a random direction
-    tables             values measured tooth by tooth, by kind, in the same fractions
+    tables             values measured tooth by tooth, by kind, in the same fractions; one value of an eccentricity
     displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth
     """
 
@@ -80,6 +84,13 @@ class WheelErrors:
     def true(self) -> bool:
         """True if the wheel is free of errors."""
         return not self.tables and not any(each.size for each in self.errors.values())
+
+    @property
+    def angle_radius(self) -> float:
+        """Radius of measured angles, in the unit of `depth`: of the tips for triangular teeth, else of the pitch
+        circle.
+        """
+        return self.z / (2 * self.displaced.modules) if self.displaced else 1.0
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
@@ -126,7 +137,7 @@ def _setting(text: str) -> ErrorOverride:
         if said.strip().startswith(f"{each} "):
             way, said = each, said.strip().removeprefix(each)
     try:
-        unit = "angle or fraction" if kind in ("pitch_deviation", "aperture_deviation") else "length or fraction"
+        unit = "angle or fraction" if kind in _ANGLES else "length or fraction"
         amount = Quantity.parse(said.strip(), unit, plain=True)
     except PydanticCustomError as error:
         fix = str((error.context or {}).get("fix", "give a size"))
@@ -136,6 +147,10 @@ def _setting(text: str) -> ErrorOverride:
         why = "the standard deviation or half width of a distribution is 0 or more"
         fix = f"give a positive size, or a fixed error: {kind}='value {said.strip()}'"
         raise QuestionError(Problem(what, why, fix))
+    if kind == "stepping" and way == "value":
+        why = "the even division of the gap removes an error that all steps share"
+        fix = f"give a standard deviation: stepping='{said.strip()}'"
+        raise QuestionError(Problem(f"the error in '{text}' is fixed", why, fix))
     return ErrorOverride(kind, way, amount, of)
 
 
@@ -162,15 +177,56 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     where = ("links", link, "wheels", name, "cutting") if own else ("cutting",)
     reader = _Reader(train.place(*where), name, _scales(even, wheel))
     errors = {kind: reader.off(kind, getattr(cutting, kind, None)) for kind in OF_WHEELS}
+    measured: MeasuredTeeth | None = getattr(cutting, "measured", None)
+    by_angles = measured if measured is not None and measured.angles is not None else None
     for each in settings:
-        if each.kind in OF_WHEELS and each.of in ("", name):
+        if by_angles is not None and each.kind in _OF_PITCHES:
+            _check_not_measured(each, name)
+        elif each.kind in OF_WHEELS and each.of in ("", name):
             errors[each.kind] = reader.set(each)
     # errors of size 0 are removed, so that a perfect wheel is recognised as such
     errors = {kind: off for kind, off in errors.items() if off.size}
     reader.check(errors)
     at = cutting.eccentricity_angle if cutting is not None else None
     # the declared angle is positive ahead, but teeth are counted in the order they pass, which is backwards
-    return replace(even, errors=errors, towards=-at.si if at else None, tables=reader.tables(cutting))
+    found = replace(even, errors=errors, towards=-at.si if at else None, tables=reader.tables(cutting))
+    return found if by_angles is None else _with_measured_angles(found, by_angles)
+
+
+def _check_not_measured(setting: ErrorOverride, wheel: str) -> None:
+    """Raise `QuestionError` if an override names a wheel with measured angles; for all wheels, it does not apply."""
+    if setting.of == wheel:
+        what = f"the error '{setting.kind}' is given for '{wheel}', whose angles are measured"
+        why = f"the measured angles contain its {setting.kind}, which would be counted twice"
+        raise QuestionError(Problem(what, why, f"omit it, or remove `measured` from '{wheel}'"))
+
+
+def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelErrors:
+    """Return the wheel with the pitch deviations and the eccentricity that follow from measured angles of its teeth.
+
+    The eccentricity is either part of the pitch deviations, or separate and removed from them. Missing teeth have no
+    deviation from the fitted eccentricity, if that is significant, else none from an even division.
+    """
+    from geartrain.workshop.cutting.wheel_estimate import eccentric_deviations, estimate_measured
+
+    found = estimate_measured(measured, wheel.z)
+    depth = wheel.depth / wheel.angle_radius
+    if measured.use == "law":
+        kind = "stepping" if found.law == "stepped" else "pitch_deviation"
+        law = {kind: ErrorSpecification(found.cutting_deviation / wheel.pitch, "normal")}
+        if found.eccentric:
+            law["eccentricity"] = ErrorSpecification(found.eccentricity.value / depth)
+        return replace(wheel, errors={**wheel.errors, **law}, towards=None)
+    size, direction = found.fitted if found.eccentric else (0.0, 0.0)
+    eccentric = eccentric_deviations(size, direction, wheel.z)
+    behind, tables = eccentric.copy(), dict(wheel.tables)
+    behind[found.numbers] = found.off
+    if measured.use == "eccentric" and found.eccentric:
+        behind -= eccentric
+        tables["eccentricity"] = (size / depth,)
+    # measured angles are positive behind, declared deviations ahead
+    tables["pitch_deviation"] = tuple((-behind / wheel.pitch).tolist())
+    return replace(wheel, towards=direction, tables=tables)
 
 
 def pair_errors(
@@ -211,7 +267,8 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
             deep = even.depth * module * even.z / 2 / (1 + half if even.ring else 1 - half)
     # the aperture is the whole angle of a tooth, so its unit is twice the half angle
     lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
-    return {"pitch_deviation": even.pitch, "aperture_deviation": 2 * even.half_angle, **lengths}
+    angles = dict.fromkeys(("pitch_deviation", "stepping"), even.pitch)
+    return {**angles, "aperture_deviation": 2 * even.half_angle, **lengths}
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,7 +303,9 @@ class _Reader:
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
             if abs(off.size) >= MOST[kind]:  # also for random errors: one standard deviation must leave a tooth
-                units = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}
+                units = dict.fromkeys(("pitch_deviation", "stepping"), "its pitch") | {
+                    "aperture_deviation": "its tooth angle"
+                }
                 of = units.get(kind, "the depth of its teeth")
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} times {of}"
                 pitch = self.scales["pitch_deviation"] or 0

@@ -107,7 +107,7 @@ class DisplacedWheel:
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """Return the mirror image, which turns the other way; its tooth i is tooth `first` - i of this wheel."""
+        """Return the mirror image, which turns in the opposite sense; its tooth i is tooth `first` - i of this one."""
         order = (first - np.arange(self.z)) % self.z
         return DisplacedWheel(
             -self.place[..., order],

@@ -5,11 +5,13 @@ from __future__ import annotations
 from abc import abstractmethod
 from copy import copy
 from fractions import Fraction
+from functools import cached_property
 from math import ceil, floor, inf, lcm, nan, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutToothPairs, of_teeth
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
 _LAG_WINDOW = 2  # pitches beyond the reach: a pair that left earlier always lags more than one that left later
 _SLOPE = 1e-4  # pitches: step of the central difference for the speed, well above rounding
+_SAMPLES = 64  # positions per pitch of a single trial, for its mean and its range
 _TRIAL_BLOCK = 8192  # angles processed at once: their arrays stay in the cache
 
 
@@ -28,7 +31,7 @@ class TrialTransmissionFunction(TransmissionFunction):
     """Transmission function of a pair of cut wheels in many trials.
 
     even     mean transmission error of wheels without errors (rad)
-    rows     number of the trial at each angle
+    rows     number of the trial at each angle, or the number of one trial for any angles
     count    number of tooth pairs in a full meshing cycle; `pitches` of both wheels (rad)
     last     errors (rad of the driven wheel) of the last evaluation of each trial
     """
@@ -36,8 +39,8 @@ class TrialTransmissionFunction(TransmissionFunction):
     def __init__(self, teeth: tuple[int, int], even: float, rows: Ints) -> None:
         self.even, self.rows = even, rows
         self.count, self.pitches = lcm(*teeth), (2 * pi / teeth[0], 2 * pi / teeth[1])
-        self.ratio, self.period = Fraction(*teeth), self.pitches[0] * self.count
-        self.last: Floats = np.zeros(len(rows))
+        self.ratio, self.period, self.pitch_count = Fraction(*teeth), self.pitches[0] * self.count, self.count
+        self.last: Floats = np.zeros(np.shape(rows))
         self._columns: Ints | slice = slice(None)
 
     @abstractmethod
@@ -45,20 +48,35 @@ class TrialTransmissionFunction(TransmissionFunction):
         """Return transmission errors [rad of the driven wheel] and speed ratios of selected trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission errors [rad of the driven wheel] and speed ratios at driver angles S of shape (n,) [rad].
+        """Return transmission errors [rad of the driven wheel] and speed ratios at driver angles S [rad].
 
         The error is -inf if no teeth touch.
         """
-        S = np.asarray(S, dtype=float)
+        angles = np.asarray(S, dtype=float)
+        S = angles.ravel()
+        rows = np.broadcast_to(self.rows, S.shape) if self.measured else self.rows
         error, speed = np.empty_like(S), np.empty_like(S)
         for start in range(0, len(S), _TRIAL_BLOCK):
             part = slice(start, start + _TRIAL_BLOCK)
-            error[part], speed[part] = self._evaluate(S[part], self.rows[part])
-        self.last[self._columns] = error
-        return error, speed
+            error[part], speed[part] = self._evaluate(S[part], rows[part])
+        if not self.measured:
+            self.last[self._columns] = error
+        return error.reshape(angles.shape), speed.reshape(angles.shape)
+
+    @property
+    def measured(self) -> bool:  # type: ignore[override]
+        """True if all angles belong to one trial, as in the motion of a train with measured wheels."""
+        return not np.ndim(self.rows)
+
+    def reversed_motion(self) -> TrialTransmissionFunction:
+        """Raise `QuestionError`, because cut teeth are evaluated in the declared sense of rotation only."""
+        what, why = "the train turns backwards", "cut teeth are evaluated in the declared sense of rotation only"
+        raise QuestionError(Problem(what, why, "give positive turns, or omit the measured teeth"))
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
         """Return the functions of the selected columns; their errors are also recorded in the shared array `last`."""
+        if self.measured:
+            return self
         found = copy(self)
         found.rows, found._columns = self.rows[columns], columns
         return found
@@ -73,13 +91,20 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean error of perfect wheels [rad], and 0 as rms deviation, which superposition of errors
-        requires.
+        requires; of a single trial, mean and rms deviation of samples.
         """
-        return self.even, 0.0
+        return (float(self._samples.mean()), float(self._samples.std())) if self.measured else (self.even, 0.0)
 
     def error_range(self) -> tuple[float, float]:
-        """Return infinite limits, because the range is unknown before all trials are evaluated."""
-        return -inf, inf
+        """Return infinite limits, because the range is unknown before all trials are evaluated; of a single trial, the
+        limits of samples [rad].
+        """
+        return (float(self._samples.min()), float(self._samples.max())) if self.measured else (-inf, inf)
+
+    @cached_property
+    def _samples(self) -> Floats:
+        """Errors of a single trial at 64 positions per pitch [rad]."""
+        return self.error(np.linspace(0, self.period, _SAMPLES * self.count, endpoint=False))
 
     def speed_range(self) -> tuple[float, float]:
         """Return the limits 0 and infinity, because the range is unknown before all trials are evaluated."""

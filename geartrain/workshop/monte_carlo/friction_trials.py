@@ -1,7 +1,8 @@
-"""Monte Carlo trials of friction: torque over a run with friction coefficients drawn from normal distributions.
+"""Monte Carlo trials of friction: torque over a run with friction coefficients drawn from their distributions.
 
-A coefficient declared by the train is drawn once per trial for all its pairs. A coefficient declared by a pair or a
-coupling is drawn separately. Negative values are set to 0; the ratio of `static` to `sliding` is kept.
+A coefficient declared by the train is drawn once per trial for all its pairs, or separately for each pair on request. A
+coefficient declared by a pair or a coupling is drawn separately. Negative values are set to 0; the ratio of `static` to
+`sliding` is kept.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
+from math import sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -49,12 +51,20 @@ _MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of i
 
 
 class FrictionSpread(NamedTuple):
-    """Normal distribution of a friction coefficient."""
+    """Normal or uniform distribution of a friction coefficient."""
 
     sliding: float
-    """Mean of the sliding friction coefficient [1]."""
+    """Declared sliding friction coefficient, the mean of a normal distribution [1]."""
     deviation: float
     """Standard deviation of the sliding friction coefficient [1]."""
+    range: tuple[float, float] | None = None
+    """Minimum and maximum of a uniform distribution [1]; None for a normal distribution."""
+
+    def __str__(self) -> str:
+        """Return the distribution as text."""
+        if self.range is None:
+            return f"{self.sliding:g} ± {self.deviation:g}"
+        return f"{self.range[0]:g} to {self.range[1]:g} (uniform)"
 
 
 @dataclass(frozen=True)
@@ -76,7 +86,7 @@ class FrictionPlan:
     ... friction: {sliding: 0.2, deviation: 0.05}
     ... ''').declaration, turns=1)
     >>> plan.spreads
-    {'train': FrictionSpread(sliding=0.2, deviation=0.05)}
+    {'train': FrictionSpread(sliding=0.2, deviation=0.05, range=None)}
     """
 
     declared: Train
@@ -92,15 +102,15 @@ class FrictionPlan:
 
     def __post_init__(self) -> None:
         if not self.spreads:
-            why = "each trial draws friction coefficients from distributions with declared standard deviations"
+            why = "each trial draws friction coefficients from declared distributions"
             fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
             what = f"'{self.declared.name}' declares no random friction coefficient"
             raise QuestionError(Problem(what, why, fix))
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the random friction coefficients, by the pair or coupling that declares them, or "train"."""
-        return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
+        """Distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
+        return friction_spreads(self.declared)
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
         """Return all data on which the results depend. A journal identifies the run by these data.
@@ -116,15 +126,21 @@ class FrictionPlan:
         return {**made, "train": train, **requested, "trials": trials, "seed": seed}
 
 
-def draw_friction(declared: Train, seed: int, trial: int) -> Train:
-    """Return the train with the friction coefficients drawn for one trial."""
+def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
+    """Return the distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
+    return {name: _spread(friction) for name, _, friction in _declarers(declared) if _is_random(friction)}
+
+
+def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False) -> Train:
+    """Return the train with the friction coefficients drawn for one trial.
+
+    per_part   True to draw the coefficient that the train declares separately for each of its pairs
+    """
     streams = RandomStreams(seed, trial // BLOCK)
     drawn: dict[str, CoulombFriction] = {}
-    for name, item, friction in _declarers(declared):
+    for name, item, friction in _declarers(declared, per_part):
         if _is_random(friction):
-            # a whole block is drawn, so that a trial does not depend on the trials computed with it
-            unit = float(streams.rng(item, FRICTION).standard_normal(BLOCK)[trial % BLOCK])
-            drawn[name] = _with_coefficient(friction, unit)
+            drawn[name] = _with_coefficient(friction, streams.rng(item, FRICTION), trial % BLOCK)
     gears = [gear.model_copy(update=_friction_update(gear.name, drawn)) for gear in declared.gears]
     couplings = [joint.model_copy(update=_friction_update(joint.name, drawn)) for joint in declared.couplings]
     return declared.model_copy(update={**_friction_update(_TRAIN, drawn), "gears": gears, "couplings": couplings})
@@ -134,31 +150,41 @@ def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[st
     return {"friction": drawn[name]} if name in drawn else {}
 
 
-def _declarers(declared: Train) -> Iterator[tuple[str, int, Any]]:
-    """Yield name, index and declared friction of the train and of each pair and coupling."""
+def _declarers(declared: Train, per_part: bool = False) -> Iterator[tuple[str, int, Any]]:
+    """Yield name, index and friction of the train and of each pair and coupling that declares it.
+
+    per_part   True if a pair without its own friction is listed with the friction of the train
+    """
     parts: list[tuple[str, Train | GearPair | Coupling]] = [(_TRAIN, declared)]
     parts += [(gear.name, gear) for gear in declared.gears]
     parts += [(coupling.name, coupling) for coupling in declared.couplings]
+    of_pairs = declared.friction if per_part else None
     for item, (name, part) in enumerate(parts):
-        yield name, item, getattr(part, "friction", None)
+        yield name, item, getattr(part, "friction", None) or (of_pairs if 0 < item <= len(declared.gears) else None)
 
 
 def _is_random(friction: Any) -> bool:
-    # a standard deviation of 0 gives the same coefficient in all trials
-    return isinstance(friction, CoulombFriction) and friction.deviation is not None and bool(friction.deviation.value)
+    return isinstance(friction, CoulombFriction) and friction.is_random
 
 
 def _spread(friction: CoulombFriction) -> FrictionSpread:
+    sliding = float(friction.sliding.value)
+    if friction.range is not None:
+        low, high = (float(end.value) for end in friction.range)
+        return FrictionSpread(sliding, (high - low) / sqrt(12), (low, high))
     assert friction.deviation is not None
-    return FrictionSpread(float(friction.sliding.value), float(friction.deviation.value))
+    return FrictionSpread(sliding, float(friction.deviation.value))
 
 
-def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction:
-    """Return the friction with its coefficient changed by `unit` times its standard deviation, but not below 0."""
+def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: int) -> CoulombFriction:
+    """Return the friction with the coefficient drawn for trial number `row` of a block, which is not below 0."""
     spread = _spread(friction)
-    # a coefficient of friction cannot be negative
-    sliding = max(spread.sliding + unit * spread.deviation, 0.0)
-    update: dict[str, Any] = {"sliding": Figure.parse(repr(sliding)), "deviation": None}
+    # a whole block is drawn, so that a trial does not depend on the trials computed with it
+    if spread.range is not None:
+        sliding = float(rng.uniform(*spread.range, BLOCK)[row])
+    else:
+        sliding = max(spread.sliding + float(rng.standard_normal(BLOCK)[row]) * spread.deviation, 0.0)
+    update: dict[str, Any] = {"sliding": Figure.parse(repr(sliding)), "deviation": None, "range": None}
     if friction.static is not None and spread.sliding:  # static friction is scaled by the same factor
         update["static"] = Figure.parse(repr(sliding * float(friction.static.value) / spread.sliding))
     return friction.model_copy(update=update)
@@ -339,8 +365,8 @@ def trial_sections(found: FrictionTrials) -> Iterator[Section]:
     lines = [f"{found.done} trials, seed {found.seed}; estimates with their 95 % confidence intervals."]
     if not found.complete:
         lines.insert(0, f"PARTIAL: stopped after {found.done} of {found.wanted} trials.")
-    drawn = ", ".join(f"{name} {each.sliding:g} ± {each.deviation:g}" for name, each in found.spreads.items())
-    lines.append(f"Drawn from normal distributions, negative values set to 0: {drawn}.")
+    drawn = ", ".join(f"{name} {each}" for name, each in found.spreads.items())
+    lines.append(f"Drawn from normal or uniform distributions, negative values set to 0: {drawn}.")
     if found.locks.count:
         lines.append(f"The train locks in {share_text(found.locks)} of the trials. These are not included below.")
     yield Section("Trials of friction", lines, (_figures(found),))

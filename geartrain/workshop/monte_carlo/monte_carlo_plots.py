@@ -279,6 +279,22 @@ def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = 
 # ---------------------------------------------------------------------------------------------------------- convergence
 
 
+def probability_figure(steps: Sequence[tuple[float, ProbabilityEstimate]], name: str, missing: str, fix: str) -> Figure:
+    """Draw a probability with its 95 % interval as a curve. Raises `QuestionError` without steps.
+
+    steps          ascending abscissas with their estimates
+    missing, fix   reason and remedy if there are no steps
+    """
+    _require(steps, missing, fix)
+    x = np.array([float(each) for each, _ in steps])
+    low, high = np.array([share.interval for _, share in steps]).T
+    figure, (axes,) = curve_panels([3.6])
+    axes.fill_between(x, low, high, color=BLUE, alpha=0.15, linewidth=0, gid="95 %")
+    look = {**series_look(0), "linewidth": 1.6, "marker": "o", "markersize": 3.5}
+    axes.plot(x, [share.value for _, share in steps], gid=name, **look)
+    return figure
+
+
 def convergence_figure(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> Figure:
     """Draw the probability of a jam in any pair with its 95 % interval over the number of trials.
 
@@ -286,14 +302,9 @@ def convergence_figure(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> Figu
 
     steps   ascending numbers of trials with their estimates
     """
-    _require(steps, "no trial is completed", "give at least one trial")
-    counts = np.array([float(count) for count, _ in steps])
-    low, high = np.array([share.interval for _, share in steps]).T
-    figure, (axes,) = curve_panels([3.6])
+    figure = probability_figure(steps, "any pair", "no trial is completed", "give at least one trial")
+    (axes,), counts = figure.axes, [count for count, _ in steps]
     axes.set_xscale("log")
-    axes.fill_between(counts, low, high, color=BLUE, alpha=0.15, linewidth=0, gid="95 %")
-    look = {**series_look(0), "linewidth": 1.6, "marker": "o", "markersize": 3.5}
-    axes.plot(counts, [share.value for _, share in steps], gid="any pair", **look)
     name_axes(axes, "trials; shaded: 95 % interval", "probability of a jam")
     # every n-th number of trials from the last one down, so that the full number is labelled
     axes.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)

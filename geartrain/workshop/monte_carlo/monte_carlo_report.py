@@ -46,7 +46,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
     yield _pairs(found)
     if found.trials.filings:
         yield _filing(found)
-    yield _pointers(found)
+    yield pointer_section(found.trials.pointers)
     for course in found.courses:
         yield _course(course)
     yield from (_shares(found, pointer) for pointer in found.trials.pointers[:4] if len(pointer.shares) > 1)
@@ -118,10 +118,11 @@ def _pair_row(pair: PairEventRates) -> tuple[str, ...]:
     return (pair.name, backlash, *events, bound)
 
 
-def _pointers(found: MonteCarloResult) -> Section:
+def pointer_section(pointers: Sequence[PointerErrorStatistics]) -> Section:
+    """Return the report section on the errors of pointers."""
     rows: list[tuple[str, ...]] = []
     texts = ["Errors at random positions of the input, in degrees. Trials that jam are counted, but not averaged."]
-    for pointer in found.trials.pointers:
+    for pointer in pointers:
         ends = pointer.percentiles
         rows.append(
             (

@@ -20,6 +20,7 @@ from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.transmission import ExactRatio
 from geartrain.workshop.cutting.cut_wheel import CutWheel
 from geartrain.workshop.cutting.displaced_pair import DisplacedWheel
+from geartrain.workshop.cutting.wheel_estimate import closed_steps
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,7 +39,15 @@ if TYPE_CHECKING:
 BLOCK = 256
 """Number of trials that are drawn together. Results depend on it, so it must never change."""
 
-NUMBER = {"pitch_deviation": 0, "eccentricity": 1, "tip": 3, "aperture_deviation": 4, "centre": 5, "bearing": 6}
+NUMBER = {
+    "pitch_deviation": 0,
+    "eccentricity": 1,
+    "tip": 3,
+    "aperture_deviation": 4,
+    "centre": 5,
+    "bearing": 6,
+    "stepping": 9,
+}
 """Number of the random stream of each kind of error. Results depend on these numbers, so they must never change."""
 TOWARDS, POSITION, FRICTION = 2, 7, 8
 """Numbers of the streams of the direction of an eccentricity, the position of the input, and friction."""
@@ -91,10 +100,14 @@ def draw_wheel(
         return found + streams.errors(item, kind, wheel.errors[kind], shape)[rows] if kind in wheel.errors else found
 
     # signs: declared errors are positive ahead and wider, the arrays of a wheel positive behind and flatter
-    place = np.broadcast_to(-wheel.pitch * drawn("pitch_deviation"), (trials, wheel.z))
+    ahead = drawn("pitch_deviation")
+    if "stepping" in wheel.errors:
+        ahead = ahead + closed_steps(drawn("stepping"))
+    place = np.broadcast_to(-wheel.pitch * ahead, (trials, wheel.z))
     tip = wheel.depth * drawn("tip")
     flank = wheel.half_angle * drawn("aperture_deviation")
-    eccentric = _draw_eccentricity(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
+    off_centre = "eccentricity" in wheel.errors or "eccentricity" in wheel.tables
+    eccentric = _draw_eccentricity(wheel, item, streams, rows) if off_centre else None
     if wheel.displaced is not None:
         made = DisplacedWheel(place, tip, flank, flank, zero, zero, *(eccentric or (0.0, 0.0)))
         good = np.asarray(made.cuttable.all(axis=-1))
@@ -111,7 +124,11 @@ def draw_wheel(
 
 
 def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:
-    e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (BLOCK,))[rows]
+    measured = wheel.tables.get("eccentricity")
+    if measured is not None:
+        e = np.full(rows.stop - rows.start, wheel.depth * measured[0])
+    else:
+        e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (BLOCK,))[rows]
     if wheel.towards is not None:
         return e, np.full(len(e), wheel.towards)
     return e, streams.rng(item, TOWARDS).uniform(0.0, 2 * pi, BLOCK)[rows]

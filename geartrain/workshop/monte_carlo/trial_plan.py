@@ -394,6 +394,7 @@ def find_trial_plan(
     outputs: Sequence[str] = (),
     state: str | None = None,
     without: Sequence[str] = (),
+    perfect: bool = False,
 ) -> TrialPlan:
     """Collect the input data for Monte Carlo trials of a train with cutting errors, in one state.
 
@@ -410,6 +411,8 @@ def find_trial_plan(
         Name of a declared state. Required if the train declares states.
     without : sequence of str
         Names of pairs to omit, so that the teeth of the remaining pairs do not form a closed loop.
+    perfect : bool
+        True if a train without errors is allowed.
 
     Returns
     -------
@@ -451,7 +454,7 @@ def find_trial_plan(
     senses = _RotationSenses(motion)
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
     composition = motion._with_sources([pair.name for pair in pairs])
-    if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
+    if not perfect and all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no manufacturing errors"
         why = "without them all trials are identical"
         fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting 'pitch_deviation=2 %'"

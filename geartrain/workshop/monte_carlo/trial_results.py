@@ -401,7 +401,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error in all trials with touching teeth, with its interval [rad]."""
+        """Standard deviation of the pointer error in all trials with touching teeth [rad], with confidence interval."""
         return deviation_of(self.all)
 
     @property

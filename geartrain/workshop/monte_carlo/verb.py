@@ -12,6 +12,7 @@ import typer
 from geartrain.cli.common import (
     INTERRUPTED,
     STANDARD,
+    Cutting,
     File,
     Force,
     Json,
@@ -55,14 +56,7 @@ def run(
     file: File,
     trials: Annotated[int, typer.Option("--trials", help="Number of Monte Carlo trials.")] = 1000,
     seed: Seed = 1,
-    set_: Annotated[
-        Names,
-        typer.Option(
-            "--cutting",
-            metavar="KIND=SIZE",
-            help="Replace a declared cutting error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'; may be repeated.",
-        ),
-    ] = None,
+    set_: Cutting = None,
     output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     state: StateName = None,
     without: Without = None,

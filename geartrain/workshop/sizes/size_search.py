@@ -385,7 +385,7 @@ def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
 
 
 def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
-    """Minimise in an interval by Brent's bounded method."""
+    """Minimise the objective in an interval by Brent's bounded method."""
     first, last = sampled.bounds[0]
     low, high = max(low, first), min(high, last)
     if high > low:

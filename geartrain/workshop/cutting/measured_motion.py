@@ -1,0 +1,69 @@
+"""Motion of a train with the teeth of its wheels as they were measured, without random errors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.workshop.monte_carlo.trial_block import RandomStreams, draw_trial_wheels
+from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import Motion
+    from geartrain.workshop.cutting.declared_errors import ErrorSpecification
+
+
+def measured_motion(
+    train: GearTrain, state: str | None = None, outputs: Sequence[str] = (), without: Sequence[str] = ()
+) -> Motion:
+    """Compute the motion of a train with its wheels as measured: tables, fixed errors and filing, no random errors.
+
+    Parameters
+    ----------
+    train : GearTrain
+        Train with measured wheels.
+    state, outputs, without
+        State, outputs and omitted pairs, as for `GearTrain.motion`.
+
+    Returns
+    -------
+    Motion
+        Motion as a function of the position of the input, in its declared sense.
+
+    Raises
+    ------
+    QuestionError
+        If no wheel has measured teeth or fixed errors.
+    RangeError
+        If a pair jams or disengages, or one of its wheels cannot be cut.
+    """
+    plan = find_trial_plan(train, (), outputs, state, without)
+    # an eccentricity without a direction is random
+    wheels = tuple(replace(each, errors=_fixed(each.errors, each.towards is not None)) for each in plan.wheels)
+    pairs = tuple(replace(each, fitting=_fixed(each.fitting)) for each in plan.pairs)
+    drawn = draw_trial_wheels(replace(plan, wheels=wheels, pairs=pairs), RandomStreams(0, 0), 1)
+    found = {}
+    for at, pair in enumerate(pairs):
+        if not pair.fitting and wheels[pair.first].true and wheels[pair.second].true:
+            continue
+        cut, good = drawn.pair(at), drawn.good[pair.first][0] and drawn.good[pair.second][0]
+        events = pair.verdicts(cut)
+        if events.jams[0] or events.disengaged[0] or not good:
+            what, why = f"pair '{pair.name}' cannot turn with its teeth as measured", "it jams or disengages"
+            fix = "change its clearance, or let it be filed: `fitting: {filing: {stroke: 1 %}}`"
+            raise RangeError(Problem(what, why, fix))
+        found[pair.name] = pair.transmission(cut, np.array(0))
+    if not found:
+        what, why = f"no wheel of '{train.name}' is measured", "random errors are omitted"
+        raise QuestionError(Problem(what, why, "declare `cutting: {measured: {csv: FILE}}` for a wheel"))
+    return train.motion(state, outputs, without)._with_transmissions(found)
+
+
+def _fixed(errors: Mapping[str, ErrorSpecification], directed: bool = True) -> dict[str, ErrorSpecification]:
+    random = {"bearing"} if directed else {"bearing", "eccentricity"}
+    return {kind: off for kind, off in errors.items() if off.way == "value" and kind not in random}

@@ -1,0 +1,125 @@
+"""Command `geartrain feasibility`: probability that a train turns, jams, is too stiff or breaks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from geartrain.cli.common import (
+    INTERRUPTED,
+    Cutting,
+    File,
+    Force,
+    Json,
+    Names,
+    Out,
+    Seed,
+    StateName,
+    Without,
+    check_distinct_outputs,
+    draw,
+    give,
+    option_error,
+    picture_sink,
+    sink,
+)
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.option_values import Theme
+from geartrain.cli.option_values import turns as read_turns
+
+
+def run(
+    file: File,
+    trials: Annotated[int, typer.Option("--trials", help="Number of Monte Carlo trials.")] = 512,
+    seed: Seed = 1,
+    cutting: Cutting = None,
+    accuracy: Annotated[
+        str | None,
+        typer.Option(
+            "--accuracy",
+            metavar="FIRST:LAST:COUNT",
+            help="Compute the probability of turning at COUNT standard deviations of the pitches, in degrees, such as "
+            "0.02:0.3:6.",
+        ),
+    ] = None,
+    per_part: Annotated[
+        bool,
+        typer.Option(
+            "--per-part",
+            help="Draw friction and strength separately for each part, instead of once per workshop. The interval of "
+            "the crank torque is then about half as wide.",
+        ),
+    ] = False,
+    turns: Annotated[
+        str | None,
+        typer.Option(
+            "--turns", help="Use the maximum torque over this number of revolutions; default: torque at mean speeds."
+        ),
+    ] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
+    state: StateName = None,
+    without: Without = None,
+    workers: Workers = None,
+    resume: Resume = False,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="With --accuracy: write a plot of the curve to this file.")
+    ] = None,
+    json: Json = False,
+    theme: Theme = "light",
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Estimate the probability that a train turns, jams, is too stiff for the hand, or breaks, by Monte Carlo trials.
+
+    Spreads of friction, strength and hand are used as declared.
+
+    Example: `geartrain feasibility moon-triangular --accuracy 0.02:0.3:6`.
+    """
+    from geartrain.analysis.gear_train import load
+    from geartrain.workshop.cutting.declared_errors import read_error_overrides
+    from geartrain.workshop.feasibility.feasibility_plan import find_feasibility_plan
+    from geartrain.workshop.feasibility.feasibility_report import describe_feasibility
+    from geartrain.workshop.feasibility.feasibility_trials import run_feasibility
+    from geartrain.workshop.monte_carlo.trial_run import check_trials, journal_key
+
+    to = sink(out, force, (".md", ".html", ".json"))
+    check_trials(trials)
+    drawing = picture_sink(plot, force, theme)
+    check_distinct_outputs(to, drawing)
+    if plot is not None and accuracy is None:
+        raise option_error("--plot", "the curve that it shows is missing", "give --accuracy 0.02:0.3:6")
+    steps = _accuracies(accuracy) if accuracy else ()
+    over = None if turns is None else float(read_turns("--turns", turns))
+    errors = read_error_overrides(cutting or ())
+    plan = find_feasibility_plan(load(file), errors, output or (), state, without or (), over, per_part)
+    train = plan.declared.model_dump(mode="json", exclude_defaults=True)
+    own = {"declared": train, "state": state, "over": over, "per_part": per_part, "accuracies": steps}
+    question = journal_key(plan.cutting, seed, trials, **own)
+    with long_run("feasibility", question, out, RunOptions(workers, resume)) as given:
+        found = run_feasibility(plan, trials, seed, steps, given)
+        complete = found.trials.complete and len(found.curve) == len(steps)
+        close_journal(given.journal, cut=not complete)
+    give(to, json, lambda: found, lambda: [describe_feasibility(found)])
+    if plot is not None and found.curve:
+        from geartrain.workshop.feasibility.feasibility_report import feasibility_figure
+
+        draw(feasibility_figure(found), drawing)
+    if not complete:
+        raise typer.Exit(INTERRUPTED)
+
+
+def _accuracies(text: str) -> tuple[float, ...]:
+    """Parse a sweep such as `0.02:0.3:6` into equally spaced standard deviations [deg]."""
+    from numpy import linspace
+
+    try:
+        first, last, many = text.split(":")
+        low, high, count = float(first), float(last), int(many)
+    except ValueError:
+        low, high, count = 0.0, 0.0, 0
+    if not 0 <= low < high <= 90 or not 2 <= count <= 100:
+        why = "a sweep is FIRST:LAST:COUNT of ascending angles up to 90 degrees, with a count from 2 to 100"
+        raise option_error("--accuracy", f"'{text}' is not a sweep of accuracies", "for example, give 0.02:0.3:6", why)
+    return tuple(float(each) for each in linspace(low, high, count))

@@ -1,0 +1,573 @@
+"""Friction of bearings that grows with the load, section 6 of docs/torques.md.
+
+The references solve all forces at once with cross products about the axes, without ratios, efficiencies of the train or
+iteration. A pair with the efficiency eta has its line of action through the point of the line of centres whose
+distances from both axes are in the ratio eta z2/z1, so that both torques are moments of one force.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+from math import cos, hypot, pi, radians, sin
+
+import numpy as np
+import pytest
+from scipy.optimize import fsolve
+
+import geartrain
+from geartrain.dynamics.motion.motion_problem import find_motion_problem
+from geartrain.dynamics.torques.torque_results import TorqueVerdict
+from geartrain.dynamics.turn.train_turn import find_turn_balance
+
+MU = 0.15
+STANDARD = 9.80665  # m/s2
+
+
+def friction_circle(mu: float, radius: float) -> float:
+    return radius * mu / hypot(1, mu)
+
+
+# ---------------------------------------------------------------------------------------------------------- one arbor
+
+ARM = """
+links:
+  frame: {{}}
+  a: {{wheels: {{w: 20}}}}
+  b: {{wheels: {{v: 20}}, mass: {mass} kg, bearing: {{coefficient: {mu}, radius: {radius} mm}}}}
+revolutes: {{A: [frame, a], B: [frame, b]}}
+axes: {{A: {{position: [{x} mm, {y} mm, 0 mm]}}, B: {{position: [0 mm, 0 mm, 0 mm]}}}}
+gears: [w ~ v]
+inputs: {{a: 1}}
+loads: {{b: 60 N mm}}
+gravity: {gravity}
+"""
+
+
+def arm(gravity: str, mu: float = MU, radius: float = 1.5) -> geartrain.GearTrain:
+    """An arbor with the torque 60 N mm, driven by a force along y with the arm 20 mm, under the weight 10 N."""
+    slope, pitch = radians(20), 20 / cos(radians(20))
+    # the driver's axis, so that the force, 20 degrees from the common tangent, is along y
+    x, y = (-2 * pitch * part for part in (cos(slope), sin(slope)))
+    return geartrain.load(
+        ARM.format(mass=repr(10 / STANDARD), mu=mu, radius=radius, x=f"{x:.15g}", y=f"{y:.15g}", gravity=gravity)
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "gravity", "force", "load"),
+    [
+        ("A1a", "[0, -1, 0]", 3.07702183, 6.92297817),
+        ("A1b", "[0, 1, 0]", 3.14625915, 13.14625915),
+        ("A1c", "[-1, 0, 0]", 3.11653315, hypot(10, 3.11653315)),
+    ],
+)
+def test_an_arbor_under_its_weight_needs_the_force_of_the_closed_form(
+    name: str, gravity: str, force: float, load: float
+) -> None:
+    found = arm(gravity).torques()
+    # the pair has no loss: the torque on the arbor is force times arm
+    assert abs(float(found.pairs["w~v"].torques[1])) == pytest.approx(20e-3 * force, rel=3e-9), name
+    assert found.bearings[0].load == pytest.approx(load, rel=3e-9)
+    assert float(found.bearings[0].torque) == pytest.approx(1e-3 * 0.222510679 * load, rel=3e-9)
+
+
+def test_a_weight_that_relieves_the_bearing_frees_an_arbor_that_would_lock() -> None:
+    # rho = 21 mm exceeds the arm of 20 mm; of the two solutions 6.58536585 and 150 the smaller one is found
+    radius = 21 * hypot(1, MU) / MU
+    found = arm("[0, -1, 0]", radius=radius).torques()
+    assert abs(float(found.pairs["w~v"].torques[1])) == pytest.approx(20e-3 * 6.58536585, rel=3e-9)
+    locked = arm("[0, 1, 0]", radius=radius).torques().verdict
+    assert locked.kind == "self-locking"
+    assert "bearings of b" in locked.text
+
+
+# ------------------------------------------------------------------------------------------------------- three arbors
+
+TRAIN = """
+links:
+  frame: {{}}
+  A: {{mass: {m[0]} kg, wheels: {{a: {{teeth: 64, along: 10 mm}}}}, bearing: {{coefficient: {mu}, radius: 2 mm{at}}}}}
+  B:
+    mass: {m[1]} kg
+    wheels: {{b: {{teeth: 38, along: 10 mm}}, b2: {{teeth: 48, along: 30 mm}}}}
+    bearing: {{coefficient: {mu}, radius: 1.5 mm{at}}}
+  C: {{mass: {m[2]} kg, wheels: {{c: {{teeth: 24, along: 30 mm}}}}, bearing: {{coefficient: {mu}, radius: 1 mm{at}}}}}
+revolutes: {{A: [frame, A], B: [frame, B], C: [frame, C]}}
+axes: {{A: {{position: [{p[0]}]}}, B: {{position: [{p[1]}]}}, C: {{position: [{p[2]}]}}}}
+gears: [{{pair: [a, b], efficiency: {eta}}}, {{pair: [b2, c], efficiency: {eta}}}]
+inputs: {{A: {way}}}
+loads: {{C: {load} N mm}}
+{gravity}
+"""
+WEIGHTS = (0.3, 0.2, 0.1)
+
+
+def three_arbors(
+    c: tuple[float, float] = (25.5, 18),
+    eta: float = 1,
+    mu: float = MU,
+    at: bool = False,
+    gravity: bool = False,
+    load: float = 10,
+    turned: float = 0,
+    way: int = 1,
+) -> geartrain.GearTrain:
+    places = [(0.0, 0.0), (25.5, 0.0), c]
+    about = [(x * cos(turned) - y * sin(turned), x * sin(turned) + y * cos(turned)) for x, y in places]
+    return geartrain.load(
+        TRAIN.format(
+            m=[repr(weight / STANDARD) for weight in WEIGHTS],
+            p=[f"{x:.15g} mm, {y:.15g} mm, 0 mm" for x, y in about],
+            mu=mu,
+            eta=eta,
+            at=", at: [0 mm, 40 mm]" if at else "",
+            gravity="gravity: [0, -1, 0]" if gravity else "",
+            load=-load * way,
+            way=way,
+        )
+    )
+
+
+def crank(train: geartrain.GearTrain) -> float:
+    return 1e3 * float(train.torques().external["A"])
+
+
+def reference(
+    c: tuple[float, float], eta: float, at: bool = False, weights: tuple[float, ...] = (0, 0, 0), load: float = 10
+) -> tuple[float, ...]:
+    """Forces of both pairs and torque at the crank [N, N mm], from the moments about all axes at once."""
+    axes, angle = np.array([(0, 0), (25.5, 0), c]), radians(20)
+    radii = [friction_circle(MU, radius) for radius in (2, 1.5, 1)]
+    ways, points = [], []
+    for at_pair, (z1, z2) in enumerate(((64, 38), (48, 24))):
+        centre_line = axes[at_pair + 1] - axes[at_pair]
+        apart = centre_line / np.hypot(*centre_line)
+        tangent = (1 - 2 * at_pair) * np.array([-apart[1], apart[0]])
+        ways.append(cos(angle) * tangent + sin(angle) * apart)
+        points.append(axes[at_pair] + centre_line / (1 + eta * z2 / z1))
+
+    def moment(arbor: int, pair: int, force: float) -> float:
+        arm = points[pair] - axes[arbor]
+        return force * (arm[0] * ways[pair][1] - arm[1] * ways[pair][0])
+
+    def rubbed(arbor: int, forces: list[tuple[float, float]]) -> float:
+        """Friction of one bearing, or of two at 0 and 40, of forces (size along its way, place)."""
+        down = np.array([0, -weights[arbor]])
+        vectors = [(size * ways[min(arbor, 1) if place == 30 else 0], place) for size, place in forces]
+        if not at:
+            return radii[arbor] * np.hypot(*(sum(vector for vector, _ in vectors) + down))
+        first = sum(vector * (40 - place) / 40 for vector, place in vectors) + down / 2
+        second = sum(vector * place / 40 for vector, place in vectors) + down / 2
+        return radii[arbor] * (np.hypot(*first) + np.hypot(*second))
+
+    def balance(x: np.ndarray) -> list[float]:
+        first, second, torque = x
+        return [
+            torque - rubbed(0, [(-first, 10)]) + moment(0, 0, -first),
+            # the second arbor turns backwards
+            moment(1, 0, first) + moment(1, 1, -second) + rubbed(1, [(first, 10), (-second, 30)]),
+            moment(2, 1, second) - rubbed(2, [(second, 30)]) - load,
+        ]
+
+    return tuple(fsolve(balance, [2, 2, 40], xtol=1e-13))
+
+
+def test_three_arbors_in_a_line_need_the_crank_torque_of_case_a2a() -> None:
+    found = three_arbors(c=(43.5, 0)).torques()
+    assert 1e3 * float(found.external["A"]) == pytest.approx(36.7948545, rel=2e-9)
+    assert [abs(1e3 * float(each.torque)) for each in found.bearings] == pytest.approx(
+        [0.712007541, 0.883769803, 0.270210281], rel=2e-9
+    )
+    assert found.efficiency == pytest.approx(0.915459811, abs=1e-9)
+
+
+def test_an_arbor_at_a_right_angle_presses_less_case_a2b() -> None:
+    found = three_arbors().torques()
+    assert 1e3 * float(found.external["A"]) == pytest.approx(35.9742775, rel=2e-9)
+    assert abs(1e3 * float(found.bearings[1].torque)) == pytest.approx(0.405980268, rel=2e-9)
+    assert found.efficiency == pytest.approx(0.936341543, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "at", "gravity", "load", "torque"),
+    [
+        ("A2c", False, False, 10, 38.2580830655),
+        ("A2d", True, False, 10, 38.5733656547),
+        ("A2e", True, True, 10, 38.5982036398),
+        ("A2e without load", True, True, 0, 0.218575661226),
+    ],
+)
+def test_losses_of_teeth_two_bearings_and_weights(
+    name: str, at: bool, gravity: bool, load: float, torque: float
+) -> None:
+    weights = WEIGHTS if gravity else (0.0, 0.0, 0.0)
+    expected = reference((25.5, 18), 0.97, at, weights, load)
+    assert expected[2] == pytest.approx(torque, rel=1e-9), name
+    assert crank(three_arbors(eta=0.97, at=at, gravity=gravity, load=load)) == pytest.approx(torque, rel=2e-11)
+
+
+def test_the_same_friction_as_constant_torques_gives_the_same_crank_torque() -> None:
+    found = three_arbors(eta=0.97).torques()
+    declared = three_arbors(eta=0.97, mu=0).declaration
+    links = dict(declared.links)
+    for each in found.bearings:
+        links[each.link] = links[each.link].changed(
+            bearing=geartrain.train.mechanism.BearingFriction(sliding=f"{abs(float(each.torque))!r} N m")
+        )
+    again = geartrain.GearTrain(declared.changed(links=links)).torques()
+    assert float(again.external["A"]) == pytest.approx(float(found.external["A"]), rel=1e-14)
+
+
+# ------------------------------------------------------------------------------------------------------------- planets
+
+PLANETS = """
+extends: planetary-24-18-60
+links: {{planet: {{copies: {copies}, bearing: {{coefficient: {mu}, radius: {radius} mm}}}}, {more}}}
+axes: {{main: {{position: [0 mm, 0 mm, 0 mm]}}, planet: {{position: [{x} mm, {y} mm, 0 mm]}}}}
+loads: {{carrier: -1 N m}}
+{shares}
+"""
+
+
+def planets(copies: int, mu: float = MU, radius: float = 2, more: str = "", shares: str = "", turned: float = 0) -> str:
+    x, y = 21 * cos(turned), 21 * sin(turned)
+    return PLANETS.format(copies=copies, mu=mu, radius=radius, more=more, shares=shares, x=f"{x:.15g}", y=f"{y:.15g}")
+
+
+@pytest.mark.parametrize("copies", [1, 3])
+@pytest.mark.parametrize(
+    ("mu", "radius", "k", "efficiency"), [(0.15, 2, 0.0329669181, 0.954407449), (0.3, 4, 0.127848363, 0.838062877)]
+)
+def test_pins_of_planets_lose_what_the_closed_form_says(
+    copies: int, mu: float, radius: float, k: float, efficiency: float
+) -> None:
+    """Cases A3a and A3b: (1 - k 9/21)/(1 + k) with the pin's friction on the carrier."""
+    found = geartrain.load(planets(copies, mu, radius)).torques()
+    sun, ring = (abs(found.pairs[name].torques[at] / arm) for name, at, arm in (("s~p", 0, 12), ("p~ring", 1, 30)))
+    assert float(ring / sun) == pytest.approx((1 - k) / (1 + k), rel=1e-9)
+    assert found.efficiency == pytest.approx(efficiency, abs=1e-9)
+    assert float(found.loss) == pytest.approx(float(sum(found.powers.values())), abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("copies", "shares", "part"),
+    [(1, (1,), 1), (2, (0.5, 0.5), 0), (3, (1 / 3, 1 / 3, 1 / 3), 0), (3, (0.5, 0.3, 0.2), 0.07**0.5)],
+)
+def test_planets_press_on_the_sun_with_their_vector_sum(copies: int, shares: tuple[float, ...], part: float) -> None:
+    """Case A3c: one force of the sun's torque at its pitch circle, 12 mm, leaning by 20 degrees."""
+    suns = "sun: {bearing: {coefficient: 0.15, radius: 2 mm}}"
+    text = planets(1, 0, 2, suns)
+    if copies > 1:
+        # planets one by one, so that their shares may differ
+        angles = [2 * pi * number / copies for number in range(copies)]
+        text = "\n".join(
+            [
+                "links:",
+                "  frame: {wheels: {ring: {teeth: 60, internal: true}}}",
+                f"  {suns.replace('sun: {', 'sun: {wheels: {s: 24}, ')}",
+                "  carrier: {}",
+                *(f"  p{number}: {{wheels: {{w{number}: 18}}}}" for number in range(copies)),
+                "revolutes:",
+                "  main: [frame, sun, carrier]",
+                *(f"  P{number}: [carrier, p{number}]" for number in range(copies)),
+                "axes:",
+                "  main: {position: [0 mm, 0 mm, 0 mm]}",
+                *(
+                    f"  P{number}: {{position: [{21 * cos(angle):.11f} mm, {21 * sin(angle):.11f} mm, 0 mm]}}"
+                    for number, angle in enumerate(angles)
+                ),
+                "gears:",
+                *(
+                    f"  - {{pair: [s, w{number}], share: {share!r}}}\n  - {{pair: [w{number}, ring]}}"
+                    for number, share in enumerate(shares)
+                ),
+                "inputs: {sun: 1}",
+                "loads: {carrier: -1 N m}",
+            ]
+        )
+    found = geartrain.load(text).torques()
+    bearing = next(each for each in found.bearings if each.link == "sun")
+    torque = float(abs(found.external["sun"])) - abs(float(bearing.torque))
+    assert bearing.load == pytest.approx(part * torque / (12e-3 * cos(radians(20))), rel=1e-9, abs=1e-9)
+
+
+# ---------------------------------------------------------------------------------------------------------------- laws
+
+
+def test_a_pair_with_losses_presses_with_the_sum_of_its_torques_over_the_centre_distance() -> None:
+    """Tangential force of case A5a: involutes 24, 36, module 2, 1 N m, contact 2 mm before the pitch point."""
+    train = geartrain.load(
+        """
+links: {frame: {}, a: {wheels: {w: 24}}, b: {wheels: {v: 36}, bearing: {coefficient: 1e-9, radius: 1 mm}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+axes: {A: {position: [0 mm, 0 mm, 0 mm]}, B: {position: [60 mm, 0 mm, 0 mm]}}
+gears: [{pair: [w, v], efficiency: 0.984801351}]
+inputs: {a: 1}
+loads: {b: 1000 N mm}
+"""
+    )
+    found = train.torques()
+    assert 1e3 * float(abs(found.external["a"])) == pytest.approx(676.955475, rel=2e-9)
+    # the load is tangential and radial, as for the pressure angle of 20 degrees
+    assert found.bearings[0].load * cos(radians(20)) == pytest.approx(27.9492579, rel=2e-9)
+
+
+def test_without_friction_the_answer_is_bit_for_bit_that_without_bearings() -> None:
+    plain, none = three_arbors(eta=0.97, mu=0), three_arbors(eta=0.97, mu=1e-300)
+    assert [float(each) for each in plain.torques().external.values()] == [
+        float(each) for each in none.torques().external.values()
+    ]
+    assert isinstance(plain.torques().efficiency, Fraction)
+
+
+def test_turning_the_layout_changes_nothing_without_gravity() -> None:
+    torques = [crank(three_arbors(eta=0.97, at=True, turned=angle)) for angle in (0, 0.7, 2, 4.5)]
+    assert torques == pytest.approx([torques[0]] * 4, rel=1e-12)
+    for angle in (0.3, 1.1):
+        assert geartrain.load(planets(3, turned=angle)).torques().efficiency == pytest.approx(0.954407449, abs=1e-9)
+
+
+def test_mirror_images_agree() -> None:
+    for at in (False, True):
+        assert crank(three_arbors((25.5, 18), 0.97, at=at)) == pytest.approx(
+            -crank(three_arbors((25.5, -18), 0.97, at=at, way=-1)), rel=1e-12
+        )
+
+
+def test_efficiency_never_rises_with_friction() -> None:
+    for at in (False, True):
+        found = [three_arbors(eta=0.97, mu=mu, at=at).torques().efficiency for mu in np.linspace(0, 1.2, 13)]
+        assert all(after < before for before, after in pairwise(found))
+
+
+def test_energy_is_balanced_and_no_loss_is_negative() -> None:
+    for train in (three_arbors(eta=0.97, at=True, gravity=True), geartrain.load(planets(3))):
+        found = train.torques()
+        assert float(sum(found.powers.values()) - found.loss) == pytest.approx(0, abs=1e-12 * float(found.power_in))
+        assert all(each.loss >= 0 for each in (*found.bearings, *found.pairs.values()))
+
+
+def test_two_bearings_never_lose_less_than_one() -> None:
+    for c in ((43.5, 0), (25.5, 18), (25.5, -18), (7.5, 0)):
+        assert crank(three_arbors(c, 0.97, at=True)) >= crank(three_arbors(c, 0.97))
+
+
+def test_torques_are_proportional_to_the_load_without_weights() -> None:
+    ratios = [crank(three_arbors(eta=0.97, at=True, load=load)) / load for load in (1e-3, 1, 1e6)]
+    assert ratios == pytest.approx([ratios[0]] * 3, rel=1e-12)
+
+
+def test_a_bearing_without_positions_of_its_axes_names_them() -> None:
+    train = geartrain.load(
+        """
+links: {frame: {}, a: {wheels: {w: 24}}, b: {wheels: {v: 36}, bearing: {coefficient: 0.15, radius: 1 mm}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+axes: {A: {position: [0 mm, 0 mm, 0 mm]}}
+gears: [w ~ v]
+inputs: {a: 1}
+loads: {b: -1 N m}
+"""
+    )
+    found = train.torques()
+    assert found.verdict.kind == "incomplete"
+    (effect,) = found.neglected
+    assert (effect.what, effect.where) == ("forces on bearings", ("w~v",))
+    assert "axes B" in effect.why
+    assert found.loss == 0
+
+
+# -------------------------------------------------------------------------------------------------------------- a clock
+
+
+def clock(places: tuple[tuple[float, float], ...], mu: float = MU, drive: float = 735.0, line: float = 25.4) -> float:
+    """Torque at the escape wheel of the longcase clock [N mm], from the moments about its arbors at once.
+
+    Cycloidal teeth press at right angles to the line of centres. The line pulls down at the barrel.
+    """
+    counts, efficiencies = ((96, 8), (60, 8), (56, 7)), clock_efficiencies()
+    radii = [friction_circle(mu, radius) for radius in (1.5, 1, 0.5, 0.4)]
+    axes = np.array(places)
+    ways, arms = [], []
+    for number, (z1, z2) in enumerate(counts):
+        centre_line = axes[number + 1] - axes[number]
+        distance = np.hypot(*centre_line)
+        # the great wheel turns clockwise
+        ways.append((-1) ** (number + 1) * np.array([-centre_line[1], centre_line[0]]) / distance)
+        first = distance / (1 + efficiencies[number] * z2 / z1)
+        arms.append((first, distance - first))
+    pull = np.array([0, -drive / line])
+
+    def balance(x: np.ndarray) -> list[float]:
+        on = [x[number] * ways[number] for number in range(3)]
+        rubbed = [pull - on[0], on[0] - on[1], on[1] - on[2], on[2]]
+        lost = [radius * np.hypot(*load) for radius, load in zip(radii, rubbed, strict=True)]
+        return [
+            drive - lost[0] - x[0] * arms[0][0],
+            x[0] * arms[0][1] - lost[1] - x[1] * arms[1][0],
+            x[1] * arms[1][1] - lost[2] - x[2] * arms[2][0],
+            x[2] * arms[2][1] - lost[3] - x[3],
+        ]
+
+    return float(fsolve(balance, [15, 2, 0.3, 0.8], xtol=1e-13)[3])
+
+
+def clock_efficiencies() -> list[float]:
+    found = geartrain.load("longcase-clock-loaded").torques().pairs
+    return [float(found[name].efficiency) for name in ("g96~c8", "c60~t8", "t56~e7")]
+
+
+STRAIGHT = ((0.0, 0.0), (0.0, 52.0), (0.0, 82.6), (0.0, 107.8))
+TO_THE_RIGHT = ((0.0, 0.0), (0.0, 52.0), (30.6, 52.0), (30.6, 77.2))
+
+
+@pytest.mark.parametrize(
+    ("name", "places", "mu", "extra", "line", "torque"),
+    [
+        ("D3", STRAIGHT, 0.15, "", 25.4, 0.831324577),
+        ("D4, third arbor to the right", TO_THE_RIGHT, 0.15, "", 25.4, 0.838107),
+        ("D4, 0.1", STRAIGHT, 0.1, "", 25.4, 0.859742),
+        ("D4, 0.2", STRAIGHT, 0.2, "", 25.4, 0.804217),
+        ("D5, without a pulley", STRAIGHT, 0.15, "drive: {weight: 5.9 kg, drum: 12.7 mm, falls: 1}", 12.7, 0.824428),
+    ],
+)
+def test_pivots_of_a_clock_take_as_much_as_all_moments_at_once_say(
+    name: str, places: tuple[tuple[float, float], ...], mu: float, extra: str, line: float, torque: float
+) -> None:
+    # seen from the dial the great wheel turns against the clock: a mirror image of the reference
+    positions = "".join(
+        f"  {axis}: {{position: [{-x} mm, {y} mm, 0 mm]}}\n"
+        for axis, (x, y) in zip(("great", "centre", "third", "escape"), places, strict=True)
+    )
+    links = "".join(
+        f"  {link}: {{bearing: {{coefficient: {mu}}}}}\n" for link in ("great", "centre", "third", "escape")
+    )
+    train = geartrain.load(f"extends: longcase-clock-pivots\naxes:\n{positions}links:\n{links}{extra}")
+    expected = clock(places, mu, line=line)
+    assert expected == pytest.approx(torque, rel=2e-6), name
+    assert 1e3 * abs(float(train.torques().external["escape"])) == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_report_on_a_clock_gives_the_loss_of_its_pivots() -> None:
+    from geartrain.dynamics.clock_rate import find_timekeeping
+
+    train = geartrain.load("longcase-clock-pivots")
+    found = find_timekeeping(train.mechanics.load_case())
+    assert found is not None
+    expected = clock(STRAIGHT) / 735 * 720
+    assert found.efficiency == pytest.approx(expected, rel=1e-9)
+    # friction in proportion to the load scales with the weight, so no torque is constant
+    lossless = geartrain.load("longcase-clock-loaded")
+    assert found.minimum_torque is not None
+    arc, amplitude = radians(1.5), found.amplitude
+    assert amplitude is not None
+    assert found.minimum_torque == pytest.approx(0.735 * (1 - cos(arc)) / (1 - cos(amplitude)), rel=1e-12)
+    assert found.lost_in_bearings == pytest.approx(0.0914636, abs=1e-6)
+    plain = find_timekeeping(lossless.mechanics.load_case())
+    assert plain is not None
+    assert plain.lost_in_bearings == 0
+
+
+# ---------------------------------------------------------------------------------------------------------- over a turn
+
+
+@pytest.mark.parametrize(("at", "gravity", "load"), [(False, False, 10), (True, True, 10), (True, True, 0)])
+def test_over_a_turn_a_train_of_constant_efficiency_has_its_mean_torque_at_every_position(
+    at: bool, gravity: bool, load: float
+) -> None:
+    train = three_arbors(eta=0.97, at=at, gravity=gravity, load=load)
+    cycle = train.torques(turns=1, samples=30)
+    assert np.asarray(cycle.torque) == pytest.approx(float(train.torques().external["A"]), rel=1e-12)
+    assert cycle.parts["bearing B"].loss == pytest.approx(2 * pi * float(train.torques().bearings[1].loss), rel=1e-12)
+
+
+def test_energy_is_balanced_at_every_position() -> None:
+    train = geartrain.load("longcase-clock-pivots")
+    cycle = train.torques(turns=0.05, samples=200)
+    powers, losses = cycle.powers.values, cycle.losses.values
+    assert losses.min() >= 0
+    largest = np.abs(powers).max()
+    assert np.abs(powers.sum(axis=0) - losses.sum(axis=0)).max() < 1e-12 * largest
+    assert cycle.parts["bearing centre"].loss > 0
+
+
+def test_forces_on_a_planet_turn_with_its_carrier_and_weights_do_not() -> None:
+    """One planet presses on the carrier's bearing with both meshes, 2 F along the tangent, which turns; its weight does
+    not turn.
+    """
+    train = geartrain.load(
+        planets(1, 0, 2, "carrier: {bearing: {coefficient: 0.15, radius: 3 mm}}")
+        .replace("planet: {copies", "planet: {mass: 0.5 kg, copies")
+        .replace("loads:", "gravity: [0, -1, 0]\nloads:")
+    )
+    cycle = train.torques(turns=3.5, samples=400)
+    turned = 2 * pi * np.asarray(cycle.turns) * 2 / 7
+    # the loss of the carrier's bearing gives its friction torque: its speed is 2/7 of that of the sun
+    rubbed = cycle.losses.values[-1] / (2 / 7)
+    force = (1 + rubbed) / 21e-3  # torque on the carrier over its radius
+    # the sun turns forwards and drives the planet forwards along the tangent
+    x, y = -force * np.sin(turned), force * np.cos(turned) - 0.5 * STANDARD
+    assert rubbed == pytest.approx(friction_circle(MU, 3e-3) * np.hypot(x, y), rel=1e-9)
+    assert rubbed.max() / rubbed.min() > 1.1
+
+
+PAIR = """
+links:
+  frame: {{}}
+  a: {{wheels: {{w: {z[0]}}}}}
+  b: {{wheels: {{v: {z[1]}}}, bearing: {{coefficient: 1e-9, radius: 1 mm}}}}
+revolutes: {{A: [frame, a], B: [frame, b]}}
+axes: {{A: {{position: [0 mm, 0 mm, 0 mm]}}, B: {{position: [{distance} mm, 0 mm, 0 mm]}}}}
+gears: [{{pair: [w, v], tooth_form: {form}, friction: {mu}}}]
+inputs: {{a: 1}}
+loads: {{b: {load} N mm}}
+"""
+INVOLUTE = "{form: involute, addendum: [0.62, 0.62]}"  # one tooth pair in contact 2 mm about the pitch point
+TRIANGULAR = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.01}"
+_BASE = 24 * cos(radians(20))  # radius of the driver's base circle, module 2 mm
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "z", "mu", "distance", "load", "angle", "torque", "force"),
+    [
+        ("A5a", INVOLUTE, (24, 36), 0.1, 60, 1000, -pi / 48 - 2 / _BASE, 676.955475, (13.4574343, 27.9492579)),
+        ("A5b", INVOLUTE, (24, 36), 0.1, 60, 1000, -pi / 48 + 2 / _BASE, 676.228668, (7.11558833, 27.9371445)),
+        # the centre distance is the sum of both torques over the tangential force
+        ("A6a", TRIANGULAR, (48, 96), 0.2, 2.809639307808837, 1, radians(5), 0.518866501, (0.225661120, 0.540591281)),
+        ("A6b", TRIANGULAR, (96, 72), 0.2, 1.7296254855060114, 1, radians(-3), 1.35144658, (1.32715237, 1.35951198)),
+    ],
+)
+def test_one_pair_of_teeth_presses_as_statics_of_its_contact_says(
+    name: str,
+    form: str,
+    z: tuple[int, int],
+    mu: float,
+    distance: float,
+    load: float,
+    angle: float,
+    torque: float,
+    force: tuple[float, float],
+) -> None:
+    """Cases A5 and A6: normal force and friction at one point of contact, before and after the line of centres."""
+    train = geartrain.load(PAIR.format(form=form, z=z, mu=mu, distance=repr(distance), load=load))
+    balance = find_turn_balance(train.mechanics.load_case(), find_motion_problem(train.mechanics, None), None)
+    assert not isinstance(balance, TorqueVerdict)
+    found = balance.at(np.array([angle / (2 * pi)]))
+    assert 1e3 * found.torque[0, 0] == pytest.approx(torque, rel=2e-9), name
+    loaded = found.losses[-1, 0] / abs(found.slipping[-1, 0]) / friction_circle(1e-9, 1e-3)
+    assert loaded == pytest.approx(hypot(*force), rel=2e-8), name
+
+
+def test_a_locked_bearing_locks_at_every_position() -> None:
+    radius = 21 * hypot(1, MU) / MU
+    assert arm("[0, 1, 0]", radius=radius).torques(turns=1, samples=10).verdict.kind == "self-locking"
+    relieved = arm("[0, -1, 0]", radius=radius)
+    assert relieved.torques(turns=1, samples=10).mean == pytest.approx(20e-3 * 6.58536585, rel=3e-9)
+
+
+def test_friction_that_time_steps_leave_out_is_named() -> None:
+    declared = three_arbors().declaration
+    links = {name: link.changed(inertia="1 kg mm2") for name, link in declared.links.items() if name != "frame"}
+    train = geartrain.GearTrain(declared.changed(links={**declared.links, **links}))
+    run = train.dynamics("1 turn/s", turns=0.1)
+    assert any("bearings of A, B, C that grows with the load" in note for note in run.notes)

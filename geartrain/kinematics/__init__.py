@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock as Gridlock
     from geartrain.kinematics.judged_outputs import Sensitivity as Sensitivity
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
-    from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule as find_divisibility_rule
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
     from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
@@ -51,7 +50,7 @@ __getattr__, __all__ = public_names(
         "circuits.fundamental": "Circuit WillisEquation",
         "gridlock.removal": "Gridlock",
         "judged_outputs": "Sensitivity",
-        "phasing.mesh_phasing": "MeshPhasing find_divisibility_rule",
+        "phasing.mesh_phasing": "MeshPhasing",
         "speeds.float_speeds": "FloatSpeeds",
         "speeds.mobility": "Mobility",
         "train_kinematics": "TrainKinematics",

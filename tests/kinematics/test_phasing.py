@@ -20,7 +20,8 @@ from studies.residue_errors import first_float_failure, measure_phase_accuracy
 from teeth3d import Wheel, best, in_space, misfits
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.kinematics import MeshPhasing, find_divisibility_rule
+from geartrain.kinematics import MeshPhasing
+from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule
 from geartrain.numerics.integer_lattice import saturated_lattice
 from geartrain.numerics.rational_angles import rational_angle, recognised_angle
 from geartrain.spherical import Configuration, from_polyhedron, spherical_divisibility_rule, spherical_phasing

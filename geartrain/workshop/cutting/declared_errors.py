@@ -18,8 +18,8 @@ from geartrain.workshop.cutting.wheel_estimate import estimate_measured
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.train import PairMounting, Train, Wheel, WheelManufacture
-    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth
+    from geartrain.train import Train, Wheel
+    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth, PairMounting, WheelManufacture
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "stepping", "eccentricity", "tip", "aperture_deviation")

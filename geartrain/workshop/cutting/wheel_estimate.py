@@ -220,7 +220,7 @@ def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLa
     q, q_limit = _successive_ratio(step, steps / squares, n)
     law = law or ("stepped" if q < q_limit else "independent")
     unit, variance, ends = np.eye(n), squares / freedom, 1
-    if law == "stepped":
+    if law == "stepped" and len(step):
         unit = stepped_covariance(numbers, z)
         variance, ends = steps / float(np.trace(step @ unit @ step.T)), 2
     covariance = variance * (inverse @ unit @ inverse.T)[1:, 1:]

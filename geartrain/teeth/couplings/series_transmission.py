@@ -75,10 +75,7 @@ class SeriesTransmission(LosslessTransmission):
         return np.asarray(float(self.ratio) + self.factor * self.order * share)
 
     def speed_slope(self, S: ArrayLike) -> Floats:
-        """Return the derivative of the speed ratio.
-
-        S   driver angles [rad], any shape
-        """
+        """Return the derivative of the speed ratio [1/rad] at driver angles S [rad]."""
         x, half = self._argument(S)
         size = self.factor * self.order**2 * self.rho * self.rest * (1 + self.rho)
         return np.asarray(-size * np.sin(x) / (self.rest**2 + 4 * self.rho * half) ** 2)

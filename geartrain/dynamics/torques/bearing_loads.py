@@ -54,12 +54,13 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
 
 
 class AxisForce(NamedTuple):
-    """Force on the second link of a pair, and the opposite force on its first link: r along + |r| lean apart, where r
-    is the torque on the carrier; or a force on one link in proportion to the torque on it.
+    """Force on the second link of a pair, and the opposite force on its first link; or a force on a single link.
+
+    With the torque r on the carrier (of a single link, the torque on it), the force is r `along` + |r| `lean` `apart`.
     """
 
     name: str
-    """Name of the pair; the link for the line of a weight."""
+    """Name of the pair, or of the link on which the line of a weight acts."""
     links: tuple[str | None, str]
     """First link (None for a single force) and second link."""
     carrier: str
@@ -96,7 +97,7 @@ class BearingLoads:
 
     @property
     def missing(self) -> Mapping[str, Sequence[str]]:
-        """Names of the pairs whose forces on these bearings are unknown, by the reason."""
+        """Names of the pairs and lines whose forces on these bearings are unknown, by reason."""
         _ = self.forces  # lists the pairs
         return self._left_out
 

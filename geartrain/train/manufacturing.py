@@ -99,12 +99,7 @@ FaceWidth = Annotated[MeasuredLength, above_zero("give a length such as 3 mm")]
 
 
 class ArborSizes(Declared):
-    """Dimensions and material of the arbor of a link between its two bearings.
-
-    See Also
-    --------
-    Link : its field `arbor`
-    """
+    """Dimensions and material of the arbor of a link between its two bearings."""
 
     diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
     span: FaceWidth = Field(description="Distance between the centres of the bearings")
@@ -120,12 +115,6 @@ def material_table() -> Mapping[str, Material]:
     """Return the materials of the built-in table, by name.
 
     A material declared in a train takes precedence over one with the same name.
-
-    Returns
-    -------
-    mapping of str to Material
-        Mean values from handbooks, with source and spread. They do not guarantee the strength of an individual sheet or
-        bar.
     """
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
@@ -183,10 +172,7 @@ class LengthError(_DeclaredError):
 
 
 class MeasuredTeeth(Declared):
-    """Measurements of the teeth of a real wheel, one value for each tooth in the order of rotation.
-
-    The teeth are described by their pitch deviations, or by `angles` seen from the axis of rotation.
-    """
+    """Measurements of the teeth of a real wheel, one value for each tooth in the order of rotation."""
 
     pitch_deviation: tuple[AngleOff, ...] | None = Field(
         None,
@@ -237,12 +223,14 @@ class MeasuredTeeth(Declared):
 
     @model_validator(mode="after")
     def _describes_pitches_once(self) -> MeasuredTeeth:
-        if self.angles is not None and (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
-            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
-            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
-        if self.angles is not None and self.pitch_deviation is not None:
+        if self.angles is None:
+            return self
+        if self.pitch_deviation is not None:
             what, why = "the pitches are declared twice", "both `pitch_deviation` and angles are given"
             raise bad("measured", what, "remove one of them", why)
+        if (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
+            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
+            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
         return self
 
     def deviations(self, count: int) -> dict[int, float]:
@@ -287,13 +275,7 @@ def _read_angles(path: Path, column: str) -> list[str | None]:
 
 
 class WheelManufacture(Declared):
-    """Manufacturing errors of the teeth of a wheel. Undeclared errors are 0.
-
-    See Also
-    --------
-    Wheel : its field `cutting`
-    Train : default of all other wheels
-    """
+    """Manufacturing errors of the teeth of a wheel. Undeclared errors are 0."""
 
     pitch_deviation: Annotated[AngleError, short_for("value")] | None = Field(
         None,
@@ -349,13 +331,7 @@ class Filing(Declared):
 
 
 class PairMounting(Declared):
-    """Mounting errors of the axes of a gear pair. Undeclared errors are 0.
-
-    See Also
-    --------
-    GearPair : its field `fitting`
-    Train : default of all other pairs
-    """
+    """Mounting errors of the axes of a gear pair. Undeclared errors are 0."""
 
     centre: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Error of the centre distance; positive if the axes are too far apart"

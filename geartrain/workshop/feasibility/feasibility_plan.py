@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
     from geartrain.numerics.arrays import Floats
-    from geartrain.train import ArborSizes, Train
+    from geartrain.train import Train
+    from geartrain.train.manufacturing import ArborSizes
 
 _SAMPLES = 2_000  # positions of the input in a run
 
@@ -109,12 +110,12 @@ class FeasibilityPlan:
 
     @cached_property
     def nominal(self) -> PairLoads | None:
-        """Torques without spreads; None without loads with a unit, or if they do not follow from the loads."""
+        """Torques without spreads; None without loads with a unit, or if the loads do not determine them."""
         known = self.declared.is_loaded(self.state) and self.declared.has_torque_units(self.state)
         return self.loads(self.train) if known else None
 
     def loads(self, train: GearTrain) -> PairLoads | None:
-        """Return the torques of a train, infinite if friction locks it; None if they do not follow from the loads."""
+        """Return the torques of a train, infinite if friction locks it; None if the loads do not determine them."""
         found = train.torques(self.state)
         crank = found.external.get(self.crank)
         if found.verdict.kind in ("self-locking", "stalled"):

@@ -125,12 +125,12 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def rough(self) -> ProbabilityEstimate:
-        """Probability that tips of teeth clash (rough running), of the trials in which the train turns."""
+        """Probability that tips of teeth clash (rough running), in the trials in which the train turns."""
         return self._of_turning(CLASH)
 
     @property
     def loose(self) -> ProbabilityEstimate:
-        """Probability that a pair loses contact, of the trials in which the train turns."""
+        """Probability that a pair loses contact, in the trials in which the train turns."""
         return self._of_turning(DISENGAGED)
 
     def _of_turning(self, mark: int) -> ProbabilityEstimate:
@@ -139,7 +139,7 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def forced(self) -> Mapping[str, ProbabilityEstimate] | None:
-        """Probability that the hand breaks a tooth, of the trials in which the train jams; None without strengths or a
+        """Probability that the hand breaks a tooth, in the trials in which the train jams; None without strengths or a
         hand. `torque` is a lower bound from the torque of the hand; `wedge` includes the squeezed flanks of the pair.
         """
         if self.hand is None or not self.plan.parts:

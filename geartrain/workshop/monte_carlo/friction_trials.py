@@ -73,7 +73,7 @@ class FrictionSpread(NamedTuple):
 class FrictionPlan:
     """Plan of trials with random friction coefficients: the train, and the input positions of each trial.
 
-    Raises `QuestionError` if no friction coefficient of the train has a standard deviation.
+    Raises `QuestionError` if no friction coefficient of the train has a distribution.
 
     See Also
     --------

@@ -67,8 +67,8 @@ def test_the_curve_is_drawn(train_file: Write) -> None:
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        (("--accuracy", "0.3:0.1:4"), "is not a sweep of accuracies"),
-        (("--accuracy", "many"), "is not a sweep of accuracies"),
+        (("--accuracy", "0.3:0.1:4"), "is not a sweep of values"),
+        (("--accuracy", "many"), "is not a sweep of values"),
         (("--plot", "curve.svg"), "the curve that it shows is missing"),
         (("--trials", "0"), "is not a valid number of trials"),
     ],

@@ -183,10 +183,7 @@ class LengthError(_DeclaredError):
 
 
 class MeasuredTeeth(Declared):
-    """Measurements of the teeth of a real wheel, one value for each tooth in the order of rotation.
-
-    The teeth are described by their pitch deviations, or by `angles` seen from the axis of rotation.
-    """
+    """Measurements of the teeth of a real wheel, one value for each tooth in the order of rotation."""
 
     pitch_deviation: tuple[AngleOff, ...] | None = Field(
         None,
@@ -237,12 +234,14 @@ class MeasuredTeeth(Declared):
 
     @model_validator(mode="after")
     def _describes_pitches_once(self) -> MeasuredTeeth:
-        if self.angles is not None and (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
-            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
-            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
-        if self.angles is not None and self.pitch_deviation is not None:
+        if self.angles is None:
+            return self
+        if self.pitch_deviation is not None:
             what, why = "the pitches are declared twice", "both `pitch_deviation` and angles are given"
             raise bad("measured", what, "remove one of them", why)
+        if (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
+            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
+            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
         return self
 
     def deviations(self, count: int) -> dict[int, float]:

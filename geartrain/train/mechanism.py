@@ -44,6 +44,7 @@ from geartrain.numerics.quantity import (
     above_zero,
     bad,
     below_right_angle,
+    check_range,
     checked,
     millimetres,
     not_below_zero,
@@ -84,6 +85,9 @@ FrictionTorque = Annotated[
     ),
 ]
 
+_Coefficient = Annotated[Figure, not_below_zero("give a coefficient of friction such as 0.15")]
+_Radius = Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")]
+
 
 class BearingFriction(Declared):
     """Friction of a bearing: a torque that does not depend on the load, and a part that is proportional to the load. In
@@ -108,13 +112,19 @@ class BearingFriction(Declared):
     static: FrictionTorque | None = Field(
         None, description="Static friction torque that must be exceeded to start; at least `sliding`, default `sliding`"
     )
-    coefficient: Annotated[Figure, not_below_zero("give a coefficient of friction such as 0.15")] | None = Field(
+    coefficient: _Coefficient | None = Field(
         None,
         description="Coefficient of friction of the bearing; its friction torque grows with the forces of the gear "
         "pairs, whose `axes` need positions; default none",
     )
-    radius: Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")] | None = Field(
+    radius: _Radius | None = Field(
         None, description="Radius of the pivot in the bearing, for `coefficient`; default half the `pivot` of the arbor"
+    )
+    range: tuple[_Coefficient, _Coefficient] | None = Field(
+        None, description="Minimum and maximum of the uniform distribution of `coefficient` in Monte Carlo runs"
+    )
+    radii: tuple[_Radius, _Radius] | None = Field(
+        None, description="Minimum and maximum of the uniform distribution of `radius` in Monte Carlo runs"
     )
     at: tuple[MeasuredLength, MeasuredLength] | None = Field(
         None,
@@ -124,6 +134,8 @@ class BearingFriction(Declared):
 
     @model_validator(mode="after")
     def _check_static(self) -> BearingFriction:
+        check_range("bearing", self.coefficient, self.range)
+        check_range("bearing", self.radius, self.radii)
         if self.at is not None and self.at[0].si == self.at[1].si:
             raise bad(
                 "bearing", "two bearings have the same position", "give two positions, such as `at: [0 mm, 40 mm]`"

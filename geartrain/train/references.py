@@ -349,16 +349,13 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
         lengths["angles"] = len(measured.angles) + measured.missing
     for name, length in lengths.items():
         if length != count:
-            yield Problem(
-                f"'{name}' has {length} measured values, but wheel '{wheel}' has {count} teeth",
-                "a table has one value for each tooth, in the order of rotation",
-                "complete the table, or correct the tooth count"
-                + (", or give the number of `missing` teeth after the last angle" if name == "angles" else ""),
-                train.place(*loc, name),
-            )
+            what = f"'{name}' has {length} measured values, but wheel '{wheel}' has {count} teeth"
+            why = "a table has one value for each tooth, in the order of rotation"
+            fix = "complete the table, or correct the tooth count"
+            fix += ", or give the number of `missing` teeth after the last angle" if name == "angles" else ""
+            yield Problem(what, why, fix, train.place(*loc, name))
             return
-    off = measured.deviations(count)
-    for (one, before), (two, after) in pairwise(off.items()):
+    for (one, before), (two, after) in pairwise(measured.deviations(count).items()):
         if not abs(after - before) < (two - one) * 2 * pi / count:
             what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' does not follow that of tooth {one + 1}"
             why = f"angles increase from tooth to tooth, by about {360 / count:.5g} deg"

@@ -34,6 +34,7 @@ from geartrain.numerics.quantity import (
     TorsionalStiffness,
     above_zero,
     bad,
+    check_range,
     checked,
     not_below_zero,
 )
@@ -188,11 +189,7 @@ class HandDrive(Declared):
                 "`stiffness` applies only to a hand with a `rate`",
                 {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
             )
-        if self.range is not None and (
-            self.torque is None or not self.range[0].base <= self.torque.base <= self.range[1].base
-        ):
-            fix = "give the minimum first, and a `torque` between both"
-            raise bad("drive", "the `range` of the hand does not contain its `torque`", fix)
+        check_range("drive", self.torque, self.range)
         return self
 
 

@@ -22,14 +22,14 @@ from geartrain.train.declaration_files import write_declaration
 from geartrain.workshop import (
     WheelEstimate,
     estimate_wheel,
-    find_measured_wheels,
     find_trial_plan,
-    measured_motion,
     read_error_overrides,
     run_course,
     run_trials,
 )
+from geartrain.workshop.cutting.measured_motion import measured_motion
 from geartrain.workshop.cutting.wheel_estimate import closed_steps, stepped_covariance
+from geartrain.workshop.cutting.wheel_report import find_measured_wheels
 from geartrain.workshop.monte_carlo.trial_block import JAM, RandomStreams, draw_trial_wheels, judge_trial_pairs
 
 FIFTEEN = [
@@ -247,7 +247,7 @@ def test_the_wheel_as_measured_is_the_same_in_every_trial_and_other_wheels_are_d
     drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 3)
     assert np.ptp(drawn.wheels[0].place, axis=0).max() == 0
     law = find_trial_plan(measured("law")).wheels[0]
-    found = find_measured_wheels(measured().declaration).wheels["p"]
+    found = find_measured_wheels(measured().declaration)["p"]
     assert found.law == "stepped"
     assert (law.towards, law.tables) == (None, {})
     assert law.errors["stepping"].size * 24 == pytest.approx(degrees(found.deviation.value), rel=1e-9)

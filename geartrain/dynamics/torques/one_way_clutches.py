@@ -21,8 +21,8 @@ from functools import cached_property
 from itertools import combinations
 
 from geartrain.dynamics.torques.drivers import drag_torques
-from geartrain.dynamics.torques.load_case import PRESCRIBED, LoadCase
-from geartrain.dynamics.torques.torque_analysis import find_torques, power_inputs, resist
+from geartrain.dynamics.torques.load_case import PRESCRIBED, LoadCase, power_inputs
+from geartrain.dynamics.torques.torque_analysis import find_torques, resist
 from geartrain.dynamics.torques.torque_results import Torques, TorqueVerdict
 from geartrain.dynamics.train_mechanics import TrainMechanics
 from geartrain.errors import DeclarationError, Problem

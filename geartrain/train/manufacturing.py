@@ -99,12 +99,7 @@ FaceWidth = Annotated[MeasuredLength, above_zero("give a length such as 3 mm")]
 
 
 class ArborSizes(Declared):
-    """Dimensions and material of the arbor of a link between its two bearings.
-
-    See Also
-    --------
-    Link : its field `arbor`
-    """
+    """Dimensions and material of the arbor of a link between its two bearings."""
 
     diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
     span: FaceWidth = Field(description="Distance between the centres of the bearings")
@@ -120,12 +115,6 @@ def material_table() -> Mapping[str, Material]:
     """Return the materials of the built-in table, by name.
 
     A material declared in a train takes precedence over one with the same name.
-
-    Returns
-    -------
-    mapping of str to Material
-        Mean values from handbooks, with source and spread. They do not guarantee the strength of an individual sheet or
-        bar.
     """
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
@@ -286,13 +275,7 @@ def _read_angles(path: Path, column: str) -> list[str | None]:
 
 
 class WheelManufacture(Declared):
-    """Manufacturing errors of the teeth of a wheel. Undeclared errors are 0.
-
-    See Also
-    --------
-    Wheel : its field `cutting`
-    Train : default of all other wheels
-    """
+    """Manufacturing errors of the teeth of a wheel. Undeclared errors are 0."""
 
     pitch_deviation: Annotated[AngleError, short_for("value")] | None = Field(
         None,
@@ -348,13 +331,7 @@ class Filing(Declared):
 
 
 class PairMounting(Declared):
-    """Mounting errors of the axes of a gear pair. Undeclared errors are 0.
-
-    See Also
-    --------
-    GearPair : its field `fitting`
-    Train : default of all other pairs
-    """
+    """Mounting errors of the axes of a gear pair. Undeclared errors are 0."""
 
     centre: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Error of the centre distance; positive if the axes are too far apart"

@@ -48,12 +48,12 @@ def blue(
 
 
 @pytest.mark.parametrize("name", ["worm", "bevel-differential", "south-pointing-chariot"])
-@pytest.mark.parametrize("towards", [USUAL, [-0.36, 0.3, 0.88], [0.1, -0.2, -0.97]])
-def test_pillars_before_wheels_hide_next_to_nothing_of_them(show: Opening, name: str, towards: list[float]) -> None:
+def test_pillars_before_wheels_hide_next_to_nothing_of_them(show: Opening, name: str) -> None:
     shown = show(name)
-    whole = blue(shown, towards, None, pillars=False)
-    assert whole > 2000
-    assert blue(shown, towards, None) > 0.93 * whole
+    for towards in (USUAL, [-0.36, 0.3, 0.88], [0.1, -0.2, -0.97]):
+        whole = blue(shown, towards, None, pillars=False)
+        assert whole > 2000
+        assert blue(shown, towards, None) > 0.93 * whole, towards
 
 
 @pytest.mark.parametrize("name", ["bevel-differential", "pennestri-2002", "huygens-planetarium-1682"])

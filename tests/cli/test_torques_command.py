@@ -132,8 +132,8 @@ def test_trials_of_friction_have_the_spread_that_the_closed_form_tells(pin: Path
     assert tried["starting"]["mean"][0] > tried["maximum"]["mean"][0]
     assert tried["spreads"] == {"a~b": {"sliding": 0.3, "deviation": 0.05}}
     assert (tried["wanted"], tried["done"], tried["locks"]["count"]) == (60, 60, 0)
-    text = call("torques", pin, *words).output
-    assert "60 trials, seed 3" in text
+    text = call("torques", pin, *words, "--trials", "6").output
+    assert "6 trials, seed 3" in text
     assert "a~b 0.3 ± 0.05" in text
 
 

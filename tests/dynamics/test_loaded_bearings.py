@@ -571,3 +571,47 @@ def test_friction_that_time_steps_leave_out_is_named() -> None:
     train = geartrain.GearTrain(declared.changed(links={**declared.links, **links}))
     run = train.dynamics("1 turn/s", turns=0.1)
     assert any("bearings of A, B, C that grows with the load" in note for note in run.notes)
+
+
+# ---------------------------------------------------------------------------------------------- joints and directions
+
+
+def test_an_axis_in_the_opposite_direction_changes_no_friction() -> None:
+    declared = three_arbors(eta=0.97, at=True, gravity=True).declaration
+    found = geartrain.GearTrain(declared).torques()
+    axis = declared.axes["B"].changed(direction=(0, 0, -1))
+    again = geartrain.GearTrain(declared.changed(axes={**declared.axes, "B": axis})).torques()
+    assert float(again.external["A"]) == pytest.approx(float(found.external["A"]), rel=1e-13)
+    assert [each.load for each in again.bearings] == pytest.approx([each.load for each in found.bearings], rel=1e-13)
+
+
+PIPE = """
+links:
+  frame: {}
+  a: {wheels: {w: 24}}
+  arbor: {bearing: {coefficient: 0.15, radius: 1 mm}}
+  pipe: {wheels: {v: 36}, bearing: {coefficient: 0.15, radius: 3 mm}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, arbor], axis: B}, {pair: [arbor, pipe], axis: B}]
+axes: {A: {position: [0 mm, 0 mm, 0 mm]}, B: {position: [60 mm, 0 mm, 0 mm]}}
+gears: [w ~ v]
+inputs: {a: 1, arbor: ARBOR}
+loads: {pipe: -1 N m}
+"""
+
+
+@pytest.mark.parametrize("speed", [Fraction(0), Fraction(-2, 3), Fraction(2, 3)])
+def test_a_pipe_rubs_on_its_arbor_with_their_relative_speed_and_presses_on_the_bearing_of_the_arbor(
+    speed: Fraction,
+) -> None:
+    """The pipe turns by -2/3: on a still arbor, with the arbor, and against it."""
+    train = geartrain.load(PIPE.replace("ARBOR", str(speed)))
+    found = train.torques()
+    pipe, arbor = (next(each for each in found.bearings if each.link == link) for link in ("pipe", "arbor"))
+    assert pipe.load == arbor.load
+    relative = abs(Fraction(-2, 3) - speed)
+    size = friction_circle(MU, 3e-3) * pipe.load
+    assert float(pipe.loss) == pytest.approx(size * relative, abs=1e-15)
+    assert float(arbor.loss) == pytest.approx(friction_circle(MU, 1e-3) * arbor.load * abs(speed), abs=1e-15)
+    # the friction of the pipe acts on the arbor, which must be held or driven
+    assert abs(float(pipe.torque)) == abs(float(pipe.reaction)) == pytest.approx(size if relative else 0)
+    assert float(sum(found.powers.values()) - found.loss) == pytest.approx(0, abs=1e-14)

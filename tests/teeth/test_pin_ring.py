@@ -187,9 +187,6 @@ gears: [{pair: [p, w], tooth_form: pin_ring}]
         _ = geartrain.load(text).meshes
 
 
-# ------------------------------------------------------------------------------------------------------------ reducers
-
-
 @pytest.mark.parametrize(
     ("name", "link", "ratio"),
     [

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import geartrain
-from geartrain.simulation.strength.pin_strength import held_pin_stress, hole_share, lobe_load
+from geartrain.simulation.strength.pin_strength import lobe_load
 from geartrain.teeth.cycloidal_disc import CycloidalDisc
 
 lobes = st.integers(3, 60)
@@ -46,22 +46,6 @@ def test_the_outline_is_as_round_as_a_circle_through_three_of_its_points(
     assert float(disc.curvature(np.array(angle))) == pytest.approx(round_, rel=2e-3, abs=2e-3)
 
 
-@pytest.mark.parametrize("pins", [6, 8, 12, 30])
-def test_the_most_loaded_of_many_pins_in_holes_bears_four_parts_of_all(pins: int) -> None:
-    """Q = 4 T/(z R), as handbooks have it for an even number of pins."""
-    assert hole_share(pins) == pytest.approx(4 / pins, rel=1e-3)
-
-
-def test_three_pins_in_holes_hold_the_torque_at_every_phase() -> None:
-    worst = 0.0
-    for turn in np.linspace(0, 2 * pi, 3601):
-        arms = [max(sin(turn + 2 * pi * each / 3), 0) for each in range(3)]
-        forces = [arm / sum(other**2 for other in arms) for arm in arms]
-        assert sum(force * arm for force, arm in zip(forces, arms, strict=True)) == pytest.approx(1)
-        worst = max(worst, *forces)
-    assert hole_share(3) == pytest.approx(worst, rel=1e-4)
-
-
 def test_pressure_by_another_form_of_hertz() -> None:
     """p = sqrt(F E*/(pi b R)), E* of two equal bodies E/(2 (1 - nu^2))."""
     found = geartrain.load("cycloidal-reducer").strength()
@@ -71,7 +55,9 @@ def test_pressure_by_another_form_of_hertz() -> None:
         assert each.pressure == pytest.approx(sqrt(each.force * stiffness / (pi * 8 * each.radius)), rel=1e-6)
     assert 1 / holes.radius == pytest.approx(1 / 2 - 1 / 3.5)
     assert holes.force == pytest.approx(4 * 10_000 / (6 * 12), rel=1e-4)
-    assert holes.pin_stress == pytest.approx(held_pin_stress(holes.force, 8, 4))
+    # bending and shear by von Mises, spread over 8 mm of a pin of 4 mm that is held at one end
+    bent, sheared = holes.force * 8 / 2 / (pi * 4**3 / 32), holes.force / (4 * pi)
+    assert holes.pin_stress == pytest.approx(sqrt(bent**2 + 3 * sheared**2))
 
 
 def test_no_pin_at_any_time_is_pressed_more_than_is_told() -> None:
@@ -88,9 +74,3 @@ def test_no_pin_at_any_time_is_pressed_more_than_is_told() -> None:
         hollow = R * (1 + k**2 - 2 * k * np.cos(angles)) ** 1.5 / below + 1.0
         worst = max(worst, float((forces * (1 - 1 / hollow)).max()))
     assert load.force * load.curvature == pytest.approx(worst, rel=1e-3)
-
-
-def test_stress_of_a_held_pin_by_the_parts_of_mises() -> None:
-    """100 N over 4 mm on 4 mm: bending 100 * 2/(pi 4^3/32), shear 100/(4 pi)."""
-    bent, sheared = 200 / (pi * 64 / 32), 100 / (4 * pi)
-    assert held_pin_stress(100, 4, 4) == pytest.approx(sqrt(bent**2 + 3 * sheared**2))

@@ -102,7 +102,7 @@ class WheelEstimate(Result):
     cutting_deviation: float
     """Standard deviation without the measurement error [rad]."""
     residuals: Floats
-    """Deviation of each measured tooth from the fit [rad], positive for a tooth that is behind."""
+    """Deviation of each measured tooth from the fit [rad], positive for a tooth behind its fitted position."""
     F: float
     """Statistic of the test for an eccentricity, with 2 and n - 3 degrees of freedom for n measured teeth [1]."""
     p: float
@@ -113,7 +113,7 @@ class WheelEstimate(Result):
     """Von Neumann's ratio of the residuals [1]: about 2 for independent deviations, smaller for division by stepping.
     """
     q_limit: float
-    """Value of q below which 5 % of wheels with independent deviations are [1]."""
+    """Value below which q is for 5 % of wheels with independent deviations [1]."""
 
     def _summary(self) -> str:
         found = f"eccentricity {self.eccentricity.value:.3g} of the radius" if self.eccentric else "not eccentric"

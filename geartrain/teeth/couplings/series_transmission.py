@@ -75,7 +75,18 @@ class SeriesTransmission(LosslessTransmission):
         return np.asarray(float(self.ratio) + self.factor * self.order * share)
 
     def speed_slope(self, S: ArrayLike) -> Floats:
-        """Return the derivative of the speed ratio [1/rad] at driver angles S [rad]."""
+        """Return the derivative of the speed ratio.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Derivative by the angle of the driver [1/rad], shape of S.
+        """
         x, half = self._argument(S)
         size = self.factor * self.order**2 * self.rho * self.rest * (1 + self.rho)
         return np.asarray(-size * np.sin(x) / (self.rest**2 + 4 * self.rho * half) ** 2)

@@ -580,7 +580,7 @@ class StateCase(Shown):
     only by one-way clutches of one sense.
     """
     one_way: tuple[OneWayAction, ...] = ()
-    """One-way clutches in force, in the order of declaration."""
+    """Active one-way clutches, in the order of declaration."""
     notes: tuple[str, ...] = ()
     """Notes on the one-way clutches, such as what happens if the output drives."""
     stepped: SteppedLink | None = None

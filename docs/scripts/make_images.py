@@ -14,9 +14,11 @@ from tempfile import TemporaryDirectory
 from stills import can_draw, gif, stills
 
 import geartrain
-from geartrain.drawing import picture, render, sphere_figure, teeth_figure, triangular_figure
+from geartrain.drawing import picture, render, sphere_figure
 from geartrain.drawing.output_error_plots import motion_figure, torque_cycle_figure
 from geartrain.drawing.power_sankey import power_figure
+from geartrain.drawing.tooth_contact import teeth_figure
+from geartrain.drawing.transmission_curves import triangular_figure
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.scene import build_scene
 from geartrain.spherical import GearSphere, from_polyhedron

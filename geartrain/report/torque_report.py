@@ -145,7 +145,7 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
     impacts: Mapping[str, Any] = {}
     if train.declaration.has_inertia and has_wing("simulation"):
-        impacts = wing("simulation").find_tooth_impacts(train.mechanics, state)
+        impacts = wing("simulation.contacts.separation_rate").find_tooth_impacts(train.mechanics, state)
     return TorqueFigures(
         found,
         DrivenWays(*map(DrivenFigures, ways)) if ways else None,

@@ -81,15 +81,6 @@ class Epoch(Declared):
     Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
     dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single string instead of a mapping
     is the date.
-
-    See Also
-    --------
-    Train : its field `epoch`
-
-    Examples
-    --------
-    >>> Epoch(date="2000-01-01").julian_day
-    Fraction(2451545, 1)
     """
 
     SHORT: ClassVar = {"type": "string"}
@@ -136,20 +127,12 @@ DeclaredEpoch = Annotated[Epoch, short_for("date")]
 """Epoch, or its date as a single string."""
 
 
-# ---------------------------------------------------------------------------------------------------- friction in force
+# ------------------------------------------------------------------------------------------------ friction that applies
 
 
 @dataclass(frozen=True, slots=True)
 class FrictionInForce:
-    """Effective friction of a gear pair or coupling, declared for it or for the whole train.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("moon-triangular").declaration
-    >>> train.friction_of(train.gears[0])
-    FrictionInForce(sliding=0.2, static=0.2, deviation=0.0, law=None)
-    """
+    """Effective friction of a gear pair or coupling, declared for it or for the whole train."""
 
     sliding: float | None
     """Coefficient of sliding friction; None if the coefficient follows a friction law."""
@@ -402,7 +385,7 @@ class Train(Declared):
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
     def one_way_clutches(self, state: str | None) -> tuple[str, ...]:
-        """Return the names of the one-way clutches that are in force in one state.
+        """Return the names of the one-way clutches that are active in one state.
 
         Parameters
         ----------

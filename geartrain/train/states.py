@@ -67,12 +67,7 @@ DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in t
 
 
 class Fusee(Declared):
-    """Fusee on the driving link, by its constant torque or by its radii.
-
-    See Also
-    --------
-    SpringDrive : its field `fusee`
-    """
+    """Fusee on the driving link, by its constant torque or by its radii."""
 
     turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
         description="Turns of the fusee from fully wound to run down"
@@ -97,12 +92,7 @@ class Fusee(Declared):
 
 
 class SpringDrive(Declared):
-    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding.
-
-    See Also
-    --------
-    Drive : its field `spring`
-    """
+    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding."""
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 0.02 N m/rad")] = Field(
         description="Torsional stiffness: torque per radian of winding"
@@ -145,10 +135,7 @@ class SpringDrive(Declared):
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].
 
-        Parameters
-        ----------
-        unwound : float
-            Angle by which the link has turned [rad].
+        unwound   angle by which the link has turned [rad]
         """
         if (chained := self.chained) is not None:
             return chained.torque(unwound)
@@ -156,13 +143,9 @@ class SpringDrive(Declared):
 
 
 class HandDrive(Declared):
-    """Hand at the crank: a torque, or a speed imposed through a torsional stiffness, and the inertia of arm and crank.
+    """Hand at the crank: a torque or a speed through a torsional stiffness, and the inertia of arm and crank.
 
     In Monte Carlo trials of feasibility, the torque is the maximum that the hand can exert.
-
-    See Also
-    --------
-    Drive : its field `hand`
     """
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
@@ -207,7 +190,7 @@ class Drive(Declared):
     --------
     Train : its field `drive`
     State : may have its own drive
-    StateCase : drive in force in one state
+    StateCase : drive in one state
 
     Examples
     --------
@@ -289,12 +272,7 @@ EXPANSIONS = {"steel": 11.5e-6, "brass": 19e-6, "pine": 4e-6, "invar": 1e-6}
 
 
 class Pendulum(Declared):
-    """Pendulum of an escapement. In a declaration, a length instead of a mapping sets `length`.
-
-    See Also
-    --------
-    Escapement : its field `pendulum`
-    """
+    """Pendulum of an escapement. In a declaration, a length instead of a mapping sets `length`."""
 
     SHORT: ClassVar = {"type": "string", "format": "length"}
 
@@ -315,17 +293,6 @@ class Escapement(Declared):
     """Escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
     Angles are relative to the link on which the pallets are mounted, by default the link that carries the escape wheel.
-
-    See Also
-    --------
-    Train : its field `escapement`
-
-    Examples
-    --------
-    >>> Escapement(link="escape", teeth=30, beat="1 s").speed
-    Fraction(1, 60)
-    >>> Escapement(link="escape", teeth=30, beat="1 s", pendulum="994 mm").pendulum.length.si
-    0.994
     """
 
     link: Id = Field(description="Link of the escape wheel")
@@ -384,12 +351,8 @@ class Escapement(Declared):
     def has_wheel(self, link: str, count: int | None) -> bool:
         """Return True if a wheel of a link is the escape wheel, which does not mesh with other wheels.
 
-        Parameters
-        ----------
-        link : str
-            Link of the wheel.
-        count : int or None
-            Tooth count of the wheel, if known.
+        link    link of the wheel
+        count   tooth count of the wheel, if known
         """
         return (link, count) == (self.link, self.teeth)
 
@@ -410,13 +373,8 @@ def _read_sense(raw: object) -> object:
 class Clutch(Declared):
     """Brake (`fixes`) or clutch (`locks`); exactly one of the two keys is required.
 
-    With `one_way` it is an overrunning clutch, freewheel or ratchet, which is in force in every state: it holds, or it
+    With `one_way` it is an overrunning clutch, freewheel or ratchet, which is active in every state: it holds, or it
     overruns in the given sense, depending on speeds and torques.
-
-    See Also
-    --------
-    Train : its field `clutches`, by name
-    State : engages them
     """
 
     fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
@@ -453,7 +411,7 @@ class State(Declared):
     See Also
     --------
     Train : its field `states`, by name
-    StateCase : prescriptions in force in one state
+    StateCase : prescriptions in one state
     """
 
     engaged: tuple[Id, ...] = Field(
@@ -512,12 +470,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True)
 class OneWayAction(Result):
-    """Action of a one-way clutch in one state: it holds, or it overruns.
-
-    See Also
-    --------
-    StateCase : its field `one_way`
-    """
+    """Action of a one-way clutch in one state: it holds, or it overruns."""
 
     name: str
     """Name of the clutch."""
@@ -546,10 +499,7 @@ class OneWayAction(Result):
     def text(self, unit: str = "") -> str:
         """Return the action as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
 
-        Parameters
-        ----------
-        unit : str
-            Unit of speeds.
+        unit   unit of speeds
         """
         if self.holds:
             amount = "" if self.torque is None else f" ({f'{decimal(self.torque, 6)} {self.torque_unit}'.strip()})"
@@ -610,9 +560,7 @@ class StateCase(Shown):
     exact: bool = True
     """False if radians were converted to turns, or turns to radians, which is done with 50 digits."""
     drive: Drive | None = None
-    """Drive in force: the drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is
-    declared.
-    """
+    """Drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is declared."""
     rate: Quantity | None = None
     """Speed of the input in real time, from the drive or the train's `rate`; None if it is not given."""
     expect: ExpectedVerdict = "determined"
@@ -630,7 +578,7 @@ class StateCase(Shown):
     only by one-way clutches of one sense.
     """
     one_way: tuple[OneWayAction, ...] = ()
-    """One-way clutches in force, in the order of declaration."""
+    """Active one-way clutches, in the order of declaration."""
     notes: tuple[str, ...] = ()
     """Notes on the one-way clutches, such as what happens if the output drives."""
     stepped: SteppedLink | None = None

@@ -20,8 +20,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from geartrain.drawing import shapes_figure, sweep_figure, triangular_figure
+from geartrain.drawing import sweep_figure
 from geartrain.drawing.theme_colours import themed
+from geartrain.drawing.transmission_curves import shapes_figure, triangular_figure
 from geartrain.scene.palette import THEMES
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth

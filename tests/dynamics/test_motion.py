@@ -19,7 +19,7 @@ from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.kinematics.speeds import solve
-from geartrain.simulation import find_tooth_impacts
+from geartrain.simulation.contacts.separation_rate import find_tooth_impacts
 from geartrain.teeth import Ideal
 
 # a driver of the study starts where the pair before holds it back: the phases (pitches) at which its teeth are then

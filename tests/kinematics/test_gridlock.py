@@ -19,7 +19,7 @@ from strategies import trains
 from test_cases import KINEMATIC, REJECT, declaration
 
 from geartrain import GearTrain, load
-from geartrain.kinematics import MeshRemoval
+from geartrain.kinematics.gridlock.removal import MeshRemoval
 from geartrain.spherical import Configuration, from_polyhedron, survey
 from geartrain.spherical.polyhedron_gears import SURVEYED
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.kinematics import TargetResult
+from geartrain.kinematics.judged_outputs import TargetResult
 
 LUNAR = """
 name: lunar

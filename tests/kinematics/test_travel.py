@@ -16,7 +16,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
 from geartrain.teeth.couplings.crank_slider import CrankSliderTransmission
-from geartrain.train import with_long_forms, with_short_forms
+from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
 RACK = """
 links: {frame: {}, pinion: {}, carriage: {}}

@@ -135,7 +135,7 @@ RESULTS: dict[str, Case] = {
     "build findings": (lambda: load(SMALL_RING).build_findings[0], None),
     "gearbox": (lambda: load("zf-8hp70").gearbox(), ("gearbox", "zf-8hp70")),
     "gear search": (lambda: room("analysis").find_gears(load("zf-8hp70")), ("gearbox", "zf-8hp70", "--search")),
-    "accuracy": (lambda: room("analysis").find_accuracy(load("planetary-24-18-60"), None, 100), None),
+    "accuracy": (lambda: room("analysis.accuracy").find_accuracy(load("planetary-24-18-60"), None, 100), None),
     # core: torques, motion
     "torques": (lambda: load("longcase-clock-loaded").torques(), ("torques", "longcase-clock-loaded")),
     "driven": (lambda: load("planetary-24-18-60").driven("carrier", "sun"), None),

@@ -21,7 +21,7 @@ from geartrain import GearTrain
 from geartrain.scene import lay_out, make_scene
 from geartrain.scene.dial_scale import engrave
 from geartrain.scene.stroke_letters import curved_text, letter_strokes
-from geartrain.train import Dial
+from geartrain.train.outputs import Dial
 
 BASE = GearTrain.declare(
     {

@@ -18,13 +18,13 @@ from geartrain.teeth import (
     Lantern,
     LeastFriction,
     PairFriction,
-    RubbedTransmission,
     StribeckFriction,
     TabulatedFriction,
     TransmissionFunction,
     Triangular,
     UniformStress,
 )
+from geartrain.teeth.rubbed_transmission import RubbedTransmission
 
 FT_MIN = 0.3048 / 60
 

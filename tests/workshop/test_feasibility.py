@@ -15,7 +15,7 @@ import pytest
 from geartrain import GearTrain, load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.numerics import Execution, Journal
-from geartrain.train import HandDrive
+from geartrain.train.states import HandDrive
 from geartrain.workshop import FeasibilityResult, find_feasibility_plan, read_error_overrides, run_feasibility
 from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan, LoadedPart, wedge_torque
 

@@ -30,8 +30,8 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.circuits.joint_tree import close_joints, rigid_across_axes
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate, feasible
-from geartrain.train import Clutch, StateCase, Train
-from geartrain.train.states import OneWayAction, SteppedLink
+from geartrain.train import StateCase, Train
+from geartrain.train.states import Clutch, OneWayAction, SteppedLink
 
 MOST_CLUTCHES = 12
 """Maximum number of one-way clutches in one state: 2^12 patterns are enumerated."""
@@ -74,9 +74,9 @@ def decide_case(train: Train, state: str | None) -> StateCase:
 def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
     """Return True if linear forms can all be positive for the same values of the unknowns.
 
-    column   column that no form uses
+    column   unused column for a new unknown t
 
-    The forms are made homogeneous: with a factor t >= 1 of the constants, positive values can be scaled to 1 or more.
+    The constants are multiplied by t >= 1, so that any positive solution can be scaled until all forms are at least 1.
     """
     scaled: list[LinearForm] = [{column: Fraction(1), PRESCRIBED: Fraction(-1)}]
     for form in forms:

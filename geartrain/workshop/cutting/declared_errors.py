@@ -18,8 +18,8 @@ from geartrain.workshop.cutting.wheel_estimate import estimate_measured
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.train import PairMounting, Train, Wheel, WheelManufacture
-    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth
+    from geartrain.train import Train, Wheel
+    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth, PairMounting, WheelManufacture
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "stepping", "eccentricity", "tip", "aperture_deviation")
@@ -216,7 +216,12 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
             law["eccentricity"] = ErrorSpecification(found.eccentricity.value / depth)
         return replace(wheel, errors={**wheel.errors, **law}, towards=None)
     size, direction = found.fitted if found.eccentric else (0.0, 0.0)
-    _, eccentric = displaced(np.ones(wheel.z), np.arange(wheel.z) * wheel.pitch, np.array(size), np.array(direction))
+    _, eccentric = displaced(
+        np.ones(wheel.z),
+        np.linspace(0, wheel.z * wheel.pitch, wheel.z, endpoint=False),
+        np.array(size),
+        np.array(direction),
+    )
     behind, tables = eccentric.copy(), dict(wheel.tables)
     behind[found.numbers] = found.off
     if measured.use == "eccentric" and found.eccentric:

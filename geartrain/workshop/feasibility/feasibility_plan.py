@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
     from geartrain.numerics.arrays import Floats
-    from geartrain.train import ArborSizes, Train
+    from geartrain.train import Train
+    from geartrain.train.manufacturing import ArborSizes
 
 _SAMPLES = 2_000  # positions of the input in a run
 

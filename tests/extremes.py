@@ -17,7 +17,6 @@ from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
-from marching import Pair, Slot, Train, declared
 from sorge import APPROACH, Segment, mp
 from sorge import Pair as Couple
 
@@ -39,7 +38,6 @@ class Wheels:
     z2: int
     teeth: str = ""
     external = True
-    mean = property(lambda self: self.z1 / self.z2)
 
     @property
     def form(self) -> str:
@@ -47,12 +45,69 @@ class Wheels:
         return f", {self.teeth}" if self.teeth else ""
 
 
+@dataclass(frozen=True)
+class Slot:
+    """A pin at radius r in a slot whose axis is at the offset e, within the pin's circle."""
+
+    r: float
+    e: float
+    external = False
+
+    @property
+    def form(self) -> str:
+        """Text of the coupling in a declaration."""
+        return f", pin_radius: {self.r}, offset: {self.e}"
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Driver, driven link, carrier and their connection."""
+
+    driver: str
+    driven: str
+    carrier: str
+    by: Wheels | Slot
+
+
+@dataclass(frozen=True)
+class Train:
+    """Links with the link that bears them and their axis, pairs, and the input speeds; `frame` is at rest."""
+
+    bases: dict[str, tuple[str, str]]
+    pairs: tuple[Pair, ...]
+    inputs: dict[str, float]
+
+    @cached_property
+    def at(self) -> dict[str, int]:
+        """Numbers of the links; the frame is last."""
+        return {link: number for number, link in enumerate([*self.bases, "frame"])}
+
+
+def declared(train: Train) -> str:
+    """Return the train as a declaration: two separate wheels for each pair, or a pin and a slot."""
+    wheels: dict[str, list[str]] = {link: [] for link in train.bases}
+    gears, slots = [], []
+    for at, pair in enumerate(train.pairs):
+        if pair.by.external:
+            wheels[pair.driver].append(f"d{at}: {pair.by.z1}")
+            wheels[pair.driven].append(f"f{at}: {pair.by.z2}")
+            gears.append(f"  - {{pair: [d{at}, f{at}], driver: d{at}{pair.by.form}}}")
+        else:
+            slots.append(f"  - {{kind: pin_and_slot, pin: {pair.driver}, slot: {pair.driven}{pair.by.form}}}")
+    lines = ["links:", "  frame: {}"]
+    lines += [f"  {link}: {{wheels: {{{', '.join(each)}}}}}" for link, each in wheels.items()]
+    lines += ["revolutes:"]
+    lines += [f"  - {{pair: [{base}, {link}], axis: {axis}}}" for link, (base, axis) in train.bases.items()]
+    lines += ["gears:", *gears] if gears else []
+    lines += ["couplings:", *slots] if slots else []
+    inputs = ", ".join(f"{link}: {Fraction(speed).limit_denominator(10**6)}" for link, speed in train.inputs.items())
+    lines += [f"inputs: {{{inputs}}}", f"outputs: {{{', '.join(f'{link}: {{}}' for link in train.bases)}}}"]
+    return "\n".join(lines)
+
+
 def triangular(window: float | str = 0.5, half_angle: float = 30, radii: str = "equal_depth") -> str:
     """Return a tooth form in the syntax of a declaration."""
     return f"tooth_form: {{form: triangular, half_angle: {half_angle} deg, window: {window}, radii: {radii}}}"
-
-
-# ----------------------------------------------------------------------------------------------------- laws, 50 digits
 
 
 def contact(tooth_pair: Couple, S: Any) -> tuple[Segment, Any]:
@@ -136,9 +191,6 @@ class Set:
     def speed(self, S: Any) -> Any:
         """Return the speed ratio."""
         return self.transmission.speed(S - self.S)
-
-
-# ---------------------------------------------------------------------------------------------------- trains, 50 digits
 
 
 class Exactly:
@@ -284,9 +336,6 @@ def composed(transmissions: Sequence[Any], turns: float) -> tuple[Any, Any, Any]
     return S - mean * 2 * mp.pi * mp.mpf(turns), gain, summed
 
 
-# ------------------------------------------------------------------------------------------------------------ measuring
-
-
 @dataclass(frozen=True)
 class Run:
     """Floating-point results of a train and their reference at some positions; angles in rad, speeds relative to the
@@ -380,9 +429,6 @@ def timed(work: Callable[[], Any]) -> tuple[Any, float]:
     return found, perf_counter() - since
 
 
-# --------------------------------------------------------------------------------------------------- epicyclic trains
-
-
 def suns(counts: tuple[int, int, int, int], inputs: dict[str, float], form: str = "") -> Train:
     """Return two suns and a planet with two wheels on an arm: pairs (left, planet) and (planet, right)."""
     left, p, q, right = counts
@@ -428,9 +474,6 @@ def hanging(window: float, last: tuple[int, int]) -> Measured:
     )
     found = run(Train(SETS | {"lay": (FRAME, "B")}, pairs, {"left": 1}), 30.0, 20_001, 25)
     return Measured(found.misfit, found.seconds)
-
-
-# ------------------------------------------------------------------------------------------------------ plain trains
 
 
 def chain(kinds: Sequence[tuple[int, int]], pairs: int, form: str) -> Train:
@@ -486,8 +529,6 @@ def at_the_edge(window: float) -> Measured:
     return Measured(found.off["moon"], found.seconds)
 
 
-# ------------------------------------------------------------------------------------------------------ teeth and pins
-
 DRAWN = [0.013, 0.29, 0.41, 0.67, 0.83, 0.999]  # of a pitch
 
 
@@ -538,8 +579,6 @@ def pin_near_offset(more: float, turns: float) -> Measured:
     found = run(train, turns * (1 + 1e-7), round(turns) + 1, 31)
     return Measured(found.off["slot"], found.seconds)
 
-
-# ------------------------------------------------------------------------------------------------ circulating power
 
 CIRCULATING = (50, 45, 40, 44)  # basic ratio 100/99: the right sun makes 1/99 turn back for a turn of the arm
 
@@ -597,8 +636,6 @@ def amplified(turns: float) -> Measured:
     found = run(train, turns, 997, 9)
     return Measured(found.off[ARM] / float(np.abs(found.found[ARM].error).max()), found.seconds)
 
-
-# ---------------------------------------------------------------------------------------------------------- every case
 
 RADIANS, SHARE, PITCHES = "rad of the output", "relative", "driven pitches"
 

@@ -128,8 +128,6 @@ def _tension(
     return float(along.max())
 
 
-# ----------------------------------------------------------------------------------------------------------- triangles
-
 _OFF = 0.65  # of the spacing: how near to the border a point inside may lie
 _FLAT = 1e-3  # of an equilateral triangle's height: flatter ones are left out
 

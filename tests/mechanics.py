@@ -1,4 +1,4 @@
-"""Triangular teeth in the plane: outlines of whole wheels, and the balance of one contact with Coulomb friction.
+"""Triangular teeth in the plane: the balance of one contact with Coulomb friction.
 
 The driver turns about the origin, the driven wheel about (D, 0). Apices are at alpha_1 and alpha_2 from the line of
 centres, both positive towards the same side, and both angles decrease as the driver pushes.
@@ -8,34 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
 from sorge import APPROACH, Pair
-
-
-def outline(z: int, R: float, beta: float) -> np.ndarray:
-    """Return apices and valleys of a wheel in turn as a closed ring, with the first apex at angle 0."""
-    at = np.arange(2 * z + 1) * np.pi / z
-    radius = np.where(np.arange(2 * z + 1) % 2, R * np.sin(beta) / np.sin(beta + np.pi / z), R)
-    return np.stack([radius * np.cos(at), radius * np.sin(at)], axis=-1)
-
-
-def overlap(given: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return True if the whole wheels overlap with the driver's first apex at x and the driven wheel's at y."""
-    import shapely
-
-    first, second = outline(given.z1, given.R1, given.beta1), outline(given.z2, given.R2, given.beta2)
-    pair = Pair.of(given, np)
-    driver = _turned(first, x)
-    driven = _turned(second, y)
-    driven[..., 0] = pair.D - driven[..., 0]
-    drivers, drivens = shapely.polygons(driver), shapely.polygons(driven)
-    shapely.prepare(drivers)
-    return shapely.intersects(drivers, drivens)
-
-
-def _turned(ring: np.ndarray, by: np.ndarray) -> np.ndarray:
-    cosine, sine = np.cos(by)[:, None], np.sin(by)[:, None]
-    return np.stack([ring[:, 0] * cosine - ring[:, 1] * sine, ring[:, 0] * sine + ring[:, 1] * cosine], axis=-1)
 
 
 class Contact(NamedTuple):

@@ -7,7 +7,9 @@ from typing import Any
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.report.torque_report import collect_torque_report
+from geartrain.dynamics import Torques
+from geartrain.report import to_markdown
+from geartrain.report.torque_report import collect_torque_report, describe_torques
 
 PAIR = """
 links:
@@ -56,3 +58,8 @@ def torque_figures(train: GearTrain, state: str | None = None) -> Any:
     """
     (found,) = collect_torque_report(train, [train.torques(state)]).states
     return found
+
+
+def torque_page(train: GearTrain, *found: Torques) -> str:
+    """Return the section on torques of a report."""
+    return to_markdown([describe_torques(collect_torque_report(train, found))])

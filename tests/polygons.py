@@ -6,7 +6,7 @@ extended to the intersection with the neighbouring flank, and shapely decides wh
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -68,6 +68,18 @@ class Judge:
     def __init__(self, driver: Outline, driven: Outline, D: float) -> None:
         self.driver, self.driven, self.D = driver.points, driven.points, D
         self.rings = driver.ring, driven.ring
+
+    @classmethod
+    def of(cls, sizes: Any) -> Judge:
+        """Return the outlines of a pair of even wheels, of which one may be a ring."""
+        wheels = zip((sizes.z1, sizes.z2), sizes.radii, sizes.half_angles, sizes.signs, strict=True)
+        return cls(
+            *(
+                Outline(np.arange(z) * 2 * np.pi / z, *np.full((3, z), [[R], [b], [b]]), sign < 0)
+                for z, R, b, sign in wheels
+            ),
+            sizes.D,
+        )
 
     def overlap(self, t: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return True where the wheels overlap at driver positions t and driven positions y, (n,) each."""

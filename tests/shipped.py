@@ -14,7 +14,7 @@ import pytest
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.report import TrainReport, collect_report
+from geartrain.report import Document, TrainReport, collect_report
 from geartrain.scene import Layout, Scene, build_scene, lay_out, make_scene
 
 # together they have nearly every key of a declaration, every kind of wheel and coupling, and four tooth forms
@@ -60,6 +60,12 @@ def train(name: str) -> GearTrain:
 def report(name: str) -> TrainReport:
     """Return the data of the report on a train."""
     return collect_report(train(name))
+
+
+@cache
+def document(name: str) -> Document:
+    """Return the report on a train as a document."""
+    return train(name).report()
 
 
 @cache

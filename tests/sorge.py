@@ -431,9 +431,6 @@ def _joined(found: list[Segment], pitch: Any) -> list[Segment]:
     return joined
 
 
-# ----------------------------------------------------------------------------------------- many positions, in floats
-
-
 def first_of_all(pair: Pair, t: np.ndarray) -> np.ndarray:
     """Return U at many positions t over all tooth pairs in reach, in double precision (`pair` built with numpy)."""
     low = int(np.floor((pair.exit - t.max()) / pair.p1))
@@ -515,9 +512,6 @@ def verdict(pair: Pair, rounding: float = 1e-9) -> str:
         if margin < 0:
             return kind
     return "runs"
-
-
-# --------------------------------------------------------------------------------------------------------- drawn pairs
 
 
 class Given(NamedTuple):

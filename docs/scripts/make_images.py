@@ -14,9 +14,11 @@ from tempfile import TemporaryDirectory
 from stills import can_draw, gif, stills
 
 import geartrain
-from geartrain.drawing import picture, render, sphere_figure, teeth_figure, triangular_figure
+from geartrain.drawing import picture, render, sphere_figure
 from geartrain.drawing.output_error_plots import motion_figure, torque_cycle_figure
 from geartrain.drawing.power_sankey import power_figure
+from geartrain.drawing.tooth_contact import teeth_figure
+from geartrain.drawing.transmission_curves import triangular_figure
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.scene import build_scene
 from geartrain.spherical import GearSphere, from_polyhedron
@@ -110,17 +112,30 @@ def power() -> None:
 
 
 def commands() -> None:
-    """Tooth forms of one pair side by side, a motion in time and a step of assembly, as the commands draw them."""
+    """Tooth forms side by side, a motion in time, a sweep of radii, probable tooth counts, a step of assembly,
+    and a train with errors, as the commands draw them.
+    """
     command = [sys.executable, "-m", "geartrain"]
     for name, words in (
         ("shapes", "mesh 24 36 --compare"),
         ("run", "dynamics moon-triangular-inertia --rate 1 --turns 0.02"),
+        ("radii", "mesh 48 96 --form triangular --friction 0.2 --vary radii=0.8:1.2:81"),
+        ("counts", "posterior freeth-2008-doubt --best 1"),
     ):
         plot = ["--force", "--plot", str(IMAGES / f"{name}.svg")]
         subprocess.run([*command, *words.split(), *plot], check=True, stdout=subprocess.DEVNULL)
     with TemporaryDirectory() as folder:
         subprocess.run([*command, "export", "longcase-clock", "--to", f"{folder}/clock"], check=True)
         copyfile(f"{folder}/clock/assembly/07.svg", IMAGES / "assembly.svg")
+        (Path(folder) / "slips.yaml").write_text(file_of("buildability", "slips.yaml"), encoding="utf-8")
+        draw = ["draw", f"{folder}/slips.yaml", "--force", "-o", str(IMAGES / "slips.svg")]
+        subprocess.run([*command, *draw], check=True, stdout=subprocess.DEVNULL)
+
+
+def file_of(page: str, name: str) -> str:
+    """Return a file that a page contains."""
+    text = (IMAGES.parent / f"{page}.md").read_text(encoding="utf-8")
+    return text.partition(f"<!-- file: {name} -->\n```yaml\n")[2].partition("```")[0]
 
 
 def sphere() -> None:

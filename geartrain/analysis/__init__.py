@@ -17,9 +17,6 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.analysis.accuracy import MethodAccuracy as MethodAccuracy
-    from geartrain.analysis.accuracy import TrainAccuracy as TrainAccuracy
-    from geartrain.analysis.accuracy import find_accuracy as find_accuracy
     from geartrain.analysis.gear_series import find_gears as find_gears
     from geartrain.analysis.gear_train import GearTrain as GearTrain
     from geartrain.analysis.gear_train import load as load
@@ -28,7 +25,6 @@ if TYPE_CHECKING:
 __getattr__, __all__ = public_names(
     __name__,
     {
-        "accuracy": "MethodAccuracy TrainAccuracy find_accuracy",
         "gear_series": "find_gears",
         "gear_train": "GearTrain load",
         "train_graph": "build_train_graph",

@@ -35,12 +35,7 @@ _NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 @dataclass(frozen=True, slots=True)
 class MethodAccuracy(Shown):
-    """Run time and error of one computation method in one stage of the computation.
-
-    See Also
-    --------
-    find_accuracy : Measure all methods on a train.
-    """
+    """Run time and error of one computation method in one stage of the computation."""
 
     stage: Stage
     """Stage of the computation, such as "speeds"."""
@@ -62,12 +57,7 @@ class MethodAccuracy(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TrainAccuracy(Tabular, TrainResult):
-    """Run time and error of each method for one train in one state.
-
-    See Also
-    --------
-    find_accuracy : Measure all methods on a train.
-    """
+    """Run time and error of each method for one train in one state."""
 
     ROW = "MethodAccuracy"
     MEANINGS: ClassVar = {
@@ -97,29 +87,7 @@ class TrainAccuracy(Tabular, TrainResult):
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
-    """Measure the run time and the error of every method that computes speeds, motion or torques.
-
-    Parameters
-    ----------
-    train : GearTrain
-        Train on which the methods are measured.
-    state : str, optional
-        A declared state; None only if the train has no states.
-    positions : int
-        Number of input positions at which motion is computed.
-
-    Returns
-    -------
-    TrainAccuracy
-        Run times and errors, with a row for each method, and the reason for each stage that is not measured.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> found = find_accuracy(geartrain.load("planetary-24-18-60"))
-    >>> [(row.stage, row.method) for row in found.methods]
-    [('speeds', 'exact'), ('speeds', 'floats')]
-    """
+    """Measure the run time and the error of every method that computes speeds, motion or torques."""
     stages: Mapping[Stage, Callable[[GearTrain, str | None, int], Iterator[MethodAccuracy]]] = {
         "speeds": _measure_speeds,
         "motion": _measure_motion,

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.power_flow import PowerFlow
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.answer import Answer, Verdict
-    from geartrain.train import Clutch, Train
+    from geartrain.train import Train
+    from geartrain.train.states import Clutch
 
 ElementKind = Literal["brake", "clutch", "one-way brake", "one-way clutch"]
 

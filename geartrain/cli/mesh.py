@@ -57,11 +57,8 @@ from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 from geartrain.wings import wing
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.scene.palette import ThemeName
-    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.tooth_form import ToothForm
     from geartrain.teeth.triangular.parameter_sweep import ParameterSweep
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -273,7 +270,7 @@ def run(
     outlines = write_profile(mesh, wheel, sizes, outlined)
     give(to, json, lambda: collect_pair(mesh, outlines, operation), lambda: [describe_pair(mesh, outlines, operation)])
     if plot is not None:
-        draw(_figure(mesh, at), picture)
+        draw(mesh.plot(*([] if at is None else [quantity("--at", at, "angle")])), picture)
     raise typer.Exit(GOOD if not mesh.faults else VERDICT)
 
 
@@ -301,25 +298,6 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
         if option.name not in applicable and source is not None and source.name == "COMMANDLINE":
             name = option.opts[0]
             raise option_error(name, f"this option does not apply to {what}", f"omit {name}")
-
-
-def _figure(mesh: GearMesh, at: str | None) -> Figure:
-    """Plot flanks, path of contact and losses. If the pair has no path of contact, plot its transmission function and
-    efficiency.
-
-    With `at`, draw triangular teeth at that driver angle.
-    """
-    from geartrain.drawing import shapes_figure, teeth_figure, transmission_figure, triangular_figure
-    from geartrain.teeth.rubbed_transmission import pair_friction
-
-    if isinstance(mesh, TriangularMesh):
-        if at is not None:
-            return teeth_figure(mesh.transmission, quantity("--at", at, "angle"))
-        return triangular_figure(mesh.transmission, pair_friction(mesh.wheels))
-    if mesh.path is not None:
-        return shapes_figure({mesh.form: mesh.path})
-    driver, driven = mesh.counts
-    return transmission_figure(mesh.losses, f"{mesh.tooth_form.words} teeth, {driver} drives {driven}")
 
 
 # ----------------------------------------------------------------------------------------------------------- comparison
@@ -358,9 +336,7 @@ def _compare(
         raise at_parameter(error, "--form") from None
     give(to, json, lambda: found, lambda: [describe_form_comparison(found)])
     if plot is not None:
-        from geartrain.drawing import shapes_figure
-
-        draw(shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs}), picture)
+        draw(found.plot(), picture)
     raise typer.Exit(GOOD if all(form.runs for form in found.forms) else VERDICT)
 
 

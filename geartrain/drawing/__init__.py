@@ -37,11 +37,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.parameter_sweep_plot import sweep_figure as sweep_figure
     from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
     from geartrain.drawing.style import render as render
-    from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
     from geartrain.drawing.train_pictures import picture as picture
-    from geartrain.drawing.transmission_curves import shapes_figure as shapes_figure
-    from geartrain.drawing.transmission_curves import transmission_figure as transmission_figure
-    from geartrain.drawing.transmission_curves import triangular_figure as triangular_figure
 
 __getattr__, __all__ = public_names(
     __name__,
@@ -50,8 +46,6 @@ __getattr__, __all__ = public_names(
         "parameter_sweep_plot": "sweep_figure",
         "spherical_gears": "sphere_figure",
         "style": "render",
-        "tooth_contact": "teeth_figure",
         "train_pictures": "picture",
-        "transmission_curves": "shapes_figure transmission_figure triangular_figure",
     },
 )

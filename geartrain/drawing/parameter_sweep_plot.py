@@ -138,13 +138,7 @@ def sweep_figure(
 
 
 def parameter_label(name: str, unit: str = "") -> str:
-    """Return the axis label of a parameter with its unit, by default the unit of triangular teeth.
-
-    Examples
-    --------
-    >>> parameter_label("half_angle", "deg"), parameter_label("backlash"), parameter_label("z2")
-    ('half angle (deg)', 'backlash (modules)', 'teeth of wheel 2')
-    """
+    """Return the axis label of a parameter with its unit, by default the unit of triangular teeth."""
     unit = unit or _NAMES.get(name, ("", ""))[1]
     return f"{parameter_name(name)} ({unit})" if unit else parameter_name(name)
 

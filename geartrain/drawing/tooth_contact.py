@@ -185,37 +185,7 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 def teeth_figure(
     transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
 ) -> Figure:
-    """Return a figure of two triangular teeth in contact, to scale, with their contact point and the line of centres.
-
-    Parameters
-    ----------
-    transmission : TriangularTransmission
-        Transmission function of the pair.
-    alpha1 : float, optional
-        Angle of the driving tooth from the line of centres [rad]; by default the middle of the first drive interval. If
-        no tooth pair drives at this angle, the figure shows the tooth pair in contact while a tooth of the driver is at
-        this angle.
-    whole : bool, optional
-        True to draw whole wheels, False to draw only the teeth near the contact. By default whole wheels are drawn if
-        they have few teeth.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Picture with equal scales on both axes.
-
-    Raises
-    ------
-    GearTrainError
-        If no teeth touch.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> transmission = geartrain.load("moon-triangular").meshes[0].transmission
-    >>> teeth_figure(transmission).axes[0].get_aspect()
-    1.0
-    """
+    """Draw two triangular teeth in contact, to scale, with their contact point and the line of centres."""
     require_contact(transmission)
     here = tooth_pair_pose(transmission, alpha1)
     whole = transmission.sizes.z1 + transmission.sizes.z2 <= _FEW if whole is None else whole

@@ -33,19 +33,22 @@ from geartrain.drawing.style import (
     note,
     plain,
 )
-from geartrain.drawing.tooth_contact import PHASES, pair_text, require_contact
+from geartrain.drawing.tooth_contact import PHASES, pair_text, require_contact, teeth_figure
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import Dash, series_colour, series_dash
-from geartrain.teeth.rubbed_transmission import RubbedTransmission
+from geartrain.teeth.rubbed_transmission import RubbedTransmission, pair_friction
 from geartrain.teeth.triangular.real_path import DWELL
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+    from geartrain.teeth.form_comparison import FormComparison
     from geartrain.teeth.friction_law import PairFriction
+    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.transmission import TransmissionFunction
 
 
@@ -54,29 +57,29 @@ _LOST = 1e-12  # relative to the power: smaller losses are rounding errors
 _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "efficiency")
 
 
+def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
+    """Plot flanks, path of contact and losses of a pair, or else its transmission function and efficiency.
+
+    alpha1   angle of the driving tooth from the line of centres [rad], at which triangular teeth are drawn in contact
+    """
+    if isinstance(mesh, TriangularMesh):
+        if alpha1 is not None:
+            return teeth_figure(mesh.transmission, alpha1)
+        return triangular_figure(mesh.transmission, pair_friction(mesh.wheels))
+    if mesh.path is not None:
+        return shapes_figure({mesh.form: mesh.path})
+    driver, driven = mesh.counts
+    return transmission_figure(mesh.losses, f"{mesh.tooth_form.words} teeth, {driver} drives {driven}")
+
+
+def comparison_figure(found: FormComparison) -> Figure:
+    """Plot flanks, paths of contact and losses of the compared tooth forms that run."""
+    return shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs})
+
+
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
     """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods of the
     pair.
-
-    Parameters
-    ----------
-    transmission : TransmissionFunction
-        Transmission function of a pair of any tooth form.
-    title : str
-        Title above the first panel.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Three panels against the driver angle [deg], or two for a pair without losses. Thin lines mark the kinks of the
-        function.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> transmission = geartrain.load("moon-triangular").meshes[0].transmission
-    >>> transmission_figure(transmission, "a pair").axes[-1].get_xlabel()
-    "driver's angle (deg)"
     """
     S = np.linspace(0, 2 * transmission.period, _PERIOD_SAMPLES)
     curves = (
@@ -123,30 +126,6 @@ def triangular_figure(transmission: TriangularTransmission, friction: PairFricti
     of all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position
     of the instant centre. Moment arms are relative to the pitch radii of the mean ratio; the moment arm of the driven
     wheel is dashed.
-
-    Parameters
-    ----------
-    transmission : TriangularTransmission
-        Transmission function of the pair.
-    friction : PairFriction, optional
-        Friction that depends on speed; by default the friction coefficient of the transmission function.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Four panels, or three for a pair without friction, whose efficiency is 1; angles in degrees.
-
-    Raises
-    ------
-    GearTrainError
-        If no teeth touch.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> transmission = geartrain.load("moon-triangular").meshes[0].transmission
-    >>> [axes.get_ylabel().splitlines()[0] for axes in triangular_figure(transmission).axes]
-    ['driven angle', 'speed ratio', 'sliding efficiency', 'arms of the force']
     """
     require_contact(transmission)
     has_friction = transmission.friction > 0 if friction is None else True
@@ -374,28 +353,6 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     """Return a figure that compares tooth forms for one pair: flanks, path of contact, stress, heat, flash temperature,
     sliding and loss.
-
-    Parameters
-    ----------
-    paths : mapping of str to PathOfContact
-        Path of contact of each form (docs/shapes.md, equation 1), by name of the form.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Eight panels; lengths in modules; stress, heat, flash temperature and losses as defined in docs/shapes.md.
-
-    Raises
-    ------
-    QuestionError
-        If `paths` is empty.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> transmission = geartrain.load("planetary-24-18-60-involute").meshes[0].transmission
-    >>> len(shapes_figure({"involute": transmission.path}).axes)
-    8
     """
     if not paths:
         what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"

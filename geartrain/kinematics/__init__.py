@@ -35,15 +35,10 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
     from geartrain.kinematics.circuits.fundamental import WillisEquation as WillisEquation
     from geartrain.kinematics.gridlock.removal import Gridlock as Gridlock
-    from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
-    from geartrain.kinematics.judged_outputs import OutputResult as OutputResult
     from geartrain.kinematics.judged_outputs import Sensitivity as Sensitivity
-    from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
-    from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule as find_divisibility_rule
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
-    from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
     from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
     from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
 
@@ -52,12 +47,11 @@ __getattr__, __all__ = public_names(
     {
         "answer": "Answer Verdict",
         "circuits.fundamental": "Circuit WillisEquation",
-        "gridlock.removal": "Gridlock MeshRemoval",
-        "judged_outputs": "OutputResult Sensitivity TargetResult",
-        "phasing.mesh_phasing": "MeshPhasing find_divisibility_rule",
+        "gridlock.removal": "Gridlock",
+        "judged_outputs": "Sensitivity",
+        "phasing.mesh_phasing": "MeshPhasing",
         "speeds.float_speeds": "FloatSpeeds",
         "speeds.mobility": "Mobility",
-        "train_kinematics": "TrainKinematics",
         "willis_matrix": "WillisMatrix",
         "willis_system": "WillisSystem",
     },

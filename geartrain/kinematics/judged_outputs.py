@@ -11,8 +11,8 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text, pi_text, touches_pi
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Key, Result
-from geartrain.train import Output, Published, StateCase, Target, Train
-from geartrain.train.outputs import PrintedPeriod, year_seconds
+from geartrain.train import Output, Published, StateCase, Train
+from geartrain.train.outputs import PrintedPeriod, Target, year_seconds
 from geartrain.train.periods import period_table
 
 DAYS_PER_CENTURY = 36525  # days in a Julian century
@@ -58,17 +58,7 @@ def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedVal
 
 @dataclass(frozen=True, slots=True)
 class TargetResult(Result):
-    """Comparison of an output with one target. A positive error means that the output is faster than the target.
-
-    Examples
-    --------
-    The Moon pointer of the Antikythera mechanism makes 254 revolutions in 19 years, and the Moon 13.36826 per year:
-
-    >>> import geartrain
-    >>> target = geartrain.load("freeth-2008").solve().outputs["moon"].targets[0]
-    >>> target.label, round(target.ppm, 2)
-    ('month_tropical_J2000', 11.57)
-    """
+    """Comparison of an output with one target. A positive error means that the output is faster than the target."""
 
     KEYS = (
         Key("target", "label"),
@@ -192,15 +182,7 @@ class JudgedFigure(Result):
 
 @dataclass(frozen=True, slots=True)
 class OutputResult(Result):
-    """Speed of one output, and its comparison with the declared expectations.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> result = geartrain.load("planetary-24-18-60").solve().outputs["planet rel"]
-    >>> result.of, result.relative_to, result.speed, result.holds
-    ('planet', 'carrier', Fraction(-20, 21), True)
-    """
+    """Speed of one output, and its comparison with the declared expectations."""
 
     KEYS = (
         Key("", "figures"),

@@ -40,14 +40,9 @@ _GAUSS = np.polynomial.legendre.leggauss(8)  # exact to degree 15
 class PeriodicFunction(ABC):
     """Function f with f(x + period) = f(x), smooth between its breakpoints.
 
-    Attributes
-    ----------
-    period : float
-        Period, above 0.
-    breakpoints : ndarray
-        Ascending positions in [0, period) at which the function or one of its derivatives is discontinuous.
-    resolution : float
-        Maximum distance of samples that follow the function between breakpoints.
+    period        period, above 0
+    breakpoints   ascending positions in [0, period) at which the function or one of its derivatives is discontinuous
+    resolution    maximum distance of samples that follow the function between breakpoints
     """
 
     period: float
@@ -125,16 +120,10 @@ class PeriodicFunction(ABC):
 class PeriodicPieces(PeriodicFunction):
     """Periodic function with a polynomial on each piece.
 
-    Parameters
-    ----------
-    starts : ndarray, (pieces,)
-        Ascending positions at which the pieces begin.
-    coefficients : ndarray, (n, pieces)
-        Coefficients of the powers of the distance from the origin of the piece, from the highest power.
-    period : float
-        Period, at least the difference of the last and the first start.
-    origins : ndarray, (pieces,), optional
-        Origin of each piece; default its start.
+    starts         ascending positions at which the pieces begin
+    coefficients   coefficients of the powers of the distance from the origin of the piece, from the highest power
+    period         period, at least the difference of the last and the first start
+    origins        origin of each piece; default its start
     """
 
     def __init__(self, starts: Floats, coefficients: Floats, period: float, origins: Floats | None = None) -> None:
@@ -158,22 +147,11 @@ class PeriodicPieces(PeriodicFunction):
 class PeriodicTable(PeriodicPieces):
     """Periodic function through points.
 
-    Parameters
-    ----------
-    positions : sequence of float
-        Ascending positions in [0, period).
-    values : sequence of float
-        Values at these positions.
-    period : float
-        Period.
-    interpolation : {"pchip", "cubic", "linear", "steps"}
-        "pchip" never exceeds the values of neighbouring points; "cubic" is twice differentiable; "steps" keeps each
-        value up to the next point.
-
-    Raises
-    ------
-    RangeError
-        If the positions are not ascending, outside the period, or too few, or if a number is not finite.
+    positions       ascending positions in [0, period)
+    values          values at these positions
+    period          period
+    interpolation   "pchip" never exceeds the values of neighbouring points; "cubic" is twice differentiable; "steps"
+                    keeps each value up to the next point
     """
 
     def __init__(
@@ -236,19 +214,9 @@ def periodic_integral(
 ) -> tuple[PeriodicPieces, float]:
     """Return the integral of a periodic slope minus its mean slope, from the first breakpoint or from 0, and this mean.
 
-    Parameters
-    ----------
-    slope : callable
-        Function of positions of shape (n,), which returns an array of that shape.
-    period : float
-        Period.
-    breakpoints : sequence of float
-        Positions at which the slope or one of its derivatives is discontinuous.
-
-    Raises
-    ------
-    RangeError
-        If the slope is not smooth between the breakpoints.
+    slope         function of positions of shape (n,), which returns an array of that shape
+    period        period
+    breakpoints   positions at which the slope or one of its derivatives is discontinuous
     """
     cuts, inset = np.unique(np.mod(np.array(breakpoints, dtype=float), period)), _INSET * period
     edges = cuts.tolist() or [0.0]
@@ -274,19 +242,9 @@ def periodic_integral(
 class HarmonicSeries(PeriodicFunction):
     """Sum of a constant and of the harmonics amplitude sin(2 pi n x / period + phase).
 
-    Parameters
-    ----------
-    terms : sequence of (float, float, float)
-        Order n, a whole number of 1 or more, amplitude, and phase [rad] of each harmonic.
-    period : float
-        Period of the first harmonic.
-    constant : float
-        Mean of the function.
-
-    Raises
-    ------
-    RangeError
-        If an order is not a whole number above 0, or if a number is not finite.
+    terms      order n, a whole number of 1 or more, amplitude, and phase [rad] of each harmonic
+    period     period of the first harmonic
+    constant   mean of the function
     """
 
     def __init__(self, terms: Sequence[tuple[float, float, float]], period: float, constant: float = 0.0) -> None:
@@ -314,12 +272,8 @@ class HarmonicSeries(PeriodicFunction):
 class PeriodicSum(PeriodicFunction):
     """Sum of periodic functions with a common period.
 
-    Parameters
-    ----------
-    parts : sequence of PeriodicFunction
-        Functions that are added.
-    period : float
-        Period of the sum, a multiple of the period of each part.
+    parts    functions that are added
+    period   period of the sum, a multiple of the period of each part
     """
 
     def __init__(self, parts: Sequence[PeriodicFunction], period: float) -> None:

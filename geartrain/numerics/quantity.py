@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from math import pi
+from math import nan, pi
 from typing import Annotated, Any, cast
 
 from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -132,6 +132,18 @@ SPELT = {
 def bad(kind: str, what: str, fix: str, why: str = "") -> PydanticCustomError:
     """Return a validation error for a declaration, with its cause and its fix."""
     return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix, "why": why})
+
+
+def check_range(part: str, value: Any, ends: tuple[Any, Any] | None) -> None:
+    """Raise an error for a range, minimum first, that does not contain a figure or quantity; None is not a range."""
+    if ends is None:
+        return
+    low, given, high = (
+        nan if each is None else getattr(each, "base", each.value) for each in (ends[0], value, ends[1])
+    )
+    if not low <= given <= high:
+        what = f"{getattr(value, 'text', 'no value')} is outside the range {ends[0].text} to {ends[1].text}"
+        raise bad(part, what, "give a value in the range, and the minimum of the range first")
 
 
 def scale(unit: str) -> tuple[str, Fraction]:

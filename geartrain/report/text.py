@@ -32,9 +32,8 @@ def to_markdown(documents: Sequence[Document]) -> str:
     Examples
     --------
     >>> import geartrain
-    >>> from geartrain.report import collect_report, describe_train
-    >>> report = collect_report(geartrain.load("planetary-24-18-60"))
-    >>> [line for line in to_markdown([describe_train(report)]).splitlines() if line.startswith("| carrier | 2/7")]
+    >>> text = to_markdown([geartrain.load("planetary-24-18-60").report()])
+    >>> [line for line in text.splitlines() if line.startswith("| carrier | 2/7")]
     ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
     """
     return "\n".join(line for document in documents for line in _markdown(document))

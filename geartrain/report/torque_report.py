@@ -145,7 +145,7 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
     impacts: Mapping[str, Any] = {}
     if train.declaration.has_inertia and has_wing("simulation"):
-        impacts = wing("simulation").find_tooth_impacts(train.mechanics, state)
+        impacts = wing("simulation.contacts.separation_rate").find_tooth_impacts(train.mechanics, state)
     return TorqueFigures(
         found,
         DrivenWays(*map(DrivenFigures, ways)) if ways else None,
@@ -237,6 +237,8 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(link, found.external[link])}" for link in found.requested)
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
+    if any(each.load is not None for each in found.bearings):
+        lines.append(_LOADED)
     lines += [
         f"The reaction to the torque on '{link}' acts on '{base}'." for link, (base, _) in found.reactions.items()
     ]
@@ -252,6 +254,9 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))
     if any(parts):
         yield Section(titled(state, "power flow"), *parts)
+
+
+_LOADED = "Loads of bearings follow from declared positions of axes; without axial forces, bending and tilting."
 
 
 class _Amounts:
@@ -332,7 +337,7 @@ def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
     loaded = [each for each in found.bearings if each.load is not None]
     rows = [(each.link, each.carrier, figure(each.load, 6), amounts.plain(abs(each.torque), False)) for each in loaded]
     if rows:
-        yield Table(("bearing of", "in", "load (N), from declared axes", "friction torque"), rows)
+        yield Table(("bearing of", "in", "load (N)", "friction torque"), rows)
 
 
 # ------------------------------------------------------------------------------------------------------ flow and losses

@@ -289,12 +289,7 @@ class SceneCoupling(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneShiftElement:
-    """Brake or clutch of a scene, which is engaged or open in the state of the scene.
-
-    See Also
-    --------
-    make_scene : returns it in `Scene.elements`.
-    """
+    """Brake or clutch of a scene, which is engaged or open in the state of the scene."""
 
     id: str
     kind: Literal["brake", "clutch"]

@@ -220,7 +220,8 @@ class Scene(Shown):
     drive: Literal["hand", "motor", "spring", "weight"]
     """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
     fusee: Sequence[float]
-    """Radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
+    """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty without a
+    fusee."""
     up: Vector
     """Upward unit vector of the picture: y, or the direction towards an observer who looks from above."""
     step: str

@@ -51,12 +51,8 @@ class AlternativeRows(Generic[Table]):
 class WeightedAlternatives(Generic[Table]):
     """Weighted derivations from the rows of a root table, with their total weight and marginals.
 
-    Parameters
-    ----------
-    root : hashable
-        Table at whose rows the derivations begin.
-    alternatives : callable
-        Function that returns the alternatives of a table. The graph of tables must be acyclic.
+    root           table at whose rows the derivations begin
+    alternatives   function that returns the alternatives of a table. The graph of tables must be acyclic.
     """
 
     def __init__(self, root: Table, alternatives: Callable[[Table], AlternativeRows[Table]]) -> None:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from geartrain.simulation.contacts.link_inertia import find_link_inertias as find_link_inertias
     from geartrain.simulation.contacts.separation_rate import SeparationRates as SeparationRates
     from geartrain.simulation.contacts.separation_rate import find_separation as find_separation
-    from geartrain.simulation.contacts.separation_rate import find_tooth_impacts as find_tooth_impacts
     from geartrain.simulation.fmu.co_simulation import CoSimulationCase as CoSimulationCase
     from geartrain.simulation.fmu.co_simulation import fmu_file as fmu_file
     from geartrain.simulation.strength.strength_results import PairStrength as PairStrength
@@ -35,7 +34,7 @@ __getattr__, __all__ = public_names(
     __name__,
     {
         "contacts.link_inertia": "find_link_inertias",
-        "contacts.separation_rate": "SeparationRates find_separation find_tooth_impacts",
+        "contacts.separation_rate": "SeparationRates find_separation",
         "fmu.co_simulation": "CoSimulationCase fmu_file",
         "strength.strength_results": "PairStrength TrainStrength",
         "time.stepwise_simulation": "Simulation",

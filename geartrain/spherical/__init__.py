@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from geartrain.spherical.gear_sphere import GearSphere as GearSphere
     from geartrain.spherical.graph_set import GraphSet as GraphSet
     from geartrain.spherical.graph_set import from_graph as from_graph
-    from geartrain.spherical.polyhedra import Polyhedron as Polyhedron
     from geartrain.spherical.polyhedra import polyhedron as polyhedron
     from geartrain.spherical.polyhedra import solid as solid
     from geartrain.spherical.polyhedra import solid_names as solid_names
@@ -52,7 +51,7 @@ __getattr__, __all__ = public_names(
         "gear_sizes": "SphereSizing size_gears",
         "gear_sphere": "GearSphere",
         "graph_set": "GraphSet from_graph",
-        "polyhedra": "Polyhedron polyhedron solid solid_names",
+        "polyhedra": "polyhedron solid solid_names",
         "polyhedron_gears": "from_polyhedron survey",
         "tooth_count_search": "ratio_windows suggest_tooth_counts",
     },

@@ -99,12 +99,7 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron(Shown):
-    """Convex polyhedron with the origin in its interior, on which gears can be placed.
-
-    See Also
-    --------
-    polyhedron, solid : Return such an object.
-    """
+    """Convex polyhedron with the origin in its interior, on which gears can be placed."""
 
     vertices: Floats
     """Coordinates of the vertices as given, in any unit, shape (vertices, 3)."""
@@ -166,15 +161,7 @@ class Polyhedron(Shown):
         """Return the index of each point's image under each symmetry, for a set of points that is invariant under the
         symmetries.
 
-        Parameters
-        ----------
-        points : array of float, (points, 3)
-            Set of points that all symmetries map to itself.
-
-        Returns
-        -------
-        array of int, (symmetries, points)
-            Indices of the images.
+        points   set of points that all symmetries map to itself
         """
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
@@ -182,15 +169,7 @@ class Polyhedron(Shown):
         """Return for each point the index of the first point in its orbit, for a set of points that is invariant under
         the symmetries.
 
-        Parameters
-        ----------
-        points : array of float, (points, 3)
-            Set of points that all symmetries map to itself.
-
-        Returns
-        -------
-        array of int, (points,)
-            Indices; equal for points of one orbit.
+        points   set of points that all symmetries map to itself
         """
         first: Ints = self.permutations(points).min(axis=0)
         return first
@@ -204,15 +183,7 @@ class Polyhedron(Shown):
         """Return the polar dual: its vertices are along the normals of this solid, and its normals are along the
         vertices of this solid.
 
-        Parameters
-        ----------
-        name : str
-            Name of the dual, for display.
-
-        Returns
-        -------
-        Polyhedron
-            Dual, with vertices at the reciprocal heights of the faces.
+        name   name of the dual, for display
         """
         return polyhedron(self.normals / self.heights[:, None], name=name)
 

@@ -64,12 +64,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.least_friction import LeastFriction as LeastFriction
     from geartrain.teeth.outlines.wheel_outline import BlankSizes as BlankSizes
     from geartrain.teeth.outlines.wheel_outline import WheelOutline as WheelOutline
-    from geartrain.teeth.pair_results import PairVerdict as PairVerdict
-    from geartrain.teeth.pair_results import SlidingEfficiency as SlidingEfficiency
-    from geartrain.teeth.pair_results import SpeedRatio as SpeedRatio
-    from geartrain.teeth.pair_results import TransmissionError as TransmissionError
     from geartrain.teeth.pin_ring import PinRing as PinRing
-    from geartrain.teeth.rubbed_transmission import RubbedTransmission as RubbedTransmission
     from geartrain.teeth.table import GivenError as GivenError
     from geartrain.teeth.transmission import TransmissionFunction as TransmissionFunction
     from geartrain.teeth.triangular import Triangular as Triangular
@@ -85,8 +80,6 @@ __getattr__, __all__ = public_names(
         "gear_mesh": "GearMesh",
         "given_transmission": "TransmissionProtocol",
         "outlines.wheel_outline": "BlankSizes WheelOutline",
-        "pair_results": "PairVerdict SlidingEfficiency SpeedRatio TransmissionError",
-        "rubbed_transmission": "RubbedTransmission",
         "transmission": "TransmissionFunction",
         **TOOTH_FORMS,
     },

@@ -20,7 +20,7 @@ from pydantic import (
     model_validator,
 )
 
-from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, parse_friction
+from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, check_range, parse_friction
 
 
 class NumberOrKeys(BaseModel):
@@ -64,15 +64,10 @@ class CoulombFriction(NumberOrKeys):
 
     @model_validator(mode="after")
     def _check_range(self) -> CoulombFriction:
-        if self.range is None:
-            return self
-        low, high = self.range
-        if self.deviation is not None:
+        check_range("friction", self.sliding, self.range)
+        if self.range is not None and self.deviation is not None:
             fix = "omit `deviation` for a uniform, or `range` for a normal distribution"
             raise bad("friction", "`range` and `deviation` are both given", fix)
-        if not low.value <= self.sliding.value <= high.value:
-            what = f"the coefficient of friction {self.sliding.text} is outside its range {low.text} to {high.text}"
-            raise bad("friction", what, "give the minimum first, and a `sliding` between both")
         return self
 
     @property

@@ -12,7 +12,7 @@ from math import nan
 from typing import TYPE_CHECKING, get_args
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Key, Pictured, Result
 from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.involute import Involute
@@ -71,10 +71,11 @@ class MeasuredForm(Result):
 
 
 @dataclass(frozen=True)
-class FormComparison(Result):
+class FormComparison(Pictured, Result):
     """Tooth forms compared with the 20 degree involute of the same wheels and arcs of contact."""
 
     PAGE = "report.conjugate_pair_page:describe_form_comparison"
+    FIGURE = "drawing.transmission_curves:comparison_figure"
 
     KEYS = (
         *("teeth", "matched"),

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.results import Shown
+from geartrain.numerics.results import Pictured, Shown
 from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
 from geartrain.teeth.transmission import ExactRatio
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class GearMesh(Shown, ABC):
+class GearMesh(Pictured, Shown, ABC):
     """Gear pair of a train with its tooth geometry, for any tooth form except ideal teeth. Trains, reports and
     exports access the teeth through this interface.
 
@@ -41,6 +41,7 @@ class GearMesh(Shown, ABC):
     """
 
     PAGE = "report.pair_page:describe_pair"
+    FIGURE = "drawing.transmission_curves:mesh_figure"
 
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""

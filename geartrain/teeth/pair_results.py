@@ -23,16 +23,6 @@ if TYPE_CHECKING:
 class SpeedRatio(Result):
     """Speed ratio of a pair over a period: the driven speed divided by the driver speed, without the sign of an
     external mesh. It is negative only while a pin follower moves backwards.
-
-    See Also
-    --------
-    geartrain.teeth.TransmissionFunction.speed : the ratio at each angle.
-
-    Examples
-    --------
-    >>> from geartrain.teeth import PinToSlotTransmission
-    >>> SpeedRatio.of(PinToSlotTransmission(2, 1)).to_dict()
-    {'mean': 1.0, 'exact': '1', 'min': 0.6666666666666667, 'max': 2.0}
     """
 
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
@@ -48,15 +38,7 @@ class SpeedRatio(Result):
     def of(cls, transmission: TransmissionFunction) -> SpeedRatio:
         """Return the speed ratio of a transmission function.
 
-        Parameters
-        ----------
-        transmission : TransmissionFunction
-            Transmission function of any pair or pin.
-
-        Returns
-        -------
-        SpeedRatio
-            Mean and range over one period.
+        transmission   transmission function of any pair or pin
         """
         return cls(transmission.ratio, *transmission.speed_range())
 
@@ -68,20 +50,7 @@ class SpeedRatio(Result):
 
 @dataclass(frozen=True, slots=True)
 class TransmissionError(Result):
-    """Transmission error of a pair over a period, positive if the driven side is ahead of uniform motion.
-
-    See Also
-    --------
-    geartrain.teeth.TransmissionFunction.error : the error at each angle.
-
-    Examples
-    --------
-    >>> from math import pi
-    >>> from geartrain.teeth import PinToSlotTransmission
-    >>> error = TransmissionError.of(PinToSlotTransmission(2, 1))  # amplitude asin(1/2)
-    >>> round(error.peak_to_peak / pi, 12), error.mean
-    (0.333333333333, 0.0)
-    """
+    """Transmission error of a pair over a period, positive if the driven side is ahead of uniform motion."""
 
     peak_to_peak: float
     """Maximum minus minimum transmission error [rad of the driven side]."""
@@ -94,15 +63,7 @@ class TransmissionError(Result):
     def of(cls, transmission: TransmissionFunction) -> TransmissionError:
         """Return the statistics of the transmission error of a transmission function.
 
-        Parameters
-        ----------
-        transmission : TransmissionFunction
-            Transmission function of any pair or pin.
-
-        Returns
-        -------
-        TransmissionError
-            Peak-to-peak, rms and mean value over one period.
+        transmission   transmission function of any pair or pin
         """
         low, high = transmission.error_range()
         mean, rms = transmission.error_moments()
@@ -122,20 +83,6 @@ class SlidingEfficiency(Result):
     The torques on both sides cannot be constant at the same time. `mean` is the efficiency at constant torque of the
     driver; `at_constant_load` is the efficiency at constant torque of the driven side. All efficiencies are None if
     friction locks the pair.
-
-    See Also
-    --------
-    geartrain.teeth.GearMesh.efficiency : the efficiency of a pair of a train, with either wheel as driver.
-
-    Examples
-    --------
-    A slot that drives its pin of radius r locks at a coefficient of friction of sqrt(r^2 - e^2)/e or more, with e the
-    distance between the axes.
-
-    >>> from geartrain.teeth import SlotToPinTransmission
-    >>> efficiency = SlidingEfficiency(SlotToPinTransmission(5, 3, 0.1))
-    >>> round(efficiency.locking_friction, 6), efficiency.locks, round(efficiency.minimum, 6)
-    (1.333333, False, 0.925)
     """
 
     KEYS = ("friction", "mean", "at_constant_load", Key("min", "minimum"), Key("locks_at", "locking_friction"))
@@ -219,19 +166,7 @@ class ToothFault(Result):
 
 @dataclass(frozen=True, slots=True)
 class PairVerdict(Result):
-    """Verdict on whether a pair of wheels can run. Its truth value is True if the pair can run.
-
-    See Also
-    --------
-    geartrain.teeth.GearMesh : its property `verdict`.
-
-    Examples
-    --------
-    >>> from geartrain.teeth import Involute
-    >>> verdict = Involute(form="involute").transmission(8, 60).verdict
-    >>> bool(verdict), verdict.kind, verdict.faults[0].gear
-    (False, 'interference', 1)
-    """
+    """Verdict on whether a pair of wheels can run. Its truth value is True if the pair can run."""
 
     KEYS = ("kind", "text", Key("backlash", to=finite), "faults", "why", "fix")
 
@@ -260,15 +195,7 @@ class PairVerdict(Result):
     def explained(self, why: str, fix: str) -> PairVerdict:
         """Return a copy of the verdict with a single fault, which has the given cause and remedy.
 
-        Parameters
-        ----------
-        why, fix : str
-            Cause of the fault, and its remedy.
-
-        Returns
-        -------
-        PairVerdict
-            Copy with one fault of the pair as a whole.
+        why, fix   cause of the fault, and its remedy
         """
         return replace(self, faults=(ToothFault(self.kind, 0, float("nan"), self.text, why, fix),))
 

@@ -25,21 +25,6 @@ class RubbedTransmission(TransmissionFunction):
     contact: for the sliding speed v, the coefficient is mu(v), and the contact transmits the fraction (1 + mu out) / (1
     + mu into) of its power, with the friction terms of `ContactRubbing` (docs/shapes.md, section 15). Simultaneous
     contacts share the driver's torque equally.
-
-    Parameters
-    ----------
-    transmission : TransmissionFunction
-        Transmission function of the pair. Its own friction is ignored.
-    by : PairFriction
-        Friction law and pitch-line speed.
-
-    Examples
-    --------
-    >>> from geartrain.teeth import Involute, PairFriction, StribeckFriction
-    >>> friction = StribeckFriction(law="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")
-    >>> rubbed = RubbedTransmission(Involute(form="involute").transmission(24, 36), PairFriction(friction, 0.05))
-    >>> round(rubbed.friction, 4), round(rubbed.efficiency_mean(), 4)
-    (0.1512, 0.9811)
     """
 
     def __init__(self, transmission: TransmissionFunction, by: PairFriction) -> None:
@@ -105,10 +90,7 @@ class RubbedTransmission(TransmissionFunction):
     def coefficient(self, S: ArrayLike) -> Floats:
         """Return the coefficient of friction at each contact; NaN without contact.
 
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
+        S   driver angles [rad], any shape
         """
         return self.by(self.rubbing(S).sliding)
 

@@ -81,15 +81,6 @@ class Epoch(Declared):
     Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
     dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single string instead of a mapping
     is the date.
-
-    See Also
-    --------
-    Train : its field `epoch`
-
-    Examples
-    --------
-    >>> Epoch(date="2000-01-01").julian_day
-    Fraction(2451545, 1)
     """
 
     SHORT: ClassVar = {"type": "string"}
@@ -141,15 +132,7 @@ DeclaredEpoch = Annotated[Epoch, short_for("date")]
 
 @dataclass(frozen=True, slots=True)
 class FrictionInForce:
-    """Effective friction of a gear pair or coupling, declared for it or for the whole train.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load("moon-triangular").declaration
-    >>> train.friction_of(train.gears[0])
-    FrictionInForce(sliding=0.2, static=0.2, deviation=0.0, law=None)
-    """
+    """Effective friction of a gear pair or coupling, declared for it or for the whole train."""
 
     sliding: float | None
     """Coefficient of sliding friction; None if the coefficient follows a friction law."""

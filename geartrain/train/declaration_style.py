@@ -35,23 +35,8 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    r"""Rewrite a declaration in short form: turning pairs grouped by axis, gear pairs and belts without other keys as
+    """Rewrite a declaration in short form: turning pairs grouped by axis, gear pairs and belts without other keys as
     `a ~ b`.
-
-    Parameters
-    ----------
-    text : str
-        Declaration in YAML.
-
-    Returns
-    -------
-    str
-        Same declaration in short form; comments are preserved.
-
-    Examples
-    --------
-    >>> print(with_short_forms("gears:\n  - {pair: [p, w]}"), end="")
-    gears: [p ~ w]
     """
     joints = {key: partial(_short_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_short_pair)
@@ -59,23 +44,7 @@ def with_short_forms(text: str) -> str:
 
 
 def with_long_forms(text: str) -> str:
-    r"""Rewrite a declaration in long form: every turning pair, gear pair and belt is a separate mapping.
-
-    Parameters
-    ----------
-    text : str
-        Declaration in YAML.
-
-    Returns
-    -------
-    str
-        Same declaration in long form; comments are preserved.
-
-    Examples
-    --------
-    >>> print(*with_long_forms("gears:\n  - p ~ w").splitlines(), sep=" /")
-    gears: /  - {pair: [p, w]}
-    """
+    """Rewrite a declaration in long form: every turning pair, gear pair and belt is a separate mapping."""
     joints = {key: partial(_long_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_long_pair)
     return _rewritten(text, {**joints, "gears": gears, "belts": _long_belts})

@@ -12,7 +12,6 @@ import csv
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from math import atan2, cos, pi, remainder, sin
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -99,12 +98,7 @@ FaceWidth = Annotated[MeasuredLength, above_zero("give a length such as 3 mm")]
 
 
 class ArborSizes(Declared):
-    """Dimensions and material of the arbor of a link between its two bearings.
-
-    See Also
-    --------
-    Link : its field `arbor`
-    """
+    """Dimensions and material of the arbor of a link between its two bearings."""
 
     diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
     span: FaceWidth = Field(description="Distance between the centres of the bearings")
@@ -120,12 +114,6 @@ def material_table() -> Mapping[str, Material]:
     """Return the materials of the built-in table, by name.
 
     A material declared in a train takes precedence over one with the same name.
-
-    Returns
-    -------
-    mapping of str to Material
-        Mean values from handbooks, with source and spread. They do not guarantee the strength of an individual sheet or
-        bar.
     """
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
@@ -183,10 +171,7 @@ class LengthError(_DeclaredError):
 
 
 class MeasuredTeeth(Declared):
-    """Measurements of the teeth of a real wheel, one value for each tooth in the order of rotation.
-
-    The teeth are described by their pitch deviations, or by `angles` seen from the axis of rotation.
-    """
+    """Measurements of the teeth of a real wheel, one value for each tooth in the order of rotation."""
 
     pitch_deviation: tuple[AngleOff, ...] | None = Field(
         None,
@@ -237,22 +222,15 @@ class MeasuredTeeth(Declared):
 
     @model_validator(mode="after")
     def _describes_pitches_once(self) -> MeasuredTeeth:
-        if self.angles is not None and (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
-            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
-            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
-        if self.angles is not None and self.pitch_deviation is not None:
+        if self.angles is None:
+            return self
+        if self.pitch_deviation is not None:
             what, why = "the pitches are declared twice", "both `pitch_deviation` and angles are given"
             raise bad("measured", what, "remove one of them", why)
+        if (count := len(self.angles) - self.angles.count(None)) < FEWEST_ANGLES:
+            why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
+            raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
         return self
-
-    def deviations(self, count: int) -> dict[int, float]:
-        """Return the measured angles minus those of an even division [rad], with circular mean 0, by tooth index.
-
-        They are positive for a tooth that is behind its nominal position.
-        """
-        given = {at: each.si - 2 * pi * at / count for at, each in enumerate(self.angles or ()) if each is not None}
-        mean = atan2(sum(map(sin, given.values())), sum(map(cos, given.values())))
-        return {at: remainder(each - mean, 2 * pi) for at, each in given.items()}
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:
@@ -287,13 +265,7 @@ def _read_angles(path: Path, column: str) -> list[str | None]:
 
 
 class WheelManufacture(Declared):
-    """Manufacturing errors of the teeth of a wheel. Undeclared errors are 0.
-
-    See Also
-    --------
-    Wheel : its field `cutting`
-    Train : default of all other wheels
-    """
+    """Manufacturing errors of the teeth of a wheel. Undeclared errors are 0."""
 
     pitch_deviation: Annotated[AngleError, short_for("value")] | None = Field(
         None,
@@ -349,13 +321,7 @@ class Filing(Declared):
 
 
 class PairMounting(Declared):
-    """Mounting errors of the axes of a gear pair. Undeclared errors are 0.
-
-    See Also
-    --------
-    GearPair : its field `fitting`
-    Train : default of all other pairs
-    """
+    """Mounting errors of the axes of a gear pair. Undeclared errors are 0."""
 
     centre: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Error of the centre distance; positive if the axes are too far apart"

@@ -44,6 +44,7 @@ from geartrain.numerics.quantity import (
     above_zero,
     bad,
     below_right_angle,
+    check_range,
     checked,
     millimetres,
     not_below_zero,
@@ -84,19 +85,13 @@ FrictionTorque = Annotated[
     ),
 ]
 
+_Coefficient = Annotated[Figure, not_below_zero("give a coefficient of friction such as 0.15")]
+_Radius = Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")]
+
 
 class BearingFriction(Declared):
     """Friction of a bearing: a torque that does not depend on the load, and a part that is proportional to the load. In
     a declaration, a single torque instead of a mapping sets `sliding`.
-
-    See Also
-    --------
-    Link : its field `bearing`
-
-    Examples
-    --------
-    >>> BearingFriction(sliding="0.5 N m").at_rest.si
-    0.5
     """
 
     SHORT: ClassVar = {"type": ["string", "number"], "format": "torque"}
@@ -108,13 +103,19 @@ class BearingFriction(Declared):
     static: FrictionTorque | None = Field(
         None, description="Static friction torque that must be exceeded to start; at least `sliding`, default `sliding`"
     )
-    coefficient: Annotated[Figure, not_below_zero("give a coefficient of friction such as 0.15")] | None = Field(
+    coefficient: _Coefficient | None = Field(
         None,
         description="Coefficient of friction of the bearing; its friction torque grows with the forces of the gear "
         "pairs, whose `axes` need positions; default none",
     )
-    radius: Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")] | None = Field(
+    radius: _Radius | None = Field(
         None, description="Radius of the pivot in the bearing, for `coefficient`; default half the `pivot` of the arbor"
+    )
+    range: tuple[_Coefficient, _Coefficient] | None = Field(
+        None, description="Minimum and maximum of the uniform distribution of `coefficient` in Monte Carlo runs"
+    )
+    radii: tuple[_Radius, _Radius] | None = Field(
+        None, description="Minimum and maximum of the uniform distribution of `radius` in Monte Carlo runs"
     )
     at: tuple[MeasuredLength, MeasuredLength] | None = Field(
         None,
@@ -124,6 +125,8 @@ class BearingFriction(Declared):
 
     @model_validator(mode="after")
     def _check_static(self) -> BearingFriction:
+        check_range("bearing", self.coefficient, self.range)
+        check_range("bearing", self.radius, self.radii)
         if self.at is not None and self.at[0].si == self.at[1].si:
             raise bad(
                 "bearing", "two bearings have the same position", "give two positions, such as `at: [0 mm, 40 mm]`"
@@ -160,13 +163,7 @@ DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 
 @cache
 def wheel_sets() -> Mapping[str, tuple[int, ...]]:
-    """Return the tooth counts of the wheels of each construction set in the shipped table, in ascending order.
-
-    Examples
-    --------
-    >>> wheel_sets()["meccano"]
-    (15, 19, 25, 38, 50, 57, 60, 95, 133)
-    """
+    """Return the tooth counts of the wheels of each construction set in the shipped table, in ascending order."""
     text = files("geartrain.train").joinpath("wheel_sets.csv").read_text(encoding="utf-8")
     found: dict[str, list[int]] = {}
     for row in csv.DictReader(text.splitlines()):
@@ -187,17 +184,7 @@ def _form(raw: object) -> str:
 
 
 class OwnedWheels(Declared):
-    """Wheels from which a wheel of the train is chosen.
-
-    Examples
-    --------
-    >>> OwnedWheels(of={15: 2, 57: 1}).counts, OwnedWheels(of="lego").counts[:3]
-    ((15, 57), (8, 12, 16))
-
-    See Also
-    --------
-    Teeth : its field `search`
-    """
+    """Wheels from which a wheel of the train is chosen."""
 
     of: Annotated[
         Annotated[str, AfterValidator(_known), Tag("name")]
@@ -563,12 +550,7 @@ def unit_vector(direction: Direction) -> Vector:
 
 
 class Axis(Declared):
-    """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0.
-
-    See Also
-    --------
-    Train : its field `axes`, by label
-    """
+    """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0."""
 
     direction: Direction = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
@@ -602,12 +584,7 @@ class Joint(Declared):
 
 
 class Revolute(Joint):
-    """Turning pair of two links. Turning pairs with the same axis label are coaxial.
-
-    See Also
-    --------
-    Train : its field `revolutes`
-    """
+    """Turning pair of two links. Turning pairs with the same axis label are coaxial."""
 
     pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
     axis: Id = Field(description="Label of the axis; equal labels mean coaxial joints")
@@ -617,12 +594,7 @@ Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
 
 
 class Slide(Joint):
-    """Sliding pair of two links. Sliding pairs with the same axis label move along the same line.
-
-    See Also
-    --------
-    Train : its field `slides`
-    """
+    """Sliding pair of two links. Sliding pairs with the same axis label move along the same line."""
 
     pair: tuple[Id, Id] = Field(description="Two links that slide along each other")
     axis: Id = Field(description="Label of the axis; equal labels mean travel along one line")

@@ -42,14 +42,7 @@ _EXTRA_DIGITS = 2  # of a computed period, more than the source prints
 
 @dataclass(frozen=True, slots=True)
 class PrintedPeriod(Figure):
-    """Time as printed in a source. Its `value` [s] and `half` [s] do not include its years.
-
-    Examples
-    --------
-    >>> printed = PrintedPeriod.parse("24 h 50 min 28.4 s")
-    >>> printed.value, printed.half, printed.text_of(Fraction(89428378, 1000), None)
-    (Fraction(447142, 5), Fraction(1, 20), '24 h 50 min 28.378 s')
-    """
+    """Time as printed in a source. Its `value` [s] and `half` [s] do not include its years."""
 
     years: Fraction
     """Number of years, which is 0 if none is printed."""
@@ -65,13 +58,7 @@ class PrintedPeriod(Figure):
 
     @classmethod
     def parse(cls, raw: object) -> PrintedPeriod:
-        """Parse a time with its units in descending order.
-
-        Raises
-        ------
-        ValueError
-            If `raw` is not such a time.
-        """
+        """Parse a time with its units in descending order."""
         if isinstance(raw, PrintedPeriod):
             return raw
         text = str(raw).strip()
@@ -157,10 +144,6 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 class DialName(Declared):
     """Label of one or more consecutive divisions of a dial. In a declaration, a single string instead of a mapping is
     the label.
-
-    See Also
-    --------
-    Dial : its field `names`
     """
 
     SHORT: ClassVar = {"type": ["string", "number", "null"]}
@@ -172,10 +155,6 @@ class DialName(Declared):
 class DialNumerals(Declared):
     """Numerals at the lines between the divisions of a dial; the last numeral is at the zero mark. In a declaration, a
     single string instead of a mapping is their style.
-
-    See Also
-    --------
-    Dial : its field `numerals`
     """
 
     SHORT: ClassVar = {"enum": ["roman", "arabic"]}
@@ -310,12 +289,7 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
 
 
 class DialRing(Graduation):
-    """Second scale around the scale of a dial, read by the same pointers.
-
-    See Also
-    --------
-    Dial : its field `around`
-    """
+    """Second scale around the scale of a dial, read by the same pointers."""
 
 
 INNER = 0.55
@@ -330,12 +304,7 @@ Place = tuple[MeasuredLength, MeasuredLength]
 
 
 class FacePlate(Declared):
-    """Rectangular plates on which the dials of the front and of the back are engraved.
-
-    See Also
-    --------
-    Train : its field `dial_plate`
-    """
+    """Rectangular plates on which the dials of the front and of the back are engraved."""
 
     width: Annotated[MeasuredLength, above_zero("give a width such as 180 mm")] = Field(description="Width")
     height: Annotated[MeasuredLength, above_zero("give a height such as 330 mm")] = Field(description="Height")
@@ -347,17 +316,7 @@ class FacePlate(Declared):
 
 
 class Dial(Graduation):
-    """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative.
-
-    Examples
-    --------
-    >>> Dial(names="zodiac").parts[4]
-    ('Leo', Fraction(120, 1), Fraction(30, 1))
-
-    See Also
-    --------
-    Train : its field `dials`, by name
-    """
+    """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative."""
 
     SHORT: ClassVar = {"type": "null"}
 
@@ -402,12 +361,8 @@ class Dial(Graduation):
         """Return the extent of the engraving in a direction, divided by the radius of the dial. A spiral reaches this
         radius only at its outer end.
 
-        Parameters
-        ----------
-        right : float
-            Component of the direction to the right of the reader; its length is arbitrary.
-        up : float
-            Component of the direction upwards.
+        right   component of the direction to the right of the reader; its length is arbitrary
+        up      component of the direction upwards
         """
         if self.turns == 1 or self.around is not None:
             return 1.0
@@ -457,11 +412,6 @@ class Target(Declared):
 
     A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
     `sense` is given.
-
-    See Also
-    --------
-    Output : its field `targets`
-    geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
     SHORT: ClassVar = {"type": "string"}
@@ -522,14 +472,6 @@ class Target(Declared):
 class Expect(Declared):
     """Required mean speed of an output, exact or within a tolerance. In a declaration, a single number instead of a
     mapping is the value.
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> Expect(value="254/19").holds(Fraction(254, 19)), Expect(value="13.37").holds(Fraction(254, 19))
-    (True, True)
-    >>> Expect(value="13.37", tolerance=0).holds(Fraction(254, 19))
-    False
     """
 
     SHORT: ClassVar = {"type": ["number", "string"]}
@@ -545,10 +487,7 @@ class Expect(Declared):
     def holds(self, speed: Any) -> bool:
         """Return True if a speed agrees with the expected value.
 
-        Parameters
-        ----------
-        speed : Fraction
-            Exact speed [unit of the train].
+        speed   exact speed [unit of the train]
         """
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
@@ -694,12 +633,7 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """Unit of all speeds: a speed of 1 means one turn per declared time, length or period.
-
-    See Also
-    --------
-    Train : its field `unit`
-    """
+    """Unit of all speeds: a speed of 1 means one turn per declared time, length or period."""
 
     per: str = Field(
         description="A time (`12 h`, `7 d`), a length (`18 ft`), or the name of a period that `geartrain periods` lists"
@@ -707,12 +641,7 @@ class SpeedUnit(Declared):
 
 
 class View(Declared):
-    """View of the train: side from which it is seen, and positive sense of rotation.
-
-    See Also
-    --------
-    Train : its field `view`
-    """
+    """View of the train: side from which it is seen, and positive sense of rotation."""
 
     from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, front or back")
     positive: Literal["clockwise", "counter-clockwise"] = Field(
@@ -721,12 +650,7 @@ class View(Declared):
 
 
 class TourStep(Declared):
-    """Step of the tour of a train on its page: a part at which the camera looks, and a text about it.
-
-    See Also
-    --------
-    Train : its field `tour`
-    """
+    """Step of the tour of a train on its page: a part at which the camera looks, and a text about it."""
 
     look_at: Id = Field(
         description="Name of an output, link, wheel, dial or coupling; if several parts "

@@ -31,13 +31,7 @@ _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{
 
 @dataclass(frozen=True, slots=True)
 class CalendarDate:
-    """Date in the Julian or Gregorian calendar, with the elapsed fraction of the day.
-
-    See Also
-    --------
-    read_date : Read a date from text.
-    date_of : Convert a Julian day to a date.
-    """
+    """Date in the Julian or Gregorian calendar, with the elapsed fraction of the day."""
 
     year: int
     """Astronomical year: 0 is 1 BC."""
@@ -56,23 +50,7 @@ class CalendarDate:
 
 
 def julian_day(date: CalendarDate) -> Fraction:
-    """Return the Julian day of a calendar date. Day 31 of a month with 30 days is the first day of the next month.
-
-    Parameters
-    ----------
-    date : CalendarDate
-        Calendar date.
-
-    Returns
-    -------
-    Fraction
-        Julian day [d].
-
-    Examples
-    --------
-    >>> julian_day(read_date("2000-01-01 12:00"))
-    Fraction(2451545, 1)
-    """
+    """Return the Julian day of a calendar date. Day 31 of a month with 30 days is the first day of the next month."""
     # years begin in March here, so that a leap day is the last day of its year
     month = (date.month - 3) % 12
     year = date.year - (date.month < 3)
@@ -83,26 +61,7 @@ def julian_day(date: CalendarDate) -> Fraction:
 
 
 def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
-    """Return the calendar date of a Julian day.
-
-    Parameters
-    ----------
-    day : Fraction
-        Julian day [d].
-    calendar : {"julian", "gregorian"}, optional
-        Calendar of the result; by default Julian before 1582-10-15 and Gregorian from that date.
-
-    Returns
-    -------
-    CalendarDate
-        Calendar date.
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> str(date_of(Fraction(2451545)))
-    '2000-01-01'
-    """
+    """Return the calendar date of a Julian day."""
     calendar = calendar or ("julian" if day < REFORM else "gregorian")
     since = day - _MARCH[calendar]
     whole = since // 1
@@ -115,31 +74,7 @@ def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
 
 
 def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
-    """Parse a date from text, such as `-204-05-12` or `2000-01-01 18:30`.
-
-    Parameters
-    ----------
-    text : str
-        Astronomical year, month and day, and optionally a time; noon if no time is given.
-    calendar : {"julian", "gregorian"}, optional
-        Calendar of the date; by default Julian before 1582-10-15 and Gregorian from that date. The ten days between
-        them do not exist.
-
-    Returns
-    -------
-    CalendarDate
-        Calendar date.
-
-    Raises
-    ------
-    ValueError
-        If the text is not a date of the calendar.
-
-    Examples
-    --------
-    >>> read_date("-204-05-12 18:00")
-    CalendarDate(year=-204, month=5, day=12, part=Fraction(3, 4), calendar='julian')
-    """
+    """Parse a date from text, such as `-204-05-12` or `2000-01-01 18:30`."""
     found = _PATTERN.fullmatch(text.strip())
     if found is None:
         raise ValueError(f"'{text[:40]}' is not a date")
@@ -179,12 +114,7 @@ def _split_gregorian(days: int) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class Period:
-    """Row of the table of periods: an astronomical period, speed or count, with its source.
-
-    See Also
-    --------
-    period_table : Return all periods.
-    """
+    """Row of the table of periods: an astronomical period, speed or count, with its source."""
 
     name: str
     """Name by which `unit` and `targets` of a declaration refer to this value."""

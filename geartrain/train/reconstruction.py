@@ -113,12 +113,6 @@ class Reconstruction(Declared):
 
     Its links are the surviving arbors, its gears are pairs that were observed in mesh, and an output without `of` is a
     pointer whose arbor is unknown (`of: new` if that arbor is known not to survive).
-
-    Examples
-    --------
-    >>> requested = Reconstruction(add={"wheels": 2, "teeth": (12, 225)})
-    >>> requested.add.on, requested.use, requested.sense, requested.cost.unused.value
-    ('any', 'wheels', 'given', Fraction(100, 1))
     """
 
     add: AddedParts = Field(AddedParts(), description="Parts that may be added")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import combinations, pairwise
-from math import hypot, pi
+from math import hypot, pi, remainder
 from typing import Any
 
 from geartrain.errors import Loc, Problem, dotted, suggest
@@ -349,17 +349,16 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
         lengths["angles"] = len(measured.angles) + measured.missing
     for name, length in lengths.items():
         if length != count:
-            yield Problem(
-                f"'{name}' has {length} measured values, but wheel '{wheel}' has {count} teeth",
-                "a table has one value for each tooth, in the order of rotation",
-                "complete the table, or correct the tooth count"
-                + (", or give the number of `missing` teeth after the last angle" if name == "angles" else ""),
-                train.place(*loc, name),
-            )
+            what = f"'{name}' has {length} measured values, but wheel '{wheel}' has {count} teeth"
+            why = "a table has one value for each tooth, in the order of rotation"
+            fix = "complete the table, or correct the tooth count"
+            fix += ", or give the number of `missing` teeth after the last angle" if name == "angles" else ""
+            yield Problem(what, why, fix, train.place(*loc, name))
             return
-    off = measured.deviations(count)
-    for (one, before), (two, after) in pairwise(off.items()):
-        if not abs(after - before) < (two - one) * 2 * pi / count:
+    given = [(at, each.si) for at, each in enumerate(measured.angles or ()) if each is not None]
+    for (one, before), (two, after) in pairwise(given):
+        even = (two - one) * 2 * pi / count
+        if not abs(remainder(after - before - even, 2 * pi)) < even:
             what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' does not follow that of tooth {one + 1}"
             why = f"angles increase from tooth to tooth, by about {360 / count:.5g} deg"
             fix = "list the teeth in the order of rotation, and measure angles against the direction of rotation"

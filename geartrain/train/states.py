@@ -34,6 +34,7 @@ from geartrain.numerics.quantity import (
     TorsionalStiffness,
     above_zero,
     bad,
+    check_range,
     checked,
     not_below_zero,
 )
@@ -66,12 +67,7 @@ DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in t
 
 
 class Fusee(Declared):
-    """Fusee on the driving link, by its constant torque or by its radii.
-
-    See Also
-    --------
-    SpringDrive : its field `fusee`
-    """
+    """Fusee on the driving link, by its constant torque or by its radii."""
 
     turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
         description="Turns of the fusee from fully wound to run down"
@@ -96,12 +92,7 @@ class Fusee(Declared):
 
 
 class SpringDrive(Declared):
-    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding.
-
-    See Also
-    --------
-    Drive : its field `spring`
-    """
+    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding."""
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 0.02 N m/rad")] = Field(
         description="Torsional stiffness: torque per radian of winding"
@@ -144,10 +135,7 @@ class SpringDrive(Declared):
     def torque(self, unwound: float) -> float:
         """Return the torque after the link has turned by a given angle in the driving direction [N m].
 
-        Parameters
-        ----------
-        unwound : float
-            Angle by which the link has turned [rad].
+        unwound   angle by which the link has turned [rad]
         """
         if (chained := self.chained) is not None:
             return chained.torque(unwound)
@@ -155,13 +143,9 @@ class SpringDrive(Declared):
 
 
 class HandDrive(Declared):
-    """Hand at the crank: a torque, or a speed imposed through a torsional stiffness, and the inertia of arm and crank.
+    """Hand at the crank: a torque or a speed through a torsional stiffness, and the inertia of arm and crank.
 
     In Monte Carlo trials of feasibility, the torque is the maximum that the hand can exert.
-
-    See Also
-    --------
-    Drive : its field `hand`
     """
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
@@ -188,11 +172,7 @@ class HandDrive(Declared):
                 "`stiffness` applies only to a hand with a `rate`",
                 {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
             )
-        if self.range is not None and (
-            self.torque is None or not self.range[0].base <= self.torque.base <= self.range[1].base
-        ):
-            fix = "give the minimum first, and a `torque` between both"
-            raise bad("drive", "the `range` of the hand does not contain its `torque`", fix)
+        check_range("drive", self.torque, self.range)
         return self
 
 
@@ -292,12 +272,7 @@ EXPANSIONS = {"steel": 11.5e-6, "brass": 19e-6, "pine": 4e-6, "invar": 1e-6}
 
 
 class Pendulum(Declared):
-    """Pendulum of an escapement. In a declaration, a length instead of a mapping sets `length`.
-
-    See Also
-    --------
-    Escapement : its field `pendulum`
-    """
+    """Pendulum of an escapement. In a declaration, a length instead of a mapping sets `length`."""
 
     SHORT: ClassVar = {"type": "string", "format": "length"}
 
@@ -318,17 +293,6 @@ class Escapement(Declared):
     """Escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
     Angles are relative to the link on which the pallets are mounted, by default the link that carries the escape wheel.
-
-    See Also
-    --------
-    Train : its field `escapement`
-
-    Examples
-    --------
-    >>> Escapement(link="escape", teeth=30, beat="1 s").speed
-    Fraction(1, 60)
-    >>> Escapement(link="escape", teeth=30, beat="1 s", pendulum="994 mm").pendulum.length.si
-    0.994
     """
 
     link: Id = Field(description="Link of the escape wheel")
@@ -387,12 +351,8 @@ class Escapement(Declared):
     def has_wheel(self, link: str, count: int | None) -> bool:
         """Return True if a wheel of a link is the escape wheel, which does not mesh with other wheels.
 
-        Parameters
-        ----------
-        link : str
-            Link of the wheel.
-        count : int or None
-            Tooth count of the wheel, if known.
+        link    link of the wheel
+        count   tooth count of the wheel, if known
         """
         return (link, count) == (self.link, self.teeth)
 
@@ -415,11 +375,6 @@ class Clutch(Declared):
 
     With `one_way` it is an overrunning clutch, freewheel or ratchet, which is in force in every state: it holds, or it
     overruns in the given sense, depending on speeds and torques.
-
-    See Also
-    --------
-    Train : its field `clutches`, by name
-    State : engages them
     """
 
     fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
@@ -515,12 +470,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True)
 class OneWayAction(Result):
-    """Action of a one-way clutch in one state: it holds, or it overruns.
-
-    See Also
-    --------
-    StateCase : its field `one_way`
-    """
+    """Action of a one-way clutch in one state: it holds, or it overruns."""
 
     name: str
     """Name of the clutch."""
@@ -549,10 +499,7 @@ class OneWayAction(Result):
     def text(self, unit: str = "") -> str:
         """Return the action as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
 
-        Parameters
-        ----------
-        unit : str
-            Unit of speeds.
+        unit   unit of speeds
         """
         if self.holds:
             amount = "" if self.torque is None else f" ({f'{decimal(self.torque, 6)} {self.torque_unit}'.strip()})"

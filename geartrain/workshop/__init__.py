@@ -22,11 +22,8 @@ if TYPE_CHECKING:
     from geartrain.workshop.budget.train_budget import BudgetQuestion as BudgetQuestion
     from geartrain.workshop.budget.train_budget import find_budget as find_budget
     from geartrain.workshop.cutting.declared_errors import read_error_overrides as read_error_overrides
-    from geartrain.workshop.cutting.measured_motion import measured_motion as measured_motion
     from geartrain.workshop.cutting.wheel_estimate import WheelEstimate as WheelEstimate
     from geartrain.workshop.cutting.wheel_estimate import estimate_wheel as estimate_wheel
-    from geartrain.workshop.cutting.wheel_report import MeasuredWheels as MeasuredWheels
-    from geartrain.workshop.cutting.wheel_report import find_measured_wheels as find_measured_wheels
     from geartrain.workshop.export.file_set import export_files as export_files
     from geartrain.workshop.export.file_set import notices as notices
     from geartrain.workshop.export.file_set import train_file as train_file
@@ -60,9 +57,7 @@ __getattr__, __all__ = public_names(
         "budget.pointer_budget": "PointerBudget TrainBudget",
         "budget.train_budget": "BudgetQuestion find_budget",
         "cutting.declared_errors": "read_error_overrides",
-        "cutting.measured_motion": "measured_motion",
         "cutting.wheel_estimate": "WheelEstimate estimate_wheel",
-        "cutting.wheel_report": "MeasuredWheels find_measured_wheels",
         "export.file_set": "export_files notices train_file wheel_file",
         "feasibility.feasibility_plan": "find_feasibility_plan",
         "feasibility.feasibility_trials": "FeasibilityResult run_feasibility",

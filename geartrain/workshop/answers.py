@@ -8,7 +8,7 @@ from typing import Any
 def answers() -> dict[str, Any]:
     """Return the result type of each workshop command that prints JSON, by name of the command."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
-    from geartrain.workshop.cutting.wheel_report import MeasuredWheels
+    from geartrain.workshop.cutting.wheel_estimate import WheelEstimate
     from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
@@ -19,6 +19,6 @@ def answers() -> dict[str, Any]:
         "feasibility": FeasibilityResult,
         "budget": TrainBudget,
         "optimise": BestTrainSizes,
-        "inspect wheels": MeasuredWheels,
+        "inspect wheels": dict[str, WheelEstimate],
         "mesh --form triangular --objective": BestToothSizes,
     }

@@ -14,7 +14,7 @@ from commands import LOCKED, RIGHT, call
 from dynamics.test_uncounted_losses import PIN
 
 from geartrain import GearTrain, load
-from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy
+from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy, find_accuracy
 
 SPEEDS, MOTION, TORQUES = "speeds", "motion", "torques"
 

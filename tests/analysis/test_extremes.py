@@ -12,21 +12,25 @@ from extremes import (
     CASES,
     CIRCULATING,
     EPS,
+    SETS,
     Case,
     Exactly,
     Measured,
+    Pair,
     Pinned,
     Toothed,
+    Train,
+    Wheels,
     amplified,
     balanced,
     chain,
     circulating,
     composed,
+    declared,
     run,
     suns,
     triangular,
 )
-from marching import declared
 from sorge import mp
 
 from geartrain import GearTrainError, load
@@ -42,9 +46,6 @@ def parameters(case: Case) -> object:
 def test_floats_give_what_they_can(case: Case) -> None:
     measured: Measured = case.measure()
     assert measured.error < case.bound
-
-
-# ----------------------------------------------------------------------------------------------------- the reference
 
 
 def test_the_solution_of_all_transmissions_is_their_composition_one_in_the_other() -> None:
@@ -64,7 +65,20 @@ def test_the_speed_of_a_transmission_is_the_derivative_of_its_angle() -> None:
             assert abs(mp.diff(transmission.angle, S) - transmission.speed(mp.mpf(S))) < mp.mpf(10) ** -20
 
 
-# ------------------------------------------------------------------------------------------------------------ speeds
+@pytest.mark.parametrize(
+    ("speeds", "more"),
+    [({"left": 1.0, ARM: -0.5}, 0), ({"left": 1.0, ARM: 1 / 3}, 3), ({"left": 1.0, "right": 0.0}, 6)],
+)
+def test_angles_of_planets_that_mesh_solve_all_transmissions(speeds: dict[str, float], more: int) -> None:
+    links = SETS | {"other": (ARM, "Q")}
+    pairs = (
+        Pair("left", "planet", ARM, Wheels(36 + more, 24, triangular())),
+        Pair("planet", "other", ARM, Wheels(30, 25 + more, triangular())),
+        Pair("other", "right", ARM, Wheels(20, 45, triangular())),
+    )
+    found = run(Train(links, pairs, speeds), 3.7, 997, 9)
+    assert max(found.off.values()) < 1e-13
+    assert max(found.speed_off.values()) < 1e-12
 
 
 @pytest.mark.parametrize(
@@ -82,18 +96,12 @@ def test_speeds_of_a_train_that_makes_them_a_million_million_times_slower() -> N
     assert max(found.speed_off.values()) < 200 * EPS
 
 
-# ------------------------------------------------------------------------------------------ what cannot be followed
-
-
 @pytest.mark.parametrize("teeth", [32, 1000, 31_623])
 def test_a_differential_near_locking_cannot_be_driven_from_its_slow_side(teeth: int) -> None:
     """The product of both ratios ripples by more than it differs from 1: past a dead centre the arm turns back."""
     train = suns((teeth, teeth + 1, teeth, teeth - 1), {"right": 1, "left": 0})
     with pytest.raises(GearTrainError, match="coupled pairs"):
         load(declared(train)).motion().transmission_errors(1.0, 101)
-
-
-# ------------------------------------------------------------------------------------------------ circulating power
 
 
 @pytest.mark.parametrize("eta", [Fraction(9, 10), Fraction(99, 100), Fraction(999, 1000), 1 - Fraction(1, 10**12)])
@@ -121,9 +129,6 @@ def test_an_error_is_enlarged_as_the_power_circulates() -> None:
     assert amplified(1e3).error < 8 * EPS
 
 
-# ------------------------------------------------------------------------------------------------------------- memory
-
-
 def test_a_long_run_of_a_long_chain_keeps_few_numbers() -> None:
     """Errors and speeds of 100 pairs at 60 000 positions would be 96 MB."""
     train = chain([(100, 101), (101, 100)], 100, triangular())
@@ -134,9 +139,6 @@ def test_a_long_run_of_a_long_chain_keeps_few_numbers() -> None:
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert most < 60e6
-
-
-# -------------------------------------------------------------------------------------------- one pin, at 50 digits
 
 
 @pytest.mark.parametrize("more", [1e-1, 1e-3, 1e-6, 1e-9])

@@ -18,9 +18,9 @@ import geartrain
 from geartrain import GearTrain, load
 from geartrain.analysis import build_train_graph
 from geartrain.errors import DeclarationError, QuestionError
-from geartrain.kinematics import TrainKinematics
 from geartrain.kinematics.graph import to_dot, to_graphml, to_json
-from geartrain.numerics.lazy_graph import Lazy, LazyDict
+from geartrain.kinematics.train_kinematics import TrainKinematics
+from geartrain.numerics.lazy_graph import Lazy
 
 OF_LINKS = {"declared", "frame", "wheels", "reference", "speed"}
 OF_EDGES = {
@@ -158,9 +158,6 @@ def test_a_pin_with_dimensions_is_its_mesh() -> None:
         assert data["mesh"].transmission.e > 0
 
 
-# ------------------------------------------------------------------------------------------------- made when it is read
-
-
 def test_nothing_is_made_before_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     def never(*_: object, **__: object) -> Any:
         raise AssertionError("made unasked")
@@ -272,47 +269,6 @@ def test_a_graph_that_would_differ_from_its_train_is_refused_with_what_changes_t
     copied.remove_node("sun")
     copied.edges["planet", "frame", "p~ring"]["ratio"] = 7
     assert (len(copied), graph.edges["planet", "frame", "p~ring"]["ratio"]) == (3, Fraction(60, 18))
-
-
-def test_a_lazy_dictionary_makes_each_value_once_however_it_is_read() -> None:
-    def data() -> tuple[LazyDict, list[int]]:
-        requested: list[int] = []
-
-        def make() -> int:
-            requested.append(1)
-            return 7
-
-        return LazyDict(a=1, b=Lazy(make)), requested
-
-    ways = {
-        "[]": lambda d: d["b"],
-        "get": lambda d: d.get("b"),
-        "pop": lambda d: d.pop("b"),
-        "setdefault": lambda d: d.setdefault("b", 0),
-        "values": lambda d: list(d.values())[1],
-        "items": lambda d: dict(d.items())["b"],
-        "dict": lambda d: dict(d)["b"],
-        "update": lambda d: ({}, x := {}, x.update(d), x["b"])[-1],
-        "copy": lambda d: d.copy()["b"],
-        "**": lambda d: dict(**d)["b"],
-        "|": lambda d: (d | {})["b"],
-        "| on the right": lambda d: ({} | d)["b"],
-        "copy.copy": lambda d: copy.copy(d)["b"],
-        "pickle": lambda d: pickle.loads(pickle.dumps(LazyDict(d)))["b"],
-        "==": lambda d: 7 if d == {"a": 1, "b": 7} else 0,
-        "!=": lambda d: 0 if d != {"a": 1, "b": 7} else 7,
-    }
-    for way, read in ways.items():
-        found, requested = data()
-        assert list(found) == ["a", "b"]
-        assert len(found) == 2
-        assert "b" in found
-        assert repr(found) == "{'a': 1, 'b': ...}"
-        assert not requested, way
-        assert read(found) == 7, way
-        assert requested == [1], way
-    found, requested = data()
-    assert (found["b"], found["b"], requested) == (7, 7, [1])
 
 
 def test_edges_have_the_transmission_function_in_force() -> None:

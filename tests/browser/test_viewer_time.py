@@ -16,7 +16,8 @@ from viewing import ANTIKYTHERA, MOVING, PLAN, SIMPLE, Opening, go, tab, turns, 
 from geartrain import GearTrain
 from geartrain.drawing.dial_faces import pointer_readings
 from geartrain.scene import make_scene
-from geartrain.train import date_of, julian_day, period_table, read_date
+from geartrain.train import period_table
+from geartrain.train.periods import date_of, julian_day, read_date
 
 if TYPE_CHECKING:
     from conftest import Shown

@@ -9,7 +9,7 @@ from commands import call
 from places import ROOT
 
 import geartrain
-from geartrain.train import with_short_forms
+from geartrain.train.declaration_style import with_short_forms
 
 TEMPLATES = ROOT / "geartrain" / "cli" / "templates"
 KINDS = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))

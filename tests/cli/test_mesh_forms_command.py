@@ -150,7 +150,7 @@ def form_of(name: str) -> Any:
 @cache
 def figure() -> Any:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing import shapes_figure
+    from geartrain.drawing.transmission_curves import shapes_figure
 
     forms = ("involute", "uniform_stress", "uniform_temperature", "least_friction", "cycloidal", "lantern")
     return shapes_figure({form: form_of(form).declared({}).path(24, 36) for form in forms})
@@ -182,7 +182,7 @@ def test_a_comparison_is_drawn_to_a_file(tmp_path: File) -> None:
 @pytest.mark.parametrize("more", [{"internal": True}, {"shaft_angle": pi / 2}], ids=str)
 def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> None:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing import shapes_figure
+    from geartrain.drawing.transmission_curves import shapes_figure
     from geartrain.teeth import UniformStress
 
     path = UniformStress.declared({}).path(24, 60, **more)

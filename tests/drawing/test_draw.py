@@ -25,13 +25,10 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("svgelements")
 
 import svgelements
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from seen_figure import KINDS
 
 from geartrain.drawing import picture, render
-from geartrain.drawing.style import FILL, SHADE
-from geartrain.scene.pose import body_errors, scene_pose
 
 FEW = [
     "planetary-24-18-60",
@@ -80,16 +77,10 @@ def circle_of(root: ET.Element, gid: str) -> tuple[float, float, float]:
     return float(x), float(y), float(high[0] - low[0]) / 2
 
 
-# ----------------------------------------------------------------------------------------------------------- all kinds
-
-
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_same_train_gives_the_same_bytes(kind: str) -> None:
     once, again = (render(picture(geartrain.load("planetary-24-18-60"), kind), ".svg") for _ in range(2))  # type: ignore[arg-type]
     assert once == again
-
-
-# ---------------------------------------------------------------------------------------------------------------- plan
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "ferguson-paradox"])
@@ -146,15 +137,6 @@ def test_lines_on_a_bar_have_the_angle_and_hand_of_its_helix() -> None:
     assert slopes == pytest.approx({"a20": -np.tan(np.radians(25)), "b30": np.tan(np.radians(25))})
 
 
-@pytest.mark.parametrize("name", ["worm", "humpage", "bevel-differential"])
-def test_oblique_plans_have_the_colours_of_flat_plans(name: str) -> None:
-    faces = drawn(name, "plan").axes[0].collections[0].get_facecolor()
-    low, high = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))
-    share = (faces[:, :3] - low) / (high - low)
-    assert share.max(axis=1) == pytest.approx(share.min(axis=1), abs=1e-6), "between the two blues of a flat plan"
-    assert np.ptp(share) > 0.2
-
-
 @pytest.mark.parametrize("turns", [Fraction(0), Fraction(31, 7)])
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock"])
 def test_no_tooth_is_drawn_over_a_tooth_of_its_mate(name: str, turns: Fraction) -> None:
@@ -192,41 +174,6 @@ def test_the_planet_goes_round_as_fractions_say() -> None:
     assert whole / start == pytest.approx(1, abs=1e-3)
 
 
-@pytest.mark.parametrize("turns", [Fraction(0), Fraction(37, 10), Fraction(-113, 7)])
-@pytest.mark.parametrize("name", ["pennestri-2002-teeth", "moon-triangular", "voulgaris-2022"])
-def test_a_pose_is_that_of_the_motion(name: str, turns: Fraction) -> None:
-    train = load(name)
-    motion = train.motion(None, tuple(train.declaration.links))
-    found = body_errors(shipped.scene(name), turns)
-    assert found == pytest.approx(motion.at(np.array([float(turns)])).error[:, 0], abs=1e-9)
-
-
-@pytest.mark.parametrize("name", ["planetary-24-18-60", "humpage", "bevel-differential"])
-def test_meshing_wheels_have_one_velocity_where_their_pitch_surfaces_touch(name: str) -> None:
-    train = load(name)
-    scene = shipped.scene(name, train.states[1] if train.states else None)
-    turns, step = Fraction(3, 7), Fraction(1, 10**6)
-    before, here, after = (scene_pose(scene, turns + way * step) for way in (-1, 0, 1))
-    scale = max(wheel.radius for wheel in scene.wheels)
-    for pair in scene.pairs:
-        one, other = (scene.wheels[at] for at in pair.wheels)
-        rims = []
-        for wheel in (one, other):
-            centre, along = here.point(wheel.body, wheel.centre), here.way(wheel.body, wheel.direction)
-            mate = other if wheel is one else one
-            away = here.point(mate.body, mate.centre) - centre
-            side = away - (away @ along) * along
-            rims.append((centre, wheel.radius * side / np.linalg.norm(side)))
-        # the point common to both pitch circles lies on the line of centres of one of them, on its near or far side
-        spots = [centre + way * arm for centre, arm in rims for way in (1, -1)]
-        at = min(spots, key=lambda spot: sum(abs(np.linalg.norm(spot - c) - np.linalg.norm(a)) for c, a in rims))
-        speeds = []
-        for wheel in (one, other):
-            body = np.linalg.inv(here.turned[wheel.body]) @ (at - here.moved[wheel.body])
-            speeds.append((after.point(wheel.body, body) - before.point(wheel.body, body)) / float(2 * step))
-        assert speeds[0] == pytest.approx(speeds[1], abs=1e-4 * scale), pair.id
-
-
 def test_a_loop_that_locks_is_red_and_the_verdict_stands_above() -> None:
     figure = picture(geartrain.load(LOCKED), "plan")
     edges = {patch.get_gid(): patch.get_edgecolor() for patch in figure.axes[0].patches}
@@ -236,9 +183,6 @@ def test_a_loop_that_locks_is_red_and_the_verdict_stands_above() -> None:
     assert edges["wheel x"] != sound
     assert any(text.get_text().startswith("locked: loop a - b - c") for text in figure.axes[0].texts)
     assert not any("locked" in text.get_text() for text in free.axes[0].texts)
-
-
-# --------------------------------------------------------------------------------------------------------------- stick
 
 
 def segments(figure: Figure, prefix: str) -> list[tuple[str, float, float, float]]:
@@ -429,9 +373,6 @@ def test_a_plan_bends_a_thin_wheel_where_its_wave_stands() -> None:
     assert far[np.abs(at - 150) < 1].max() / scale == pytest.approx(99.7, abs=0.01)
 
 
-# --------------------------------------------------------------------------------------------------------------- graph
-
-
 def test_closed_elements_stand_above_a_plan_and_at_the_members_of_a_speed_diagram() -> None:
     train = load("zf-8hp70").declaration
     for state, declared in train.states.items():
@@ -489,16 +430,10 @@ def test_vertices_of_a_graph_keep_apart(name: str) -> None:
         assert hypot(x - u, y - v) > (width + other) / 2 + 0.1
 
 
-# --------------------------------------------------------------------------------------------------------------- lever
-
-
 def test_a_speed_diagram_shows_the_published_speeds_as_fractions() -> None:
     figure = drawn("zf-8hp70", "lever")
     shown = [text.get_text() for axes in figure.axes for text in axes.texts if text.get_gid() == "speed OUT"]
     assert shown == ["23/108", "23/72", "77/162", "3/5", "6871/8826", "1", "143/120", "3/2", "-529/1744"]
-
-
-# --------------------------------------------------------------------------------------------------------------- dials
 
 
 def angle_of(figure: Figure, output: str) -> float:
@@ -583,9 +518,6 @@ def test_a_picture_that_cannot_be_drawn_is_refused_with_a_remedy(
         picture(load("longcase-clock"), kind, outputs=outputs)  # type: ignore[arg-type]
     assert all(problem.fix for problem in caught.value.problems)
     assert said in str(caught.value)
-
-
-# ------------------------------------------------------------------------------------------------------------- command
 
 
 @pytest.fixture

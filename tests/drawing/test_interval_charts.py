@@ -20,11 +20,9 @@ from test_words_in_pictures import faults_of
 
 from geartrain import GearTrain
 from geartrain import load as load_text
-from geartrain.drawing.output_error_plots import motion_figure, torque_cycle_figure
 from geartrain.dynamics import MotionRun
 from geartrain.errors import QuestionError
 from geartrain.workshop import BudgetQuestion, find_budget, find_trial_plan, read_error_overrides
-from geartrain.workshop.budget.budget_bars import budget_figure
 
 SHORT = {"turns": 0.5, "samples": 501}
 SCREEN = 9.0, 9.0  # inches, 900 pixels
@@ -57,14 +55,11 @@ def cells_of(figure: Figure, panel: int = 0) -> list[list[str]]:
 
 
 def drawn(train: GearTrain, outputs: tuple[str, ...] = (), turns: float = 0.5, samples: int = 501) -> Figure:
-    return motion_figure(MotionRun(train.motion(outputs=outputs), turns, samples), title=train.name)
+    return MotionRun(train.motion(outputs=outputs), turns, samples).plot()
 
 
 def in_dials(train: GearTrain) -> set[str]:
     return {name for name, output in train.declaration.outputs.items() if output.dial}
-
-
-# -------------------------------------------------------------------------------------------------------------- motion
 
 
 def test_the_intervals_of_a_motion_are_the_figures_of_its_table() -> None:
@@ -135,12 +130,9 @@ def test_any_number_of_pointers_fits_on_a_screen() -> None:
     assert all(side <= most for side, most in zip(figure.get_size_inches(), SCREEN, strict=True))
 
 
-# ------------------------------------------------------------------------------------------- budget, trials and torques
-
-
 def test_the_marks_of_a_budget_are_the_figures_of_its_table() -> None:
     budget = find_budget(load("freeth-2021-teeth"), BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT))
-    figure = budget_figure(budget)
+    figure = budget.plot()
     assert names_of(figure) == sorted(budget.shown, key=lambda name: -budget[name].total)
     assert figure.axes[0].get_xscale() == "log"
     assert "(deg)" in figure.axes[0].get_xlabel()
@@ -173,7 +165,7 @@ def test_trials_show_the_dials_of_a_train() -> None:
 
 def test_a_torque_fills_its_axis_and_the_dots_are_the_mean_losses() -> None:
     found = load("planetary-24-18-60-triangular").torques(turns=1, samples=2000)
-    figure = torque_cycle_figure(found)
+    figure = found.plot()
     above, below = figure.axes
     assert above.get_ylabel() == "torque at sun (mN m)"
     assert found.minimum is not None
@@ -188,8 +180,6 @@ def test_a_torque_fills_its_axis_and_the_dots_are_the_mean_losses() -> None:
         power = found.losses.values[found.losses.labels[0].index(name)]
         assert (low, high) == pytest.approx((1000 * power.min(), 1000 * power.max()))
 
-
-# -------------------------------------------------------------------------------------------------------------- slides
 
 LATHE = """
 extends: lathe-thread
@@ -210,7 +200,7 @@ def test_columns_of_a_link_that_slides_are_in_millimetres_as_their_cells() -> No
     assert run.motion.sensitivity["carriage"]["a~i"] == pytest.approx(
         -run.motion.sensitivity["leadscrew"]["a~i"] / (2 * np.pi) * LEAD
     )
-    figure = motion_figure(run)
+    figure = run.plot()
     assert [names_of(figure, panel) for panel in (0, 1)] == [["handwheel", "leadscrew"], ["carriage"]]
     assert [f"({unit})" in axes.get_xlabel() for unit, axes in zip(("deg", "mm"), figure.axes, strict=True)] == [
         True

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from itertools import combinations, pairwise
+from itertools import pairwise
 from math import radians
 from typing import Any
 
@@ -16,54 +15,22 @@ from test_tooth_figures import transmission
 
 pytest.importorskip("matplotlib")
 
-from matplotlib.colors import to_hex, to_rgba
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from geartrain.drawing import shapes_figure, sweep_figure, triangular_figure
-from geartrain.drawing.power_sankey import power_figure
+from geartrain.drawing import sweep_figure
 from geartrain.drawing.theme_colours import themed
-from geartrain.dynamics import find_power_flow
+from geartrain.drawing.transmission_curves import shapes_figure, triangular_figure
 from geartrain.scene.palette import THEMES
-from geartrain.search.posterior.corner_plot import CountProbabilities, corner_figure
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop import PointerErrorCourse, ToothSizes, find_tooth_sizes, find_train_sizes
-from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, jam_map_figure
-from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure, train_sizes_figure
+from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure
 
 GRID = np.linspace(0.0, 1.0, 5)
-
-
-def jam_map() -> Figure:
-    return jam_map_figure(GRID, GRID, np.outer(GRID, GRID))
-
-
-@pytest.mark.parametrize("theme", THEMES)
-def test_a_bar_beside_a_map_has_its_colours_and_its_numbers(theme: Any) -> None:
-    figure = jam_map()
-    area, bar = figure.axes
-    (mesh,) = [each for each in area.collections if each.get_gid() == "map"]
-    with themed(figure, theme):
-        figure.draw_without_rendering()
-        (solid,) = [each for each in bar.collections if each.get_array() is not None and len(each.get_array()) > 9]  # type: ignore[arg-type]
-        scales = [each.get_cmap()(np.linspace(0, 1, 9)) for each in (mesh, solid)]
-        assert scales[0] == pytest.approx(scales[1])
-        assert [to_hex(scales[0][at]) for at in (0, -1)] == [THEMES[theme].scale[at] for at in (0, -1)]
-        assert [text.get_text() for text in bar.get_yticklabels()] == ["0%", "10%", "50%", "100%"]
-    assert to_hex(mesh.get_cmap()(0.0)) == THEMES["light"].scale[0]
-
-
-@pytest.mark.parametrize("theme", THEMES)
-def test_greater_values_are_further_from_the_paper(theme: Any) -> None:
-    def grey(colour: str) -> float:
-        red, green, blue = bytes.fromhex(colour[1:])
-        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
-
-    steps = [abs(grey(each) - grey(THEMES[theme].paper)) for each in THEMES[theme].scale]
-    assert all(later > sooner + 25 for sooner, later in pairwise(steps))
 
 
 @pytest.mark.parametrize("theme", ["dark", "print"])
@@ -114,7 +81,7 @@ def test_a_sweep_names_its_parameters_by_itself() -> None:
 
 def test_marks_of_one_place_stand_one_within_the_other() -> None:
     """Here the optimum of each pair is also the optimum of the train."""
-    figure = train_sizes_figure(find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}))
+    figure = find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}).plot()
     marks = [line for line in figure.axes[0].lines if line.get_gid() != "interval"]
     sizes = [line.get_markersize() for line in marks]
     assert len(marks) == 3
@@ -125,7 +92,7 @@ def test_marks_of_one_place_stand_one_within_the_other() -> None:
 def test_marks_of_best_sizes_are_in_view_and_their_key_is_below_all_designs() -> None:
     """Pitch-true teeth are better than all designs with a free window, and far from them."""
     start = ToothSizes((60, 30), 1.1, 0.5, (radians(30), radians(30)), 0.2)
-    figure = tooth_sizes_figure(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
+    figure = find_tooth_sizes(start, free={"window": (0.4, 0.6)}).plot()
     figure.draw_without_rendering()
     (axes,) = figure.axes
     (legend,) = figure.legends
@@ -159,7 +126,7 @@ def test_the_key_of_bands_is_as_dark_as_they_are_seen() -> None:
 
 def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:
     train = load("norton-compound")
-    (axes,) = power_figure(find_power_flow(train.torques()), train.name).axes
+    (axes,) = train.torques().plot().axes
     turned = [patch for patch in axes.patches if patch.get_zorder() == 1.0]
     assert turned
     for text in axes.texts:
@@ -184,25 +151,6 @@ def test_a_spike_leaves_its_panel_where_the_rest_would_be_flat() -> None:
     assert np.nanmax(values) > 100 * np.nanmedian(values)
     assert figure.axes[4].get_ylim()[1] < 30 * np.nanmedian(values)
     assert "curves extend beyond their panels" in figure.get_suptitle()
-
-
-def test_numbers_of_many_great_counts_stand_apart() -> None:
-    counts = {f"wheel {at}": np.arange(220, 229) + at for at in range(6)}
-    columns = {**counts, "of many": np.arange(15, 24) ** 2 // 6}
-    pairs = {two: dict.fromkeys(zip(*map(columns.get, two), strict=True), 1 / 9) for two in combinations(columns, 2)}
-    figure = corner_figure(CountProbabilities({w: dict.fromkeys(own, 1 / 9) for w, own in columns.items()}, pairs))
-    assert not crowded(figure)
-    assert min(len(axes.get_xticks()) for axes in figure.axes if axes.axison) > 1
-
-
-def test_many_counts_have_no_bars_of_outlines_alone() -> None:
-    likely = CountProbabilities({"wheel": dict.fromkeys(range(15, 82), 1 / 67)}, {})
-    (axes,) = corner_figure(replace(likely, before=likely.single)).axes
-    edged = [bar for bar in axes.patches if bar.get_linewidth() > 0 and to_rgba(bar.get_edgecolor())[3] > 0]
-    assert len(edged) == 1, "one line along the tops"
-
-
-# ---------------------------------------------------------------------------------------------- the measure can fail
 
 
 def keyed(*entries: Any) -> Figure:

@@ -19,8 +19,9 @@ pytest.importorskip("matplotlib")
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from geartrain.drawing import render, sweep_figure, teeth_figure, triangular_figure
-from geartrain.drawing.tooth_contact import DRIVEN, DRIVER, tooth_pair_pose
+from geartrain.drawing import render, sweep_figure
+from geartrain.drawing.tooth_contact import teeth_figure, tooth_pair_pose
+from geartrain.drawing.transmission_curves import triangular_figure
 
 PAIRS = [(48, 96, 0.01), (96, 72, 0.025), (96, 96, 0.01), (15, 60, 0.02), (45, 225, 0.017), (12, 18, 0.03)]
 STANDS = (45, 225, 0.017)
@@ -47,9 +48,6 @@ def from_line(point: Points, one: Points, other: Points) -> float:
     along = other - one
     share = min(1.0, max(0.0, float((point - one) @ along / (along @ along))))
     return float(hypot(*(point - one - share * along)))
-
-
-# --------------------------------------------------------------------------------------------------------------- teeth
 
 
 @pytest.mark.parametrize("direction", [1, -1])
@@ -86,7 +84,7 @@ def test_the_wheels_touch_and_do_not_overlap(pair: tuple[int, int, float], direc
     for interval in pair_transmission.intervals:
         for share in (0.01, 0.5, 0.99):
             here = tooth_pair_pose(pair_transmission, interval.start - share * interval.width)
-            one, two = (geometry.Polygon(here.outline(which)) for which in (DRIVER, DRIVEN))
+            one, two = (geometry.Polygon(here.outline(which)) for which in (1, 2))
             assert one.is_valid
             assert two.is_valid
             assert one.intersection(two).area < 1e-12
@@ -105,7 +103,7 @@ def test_the_few_teeth_drawn_are_all_that_are_in_view(pair: tuple[int, int, floa
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     view = geometry.box(left, bottom, right, top)
     assert axes.get_aspect() == 1.0
-    for which, name in ((DRIVER, "driver"), (DRIVEN, "driven")):
+    for which, name in ((1, "driver"), (2, "driven")):
         (few,) = drawn(figure, name)
         whole = geometry.Polygon(tooth_pair_pose(pair_transmission).outline(which)).intersection(view)
         assert geometry.Polygon(few).intersection(view).symmetric_difference(whole).area < 1e-12 * view.area
@@ -148,9 +146,6 @@ def test_a_dwell_has_no_contact_to_mark() -> None:
     figure = teeth_figure(transmission(*STANDS), radians(-8.9))
     assert [drawn(figure, name) for name in ("contact", "normal", "centre")] == [[], [], []]
     assert "dwell" in figure.axes[0].get_title(loc="left")
-
-
-# ----------------------------------------------------------------------------------------------------------------- law
 
 
 @cache
@@ -223,9 +218,6 @@ def test_every_jump_is_annotated() -> None:
     assert sorted(said) == ["jump 0.0682", "matching 0.0316"]
 
 
-# --------------------------------------------------------------------------------------------------------------- sweep
-
-
 def columns(*shape: int) -> dict[str, np.ndarray]:
     whole = np.linspace(0.9, 1.0, int(np.prod(shape))).reshape(shape)
     return {"efficiency_mean": whole, "error_pp_deg": 1 - whole, "tau_min": whole - 0.1, "tau_max": whole, "x": whole}
@@ -275,9 +267,6 @@ def test_arrays_that_are_no_sweep_are_refused() -> None:
         sweep_figure({"a": x}, {}, x.astype(str))
 
 
-# ----------------------------------------------------------------------------------------------------------- all plots
-
-
 @pytest.mark.parametrize(("suffix", "start"), [(".svg", b"<?xml"), (".PNG", b"\x89PNG"), (".pdf", b"%PDF")])
 def test_the_same_figure_is_the_same_file(suffix: str, start: bytes) -> None:
     figure = Figure(figsize=(2, 2))
@@ -312,7 +301,7 @@ def test_the_room_is_entered_without_matplotlib_and_pyplot_is_never_needed() -> 
     assert (done.stdout.split(), done.stderr) == (["False"], "")
 
 
-@pytest.mark.parametrize("name", ["render", "teeth_figure"])
+@pytest.mark.parametrize("name", ["render", "sweep_figure"])
 def test_without_matplotlib_the_extra_is_named(name: str) -> None:
     block = "import sys; sys.modules['matplotlib'] = None\n"
     done = fresh(

@@ -265,9 +265,6 @@ def test_plain_faces_tell_no_cells() -> None:
     assert not any("cell" in words.get_text() for words in axes.texts)
 
 
-# ---------------------------------------------------------------------------------------------- the measure can fail
-
-
 def drawn(*texts: tuple[float, float, str, float, float]) -> Figure:
     figure = Figure(figsize=(4, 2))
     for x, y, words, size, angle in texts:

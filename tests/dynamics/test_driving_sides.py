@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import degrees
@@ -18,18 +17,15 @@ from commands import call
 from joint_rates import Row, Skeleton, Space, inputs_of, move, rigid, sides
 from random_trains import RandomTrain, driven_train
 from sampling import few_or_many
-from test_energy import lossy
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Motion
-from geartrain.dynamics.torques.torque_analysis import find_idle_pairs
 
 TOOTHED = ["pennestri-2002-teeth", "moon-triangular", "freeth-2021-teeth", "planetary-24-18-60-involute"]
 TOOTHED += ["bevel-differential-involute", "lantern-mill", "sorge-pairs", "longcase-clock-cycloidal"]
 
 SAMPLE = few_or_many(60, 100)  # random trains; `--slow` takes more
 
-# ------------------------------------------------------------------------------------------------ behind a carrier
 
 BEHIND = """
 links:
@@ -83,9 +79,6 @@ def test_a_load_that_drives_turns_the_flow_and_a_declared_driver_wins() -> None:
         BEHIND.format(pair="o, c]\n    driver: c\n    copies: [", window="0.5", rest="").replace("\n    copies: []", "")
     )
     assert (declared.meshes[0].driver, declared.meshes[0].who.why) == ("c", "declared")
-
-
-# -------------------------------------------------------------------------------------------- random trains, an oracle
 
 
 def flows(train: RandomTrain, outputs: list[str]) -> dict[frozenset[str], set[str]]:
@@ -156,9 +149,6 @@ def test_the_driver_is_he_whose_power_overcomes_what_resists(seeds: range) -> No
                 assert not driver.known, (seed, names, driver)
                 counted["both"] += 1
     assert len(seeds) < 1000 or (counted["one way"] > 100 and counted["both"] > 0)
-
-
-# ----------------------------------------------------------------------------------------------- order of declaration
 
 
 def tells_its_wheels_apart(form: Any) -> bool:
@@ -233,29 +223,6 @@ def test_no_order_of_declaration_changes_who_drives_in_random_trains(seeds: rang
         assert dict(shuffled(plain, Random(seed)).mechanics.drivers()) == dict(plain.mechanics.drivers()), seed
 
 
-# --------------------------------------------------------------------------------------------- what is found on demand
-
-
-def test_pairs_that_no_load_reaches_carry_nothing_whatever_pairs_lose(seeds: range) -> None:
-    """Random efficiencies, bearings and loads, against the torques that they give."""
-    idle, answered = 0, 0
-    for seed in seeds[:: max(1, len(seeds) // 200)]:
-        data = lossy(seed, oblique=bool(seed % 2))
-        for link in data["links"].values() if seed % 4 else ():
-            link.pop("bearing", None)
-        data["loads"] = dict(list(data.get("loads", {}).items())[: 1 + seed % 2])
-        train = GearTrain.declare(data)
-        setting = train.mechanics.load_case(None)
-        assert setting is not None
-        torques = train.torques()
-        names = find_idle_pairs(setting)
-        if torques.pairs:
-            answered, idle = answered + 1, idle + len(names)
-            assert not [name for name in names if torques.pairs[name].multiplier], seed
-    assert answered > 100
-    assert idle > 50
-
-
 def test_drivers_found_one_by_one_follow_the_torques_under_all_efficiencies() -> None:
     """In shipped trains: the power flows under the loads where the torques say so, and nowhere else."""
     found = 0
@@ -314,9 +281,6 @@ def test_a_pair_written_the_other_way_round_moves_alike_from_the_same_phase(name
     other = load(f"extends: {name}\nname: swapped\ngears:\n" + "\n".join(swapped)).motion()
     turns = np.linspace(0, 2, 201)
     assert np.abs(other.at(turns).error - motion.at(turns).error).max() < 1e-9
-
-
-# ----------------------------------------------------------------------------------------------------- phases, pointers
 
 
 @pytest.mark.parametrize("pair", ["o, c", "c, o"])
@@ -382,9 +346,6 @@ def test_what_is_set_away_is_the_lag_of_the_teeth() -> None:
     assert lag_of(shipped.train("freeth-2021").motion()) == 0
 
 
-# ----------------------------------------------------------------------------------------------------- what is told
-
-
 UNLOADED = "extends: pennestri-2002-teeth\nname: unloaded\nloads: null\n"
 
 
@@ -408,12 +369,3 @@ def test_each_state_has_its_own_driver() -> None:
     ways = shipped.train("bevel-differential-involute").mechanics.driven_ways["pinion~c41"]
     assert {mesh.driver for mesh, _ in ways} == {"pinion", "c41"}
     assert sorted(state for _, states in ways for state in states).count("one wheel held") == 1
-
-
-def test_the_trials_of_a_looped_train_run_without_a_warning() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        arguments = ("--trials", 64, "--cutting", "pitch_deviation=0.1 deg", "--of", "moon", "--of", "17", "--json")
-        found = call("montecarlo", "pennestri-2002-teeth", *arguments)
-    assert found.exit_code in (0, 1)
-    assert json.loads(found.stdout)["outputs"]

@@ -1,13 +1,12 @@
 """No train creates energy: whatever it loses, by whatever way that is declared, more goes in than comes out.
 
-Powers are taken here from torques and speeds of links alone, and equilibrium link by link; which flows of power there
-are is asked of an enumeration of its own, dense and over the rows of the naive solver.
+Powers are taken here from torques and speeds of links alone, and equilibrium link by link.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
 from random import Random
@@ -17,8 +16,6 @@ import pytest
 import shipped as catalogue
 from models import torque_figures
 from random_trains import driven_train
-from reference_solver import echelon, pair_name, rigid_rows, solve_naively, turning_graph, wheel_table
-from reference_solver import find_carrier as carrier_of
 from sampling import few_or_many
 
 from geartrain import GearTrain, GearTrainError, load
@@ -103,9 +100,6 @@ def requested(train: GearTrain) -> Iterator[Torques]:
         yield from (each.way.torques for each in figures.drives or ())
 
 
-# ------------------------------------------------------------------------------------------------------- shipped trains
-
-
 def written(random: Random) -> object:
     """An efficiency in one of the ways to write it, above 0 and at most 1 one way round at least."""
     percent = random.randint(1, 100)
@@ -161,9 +155,6 @@ def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int)
     train = load(data).unfolded
     for found in requested(train):
         require_no_energy(train, found)
-
-
-# -------------------------------------------------------------------------------------------------------- random trains
 
 
 def lossy(seed: int, oblique: bool) -> Data:
@@ -228,103 +219,6 @@ loads: {{b: 1}}
     assert found.external["a"] == 500
     assert found.efficiency == Fraction(1, 1000)
 
-
-# ----------------------------------------------------------------------------------------- which flows there are at all
-
-
-def flows_by_enumeration(data: Data, requested_for: Sequence[str]) -> set[tuple[Fraction, ...]] | None:
-    """Torques on the links asked for, in every consistent pattern of power flow; None where something stays open."""
-    speeds, graph, wheels = solve_naively(data).speeds, turning_graph(data), wheel_table(data)
-    links = [link for link in data["links"] if link != "frame"]
-    at = {link: number for number, link in enumerate(links)}
-    meshes = []
-    for gear in data["gears"]:
-        (i, z_i, ring_i), (j, z_j, ring_j) = (wheels[name] for name in gear["pair"])
-        k = carrier_of(graph, i, j)
-        b = z_j * (-1 if ring_i or ring_j else 1)
-        ways = efficiencies(gear.get("efficiency", 1))
-        rolling = z_i * (speeds[i] - speeds[k])
-        meshes.append((pair_name(gear), (i, j, k), z_i, b, rolling, ways))
-    for coupling in data["couplings"]:
-        i, j = coupling["slot"], coupling["pin"]
-        m = 1 if coupling["kind"] == "pin_and_slot" else 0
-        meshes.append(("pin", (i, j, carrier_of(graph, i, j)), 1, -m, Fraction(0), (Fraction(1), Fraction(1))))
-    open_ways = [(1, -1) if rolling and ways != (1, 1) else (0,) for *_, rolling, ways in meshes]
-    found: set[tuple[Fraction, ...]] = set()
-    for pattern in product(*open_ways):
-        columns = []
-        for side, (_, (i, j, k), a, b, _, (forward, backward)) in zip(pattern, meshes, strict=True):
-            left, right = a * (backward if side < 0 else 1), b * (forward if side > 0 else 1)
-            columns.append(_column(at, {i: left}, {j: right}, {k: -left - right}))
-        columns += [_column(at, {link: Fraction(1)}) for link in requested_for]
-        columns += [_column(at, row) for row in rigid_rows(data)]
-        matrix = [[column[row] for column in columns] + [-Fraction(data["loads"].get(link, 0))]
-                  for row, link in enumerate(links)]  # fmt: skip
-        pivots = echelon(matrix, len(columns))
-        if any(row[-1] for row in matrix[len(pivots) :]):
-            continue
-        if len(pivots) < len(columns):
-            return None
-        x = [row[-1] for row in matrix[: len(columns)]]
-        powers = [-value * mesh[4] for value, mesh in zip(x, meshes, strict=False)]
-        blocked = any(
-            power and (mesh[5][0] if power > 0 else mesh[5][1]) <= 0
-            for power, mesh, sides in zip(powers, meshes, open_ways, strict=True)
-            if sides != (0,)
-        )
-        if not blocked and all(side * power >= 0 for side, power in zip(pattern, powers, strict=True)):
-            found.add(tuple(x[len(meshes) : len(meshes) + len(requested_for)]))
-    return found
-
-
-def efficiencies(given: object) -> tuple[Fraction, Fraction]:
-    """Forward and backward as written."""
-    ways = given if isinstance(given, Mapping) else {"forward": given, "backward": given}
-    found = []
-    for way in ("forward", "backward"):
-        text = str(ways[way])
-        found.append(Fraction(text.removesuffix(" %")) / (100 if text.endswith("%") else 1))
-    return found[0], found[1]
-
-
-def _column(at: Mapping[str, int], *parts: Mapping[str, Any]) -> list[Fraction]:
-    column = [Fraction(0)] * len(at)
-    for part in parts:
-        for link, value in part.items():
-            if link in at:
-                column[at[link]] += value
-    return column
-
-
-def test_the_flows_of_random_trains_are_those_of_an_enumeration(seeds: range) -> None:
-    """One flow is determined, several are ambiguous, none is self-locking: so in each train, and in torques."""
-    kinds: dict[str, int] = {}
-    for seed in seeds[:: max(1, len(seeds) // SAMPLE)]:
-        data = lossy(seed, oblique=False)
-        if "loads" not in data or len(data["gears"]) > 8:
-            continue
-        for coupling in data["couplings"]:
-            del coupling["friction"]
-        for part in data["links"].values():
-            part.pop("bearing", None)
-        inputs = list(data["inputs"])
-        found = GearTrain.declare(data).torques()
-        exact = {**data, "inputs": {link: Fraction(speed) for link, speed in data["inputs"].items()}}
-        truth = flows_by_enumeration(exact, inputs)
-        if truth is None or found.verdict.kind in ("still", "indeterminate"):
-            continue
-        kinds[found.verdict.kind] = kinds.get(found.verdict.kind, 0) + 1
-        if not truth:
-            assert found.verdict.kind == "self-locking", (seed, found.verdict)
-        else:
-            assert found.verdict.kind == ("ambiguous" if len(truth) > 1 else found.verdict.kind), (seed, found.verdict)
-            assert found.verdict.kind in ("determined", "incomplete", "ambiguous"), (seed, found.verdict)
-            assert tuple(found.external.get(link, Fraction(0)) for link in inputs) in truth, seed
-    assert kinds["self-locking"] > 5, kinds
-    assert kinds["determined"] > 50, kinds
-
-
-# --------------------------------------------------------------------------------------------- every way into the house
 
 PAIR: Data = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},

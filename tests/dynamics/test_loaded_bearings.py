@@ -558,6 +558,26 @@ def test_one_pair_of_teeth_presses_as_statics_of_its_contact_says(
     assert loaded == pytest.approx(hypot(*force), rel=2e-8), name
 
 
+@pytest.mark.parametrize("along", [-2.0, -0.7, 0.7, 2.0])
+def test_a_ring_and_its_wheel_press_as_statics_of_their_contact_says(along: float) -> None:
+    """Involutes 24 in a ring of 60, module 2, at a distance from the pitch point along the line of action [mm]."""
+    text = PAIR.format(form="{form: involute, addendum: [0.62, 0.55]}", z=(24, 60), mu=0.1, distance=-36, load=1000)
+    train = geartrain.load(text.replace("v: 60", "v: {teeth: 60, internal: true}").replace("b: 1000", "b: -1000"))
+    balance = find_turn_balance(train.mechanics.load_case(), find_motion_problem(train.mechanics, None), None)
+    assert not isinstance(balance, TorqueVerdict)
+    found = balance.at(np.array([(-pi / 48 + along / _BASE) / (2 * pi)]))
+    # the wheel turns about the origin and pushes the ring upwards and outwards, to the right
+    normal = np.array([sin(radians(20)), cos(radians(20))])
+    point = np.array([24, 0]) + along * normal
+    arms = point, point + np.array([36, 0])
+    slides = np.array([-arms[0][1], arms[0][0]]) - 24 / 60 * np.array([-arms[1][1], arms[1][0]])
+    force = normal + 0.1 * slides / np.hypot(*slides)
+    first, second = (arm[0] * force[1] - arm[1] * force[0] for arm in arms)
+    assert 1e3 * found.torque[0, 0] == pytest.approx(1000 * first / second, rel=1e-9)
+    loaded = found.losses[-1, 0] / abs(found.slipping[-1, 0]) / friction_circle(1e-9, 1e-3)
+    assert loaded == pytest.approx(1000 * np.hypot(*force) / second, rel=1e-7)
+
+
 def test_a_locked_bearing_locks_at_every_position() -> None:
     radius = 21 * hypot(1, MU) / MU
     assert arm("[0, 1, 0]", radius=radius).torques(turns=1, samples=10).verdict.kind == "self-locking"
@@ -571,3 +591,47 @@ def test_friction_that_time_steps_leave_out_is_named() -> None:
     train = geartrain.GearTrain(declared.changed(links={**declared.links, **links}))
     run = train.dynamics("1 turn/s", turns=0.1)
     assert any("bearings of A, B, C that grows with the load" in note for note in run.notes)
+
+
+# ---------------------------------------------------------------------------------------------- joints and directions
+
+
+def test_an_axis_in_the_opposite_direction_changes_no_friction() -> None:
+    declared = three_arbors(eta=0.97, at=True, gravity=True).declaration
+    found = geartrain.GearTrain(declared).torques()
+    axis = declared.axes["B"].changed(direction=(0, 0, -1))
+    again = geartrain.GearTrain(declared.changed(axes={**declared.axes, "B": axis})).torques()
+    assert float(again.external["A"]) == pytest.approx(float(found.external["A"]), rel=1e-13)
+    assert [each.load for each in again.bearings] == pytest.approx([each.load for each in found.bearings], rel=1e-13)
+
+
+PIPE = """
+links:
+  frame: {}
+  a: {wheels: {w: 24}}
+  arbor: {bearing: {coefficient: 0.15, radius: 1 mm}}
+  pipe: {wheels: {v: 36}, bearing: {coefficient: 0.15, radius: 3 mm}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, arbor], axis: B}, {pair: [arbor, pipe], axis: B}]
+axes: {A: {position: [0 mm, 0 mm, 0 mm]}, B: {position: [60 mm, 0 mm, 0 mm]}}
+gears: [w ~ v]
+inputs: {a: 1, arbor: ARBOR}
+loads: {pipe: -1 N m}
+"""
+
+
+@pytest.mark.parametrize("speed", [Fraction(0), Fraction(-2, 3), Fraction(2, 3)])
+def test_a_pipe_rubs_on_its_arbor_with_their_relative_speed_and_presses_on_the_bearing_of_the_arbor(
+    speed: Fraction,
+) -> None:
+    """The pipe turns by -2/3: on a still arbor, with the arbor, and against it."""
+    train = geartrain.load(PIPE.replace("ARBOR", str(speed)))
+    found = train.torques()
+    pipe, arbor = (next(each for each in found.bearings if each.link == link) for link in ("pipe", "arbor"))
+    assert pipe.load == arbor.load
+    relative = abs(Fraction(-2, 3) - speed)
+    size = friction_circle(MU, 3e-3) * pipe.load
+    assert float(pipe.loss) == pytest.approx(size * relative, abs=1e-15)
+    assert float(arbor.loss) == pytest.approx(friction_circle(MU, 1e-3) * arbor.load * abs(speed), abs=1e-15)
+    # the friction of the pipe acts on the arbor, which must be held or driven
+    assert abs(float(pipe.torque)) == abs(float(pipe.reaction)) == pytest.approx(size if relative else 0)
+    assert float(sum(found.powers.values()) - found.loss) == pytest.approx(0, abs=1e-14)

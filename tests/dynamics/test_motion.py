@@ -19,7 +19,7 @@ from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.kinematics.speeds import solve
-from geartrain.simulation import find_tooth_impacts
+from geartrain.simulation.contacts.separation_rate import find_tooth_impacts
 from geartrain.teeth import Ideal
 
 # a driver of the study starts where the pair before holds it back: the phases (pitches) at which its teeth are then
@@ -37,7 +37,7 @@ gears:
     [
         (True, 20, 400_001, 5.968, 1.238, 0.634, 1.763),
         pytest.param(True, 95, 4_000_001, 6.058, 1.2385, 0.630, 1.771, marks=pytest.mark.long),
-        # teeth on the line of centres: flanks brought to touch one pair after the other, `marching.Teeth.touching`
+        # teeth on the line of centres: flanks brought to touch one pair after the other
         (False, 20, 400_001, 5.980, 1.2398, 0.637, 1.768),
         pytest.param(False, 95, 4_000_001, 6.097, 1.2385, 0.629, 1.768, marks=pytest.mark.long),
     ],
@@ -140,29 +140,6 @@ def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
     assert (found["moon"].speed == found["moon"].mean).all()
 
 
-def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
-    arguments = ("motion", "moon-triangular", "--turns", 2, "--samples", 2001, "--of", "moon")
-    data = json.loads(call(*arguments, "--json").stdout)
-    assert set(data["outputs"]) == {"moon"}
-    assert set(data["outputs"]["moon"]) == {
-        *("transmission_error", "speed", "ratio", "searched", "unit", "sensitivity", "setting"),
-        *("phases", "spectrum"),
-    }
-    assert set(data["outputs"]["moon"]["transmission_error"]) == {"peak_to_peak", "rms"}
-    assert data["outputs"]["moon"]["speed"]["mean"] == pytest.approx(254 / 19 / 5, rel=1e-15)
-    assert "transmission error" in call(*arguments).stdout
-    out, picture = tmp_path / "m.csv", tmp_path / "m.png"
-    assert call(*arguments, "-o", out, "--plot", picture).exit_code == 0
-    rows = out.read_text(encoding="utf-8").splitlines()
-    assert rows[0] == "turns,moon angle (rad),moon error (rad),moon speed"
-    assert len(rows) == 2002
-    last = [float(value) for value in rows[-1].split(",")]
-    assert last[1] - last[2] == pytest.approx(254 / 19 / 5 * 2 * 2 * pi, rel=1e-14)
-    assert call(*arguments, "-o", "-.csv").stdout == out.read_text(encoding="utf-8")
-    assert picture.read_bytes().startswith(b"\x89PNG")
-    assert call("motion", "moon-triangular", "--of", "mooon").exit_code != 0
-
-
 PAIR = """
 links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {w: 36, v: 20}}, c: {wheels: {u: 30}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
@@ -253,7 +230,7 @@ def test_estimates_and_spectrum_are_those_of_the_table_and_of_a_fourier_sum() ->
     superposed = Superposition(run.motion._forward)
     assert degrees(superposed.bounds[0]) == pytest.approx(6.46, abs=5e-3)
     assert degrees(superposed.independent[0]) == pytest.approx(1.2385, abs=5e-5)
-    # the same sums from angles at which flanks are brought to touch, `marching.Teeth.touching`
+    # the same sums from angles at which flanks are brought to touch
     turns = np.arange(380_001) / 4000
     composed = run.motion.at(turns).error[0]
     for lagged, maximum, rms in ((False, 0.9538, 0.19181), (True, 0.7162, 0.11933)):
@@ -429,30 +406,20 @@ def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
 
 
 def test_the_picture_shows_where_a_pointer_goes_back() -> None:
-    from geartrain.drawing.output_error_plots import motion_figure
 
-    year = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
+    year = MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001).plot()
     labels = [panel.get_ylabel() for panel in year.axes]
     assert labels == ["mars\nangle (deg)", "mars\nanomaly\nless its mean (deg)", "mars\nspeed divided by mean"]
     back = year.axes[0].lines[2]
     assert back.get_label() == "backward"
     y = np.asarray(back.get_ydata(), dtype=float)
     assert (np.diff(y)[np.isfinite(np.diff(y))] < 0).all()
-    long = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001))
+    long = MotionRun(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001).plot()
     assert long.axes[0].get_ylabel() == "mars\nbackward motion (deg)"
     (arcs,) = long.axes[0].lines
     starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)
     # 133 arcs, the first cut in two by the ends of the run; those that pass 0 on the dial are broken there
     assert 134 <= len(starts) < 150
-
-
-def test_a_report_has_motion_only_where_teeth_or_pins_are_real() -> None:
-    page = call("report", "moon-triangular", "-o", "-").stdout
-    assert "## Motion" in page
-    data = json.loads(call("report", "moon-triangular", "--json").stdout)[0]["motion"]
-    assert data[0]["outputs"]["moon"]["transmission_error"]["peak_to_peak"] > 0.1
-    assert "## Motion" not in call("report", "pennestri-2002", "-o", "-").stdout
-    assert json.loads(call("report", "pennestri-2002", "--json").stdout)[0]["motion"] == []
 
 
 REVERSED_PIN = """

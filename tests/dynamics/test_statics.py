@@ -16,15 +16,12 @@ import pytest
 from commands import call
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from models import torque_figures
+from models import torque_figures, torque_page
 from reference_solver import echelon, is_a_linkage, rigid_rows, solve_naively, willis_rows
 from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Torques
-from geartrain.report import collect_report, to_markdown
-from geartrain.report.torque_report import collect_torque_report, describe_torques
-from geartrain.report.train_report import describe_train
 
 AXLE = """
 links:
@@ -67,9 +64,6 @@ revolutes:
 gears: [{pair: [s, p]}, {pair: [p, r]}]
 """
     return load(text + rest)
-
-
-# --------------------------------------------------------------------------------------------------- open differentials
 
 
 def test_an_open_differential_with_equal_loads_is_determined_though_its_wheels_are_free() -> None:
@@ -185,9 +179,6 @@ loads: {arm: 0}
     assert load(text.replace("locks: [[a, arm]]\n", "")).torques().pairs["G"].rolling is None
 
 
-# ------------------------------------------------------------------------------------------------------------ any train
-
-
 def columns(data: Data) -> dict[str, dict[str, Fraction]]:
     """By constraint the torque that a unit of it exerts on each link: its row, by the principle of virtual work."""
     rows, _ = willis_rows(data)
@@ -290,8 +281,6 @@ def test_loads_that_do_work_in_some_free_motion_are_unbalanced(
         assert any(link in motion for motion in motions)
 
 
-# ---------------------------------------------------------------------------------------------------- locks and brakes
-
 CLUTCHED = """
 links: {frame: {}, a: {}, b: {}, c: {}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: A}, {pair: [frame, c], axis: A}]
@@ -310,10 +299,10 @@ def test_a_closed_clutch_and_a_brake_show_what_they_carry(tmp_path: Path) -> Non
     brake, lock = found.held
     assert (lock.links, lock.clutch, lock.torques) == (("a", "b"), "K", (-200, 200))
     assert (brake.links, brake.clutch, brake.torques) == (("c",), "S", (-30,))
-    page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
+    page = torque_page(train, found)
     assert "| lock K  | a, b | -200         | 200           |" in page
     assert "| brake S | c    | -30          |               |" in page
-    assert "lock K" in to_markdown([describe_train(collect_report(train))])
+    assert "lock K" in str(train.report())
     data = torque_figures(train, "closed").to_dict()
     assert data["held"] == [
         {"links": ["c"], "clutch": "S", "cause": None, "torques": {"c": -30.0}},

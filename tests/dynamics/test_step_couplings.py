@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import call
+from models import torque_figures
 
 from geartrain import DeclarationError, GearTrainError, load
-from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.teeth.couplings.step_transmission import GenevaTransmission, StepTransmission
 
 PAIR = """
@@ -36,9 +36,6 @@ def angle_of_slot(slots: int, S: float, internal: bool = False) -> float:
     # the driven axis is at (1, 0); an internal pin points away from it at S = 0
     x, y = (-r * cos(S) - 1, r * sin(S)) if internal else (r * cos(S) - 1, r * sin(S))
     return atan2(y, -x)
-
-
-# ------------------------------------------------------------------------------------------------------------- Geneva
 
 
 @pytest.mark.parametrize(
@@ -118,9 +115,6 @@ def test_pins_that_follow_each_other_without_rest_keep_the_cross_moving() -> Non
     error = transmission.error(S)
     assert transmission.error_range() == pytest.approx((error.min(), error.max()), abs=1e-7)
     assert transmission.error_moments()[1] == pytest.approx(float(np.sqrt((error[:-1] ** 2).mean())), rel=1e-7)
-
-
-# -------------------------------------------------------------------------------------------------------------- steps
 
 
 def test_s1_a_moon_disc_of_59_teeth_loses_a_day_in_964_days() -> None:
@@ -203,9 +197,6 @@ outputs: {b: {}, c: {}, d: {}}
     assert not motion.run(turns=100, samples=1001).reversing_drivers
 
 
-# --------------------------------------------------------------------------------------------------- torques and time
-
-
 def test_the_torque_of_a_geneva_drive_is_the_load_times_the_speed_ratio() -> None:
     train = load(pair("kind: geneva, slots: 4", "loads: {w: 0.3 N m}\n"))
     assert train.torques().external["a"] == Fraction(3, 40)
@@ -244,9 +235,6 @@ def test_the_driver_does_the_work_of_the_load_in_time(declared: str, mean: Fract
     )
     run = load(text).dynamics(turns=2, skip=1, fast=False)
     assert run.torque == pytest.approx(2e-3 * float(mean) + lost / (2 * pi), rel=2e-3)
-
-
-# ----------------------------------------------------------------------------------------------------------- mistakes
 
 
 @pytest.mark.parametrize(
@@ -297,7 +285,5 @@ def test_a_wheel_of_two_teeth_is_a_finger_only_for_a_large_mate(tmp_path: Path) 
 
 def test_the_lock_keeps_the_driven_link_from_driving() -> None:
     train = load(pair("kind: geneva, slots: 4", "loads: {w: 0.3 N m}\n"))
-    assert [way.torques.verdict.kind for way in drive_both_ways(train.mechanics, None)] == [
-        "incomplete",
-        "self-locking",
-    ]
+    drives = torque_figures(train).drives
+    assert [each.way.torques.verdict.kind for each in drives] == ["incomplete", "self-locking"]

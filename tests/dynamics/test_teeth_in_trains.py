@@ -62,22 +62,10 @@ def test_an_ideal_pair_costs_nothing_even_among_real_ones() -> None:
     assert load(text).meshes == ()
 
 
-def test_a_contrate_is_taken_for_a_spur_wheel_and_the_report_says_so() -> None:
-    text = PAIR.format(rest=TEETH).replace("p: 20", "p: {teeth: 20, kind: contrate}")
-    (mesh,) = load(text).meshes
-    assert mesh.note == "the contrate wheel is treated as a spur wheel"
-
-
 @pytest.mark.parametrize("friction", ["-0.1", "much"])
 def test_a_friction_that_is_none_is_refused(friction: str) -> None:
     with pytest.raises(GearTrainError, match="friction"):
         load(PAIR.format(rest=TEETH.replace("0.1", friction)))
-
-
-def test_friction_that_locks_is_a_fault_with_its_limit() -> None:
-    text = PAIR.format(rest=TEETH.replace("0.1", "9").replace("{a: 1}", "{b: 1}"))
-    (mesh,) = load(text).meshes
-    assert "locks" in mesh.fault.what
 
 
 def test_the_pairs_of_the_note_do_in_a_train_what_they_do_alone() -> None:
@@ -91,40 +79,6 @@ def test_the_pairs_of_the_note_do_in_a_train_what_they_do_alone() -> None:
         "5a": [0.0876, 0.0095],
         "5b": [0.0119, 0.0696],
     }
-
-
-def test_a_train_without_teeth_or_pins_imports_nothing_for_them() -> None:
-    code = """
-import sys
-from geartrain import load
-from geartrain.report import collect_report
-data = collect_report(load("pennestri-2002")).to_dict()
-assert data["teeth"] == data["pins"] == []
-teeth = "geartrain.teeth"
-heavy = ("numpy", "scipy", f"{teeth}.triangular.triangular_transmission", f"{teeth}.couplings.pin_transmission")
-print([name for name in sys.modules if name in heavy])
-"""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
-
-
-def test_a_train_with_teeth_imports_nothing_heavier_than_numpy() -> None:
-    code = """
-import sys
-from geartrain import load
-train = load("planetary-24-18-60-involute")
-train.solve()
-assert "numpy" not in sys.modules
-from geartrain.report import collect_report
-collect_report(train).to_dict()
-assert "geartrain.teeth.triangular.triangular_transmission" not in sys.modules
-train = load("pennestri-2002-teeth")
-assert all(mesh.verdict for mesh in train.meshes)
-heavy = ("scipy", "matplotlib", "networkx", "jinja2")
-print([name for name in sys.modules if name in heavy], "numpy" in sys.modules)
-"""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[] True"
 
 
 def test_ideal_teeth_have_the_transmission_of_their_counts_and_import_nothing() -> None:

@@ -18,8 +18,7 @@ from models import PAIR, PLANETARY
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import MotionRun
-from geartrain.report import collect_report, to_markdown
-from geartrain.report.train_report import describe_train
+from geartrain.report import collect_report
 from geartrain.teeth import GearMesh
 from geartrain.teeth.conjugate import ConjugateTransmission
 
@@ -43,9 +42,6 @@ def said(train: GearTrain) -> str:
     with pytest.raises(GearTrainError) as caught:
         _ = train.meshes
     return str(caught.value)
-
-
-# what a pair may be ---------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -171,9 +167,6 @@ def test_lengths_with_a_unit_are_compared_with_the_modules_of_the_wheels() -> No
     assert mesh.backlash == pytest.approx(0.1 / (2 * pi), rel=1e-12)
 
 
-# faults ---------------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("form", "teeth", "kinds"),
     [
@@ -198,7 +191,7 @@ def test_teeth_that_cannot_run_fail_check_and_report_with_what_would_fit(
         assert f"FAIL {path}:9: pair 'p~w' (gear 1 is 'p', gear 2 'w'): {fault.what}; {fault.why}; {fault.fix}" in line
         assert problem.fix
     assert call("report", path).exit_code == 1
-    assert mesh.faults[0].what in to_markdown([describe_train(collect_report(load(path)))])
+    assert mesh.faults[0].what in str(load(path).report())
     (data,) = json.loads(call("report", path, "--json").output)[0]["teeth"]
     assert data["verdict"]["kind"] == mesh.verdict.kind
     assert [fault["fix"] for fault in data["verdict"]["faults"]] == [fault.fix for fault in mesh.verdict.faults]
@@ -222,8 +215,6 @@ def test_an_unknown_form_or_key_is_told_with_those_there_are() -> None:
     (problem,) = caught.value.problems
     assert (problem.why, problem.fix) == ("`tooth_form` has no such key", "did you mean 'pressure_angle'?")
 
-
-# motion ---------------------------------------------------------------------------------------------------------------
 
 CHAIN = """
 links: {{frame: {{}}, a: {{wheels: {{a20: 20}}}}, b: {{wheels: {{b60: 60, b24: 24}}}}, c: {{wheels: {{c36: 36}}}}}}
@@ -323,17 +314,6 @@ def test_rigid_teeth_in_a_redundant_loop_contradict_nothing_and_triangular_ones_
         load(text + ring + f"tooth_form: {RIPPLING}\n").motion()
 
 
-def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    def forbidden(*_: object) -> None:
-        raise AssertionError("a motion is followed")
-
-    monkeypatch.setattr("geartrain.dynamics.motion.motion_run.MotionRun", forbidden)
-    train = load("longcase-clock-cycloidal")
-    page = to_markdown([describe_train(collect_report(train))])
-    assert "contribute no transmission error: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page
-    assert collect_report(train).to_dict()["motion"] == []
-
-
 def test_the_motion_of_a_train_where_nothing_ripples_can_be_requested_for_everything() -> None:
     words = ("--samples", "50", "--spectrum", "--phases", "1", "--json")
     result = call("motion", "planetary-24-18-60-involute", *words)
@@ -341,9 +321,6 @@ def test_the_motion_of_a_train_where_nothing_ripples_can_be_requested_for_everyt
     data = json.loads(result.output)
     assert data["rigid"] == ["s~p", "p~ring"]
     assert data["drivers"] == {}
-
-
-# losses ---------------------------------------------------------------------------------------------------------------
 
 
 def mean_loss(
@@ -485,9 +462,6 @@ def test_a_declared_efficiency_stands_before_that_of_the_teeth() -> None:
     assert train.driven("b", "a").efficiency == Fraction(9, 10)
 
 
-# pages, data and shipped trains ---------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("name", SHIPPED)
 def test_shipped_trains_with_forms_run_and_keep_their_exact_outputs(name: str) -> None:
     train = load(name)
@@ -505,18 +479,3 @@ def test_the_mill_turns_as_its_counts_say_with_its_wheels_at_right_angles() -> N
     speeds = load("lantern-mill").solve().speeds
     assert abs(speeds["stone"]) == Fraction(72, 18) * Fraction(60, 15)
     assert abs(speeds["second"]) == Fraction(72, 18) * Fraction(60, 20)
-
-
-def test_a_mixed_train_shows_each_family_in_its_own_table() -> None:
-    train = load(CHAIN.format(first=INVOLUTE, second=RIPPLING) + "friction: 0.1\n")
-    page = to_markdown([describe_train(collect_report(train))])
-    assert "Triangular teeth, each pair" in page
-    assert "Conjugate teeth have a constant speed ratio" in page
-    conjugate, triangular = collect_report(train).to_dict()["teeth"]
-    assert (conjugate["form"], triangular["form"]) == ("involute", "triangular")
-    assert conjugate["transmission_error"]["peak_to_peak"] == 0
-    reach = sum(sqrt((R + 1) ** 2 - (R * cos(ALPHA)) ** 2) - R * sin(ALPHA) for R in (10, 30))
-    assert conjugate["contact_ratio"] == pytest.approx(reach / (pi * cos(ALPHA)), rel=1e-12)
-    assert conjugate["efficiency"]["mean"] == pytest.approx(1 - mean_loss(20, 60, 0.1), abs=2e-6)
-    assert set(triangular) - set(conjugate) == {"clearance_factor", "window", "sizes", "intervals", "jumps", "impacts"}
-    assert "Pairs that keep their ratio" in call("motion", "longcase-clock-cycloidal", "--samples", "10").output

@@ -41,9 +41,6 @@ def torque(found: TorqueCycle) -> tuple[float, float, float]:
     return found.mean, found.maximum.torque, found.minimum.torque
 
 
-# ------------------------------------------------------------------------------------------------ pins, in closed form
-
-
 def test_a_pin_that_drives_a_slot_peaks_at_five_times_its_mean() -> None:
     r, e, f = 10, 8, 0.3
     found = cycle(pin_train(r, e, f, "loads: {b: -10 N m}"))
@@ -120,9 +117,6 @@ def test_what_rests_is_harder_to_start() -> None:
     found = cycle(load(train))
     assert found.starting.torque == pytest.approx(1.2 * torque(resting)[1], rel=1e-9)
     assert torque(found)[1] == pytest.approx(1.1 * torque(moving)[1], rel=1e-9)
-
-
-# --------------------------------------------------------------------------------------------------- shipped trains
 
 
 def test_a_bearing_behind_a_retrograde_pointer_takes_twice_what_its_mean_speed_tells() -> None:

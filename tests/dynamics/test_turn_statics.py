@@ -20,9 +20,6 @@ def only(found: list[Balance]) -> Balance:
     return found[0]
 
 
-# ----------------------------------------------------------------------------------------------------- triangular teeth
-
-
 def test_outlines_touch_where_the_transmission_functions_say() -> None:
     for mesh in load("moon-triangular").meshes:
         wheels = Outlines.of(mesh.transmission.sizes)
@@ -44,9 +41,6 @@ def test_triangular_pairs_at_a_constant_load() -> None:
         assert speed.mean() == pytest.approx(wheels.z1 / wheels.z2, rel=2e-5)
         found.append(wheels.z1 / wheels.z2 / torque.mean())
     assert found == pytest.approx(printed, abs=1e-5)
-
-
-# ----------------------------------------------------------------------------------------------------- planetary drives
 
 
 def differential(random: Random) -> tuple[dict[str, Any], Mechanism]:

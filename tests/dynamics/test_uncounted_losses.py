@@ -17,12 +17,9 @@ import pytest
 from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
-from models import torque_figures
+from models import torque_figures, torque_page
 
 from geartrain import load
-from geartrain.report import collect_report, to_markdown
-from geartrain.report.torque_report import collect_torque_report, describe_torques
-from geartrain.report.train_report import describe_train
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 
 PIN = """
@@ -38,9 +35,6 @@ MOON = "extends: moon-triangular\nname: m\nloads: {moon: -1 N mm}\n"
 
 def names(found: Any) -> dict[str, tuple[str, ...]]:
     return {each.what: each.where for each in found.neglected}
-
-
-# ---------------------------------------------------------------------------------------------------------------- pins
 
 
 def pin_torques(r: float, e: float, f: float, load_torque: float, count: int, backward: bool = False) -> np.ndarray:
@@ -136,9 +130,9 @@ def test_friction_of_a_pin_that_is_not_counted_is_named_wherever_the_result_is_t
     assert names(found)["friction of pins"] == ("P",)
     (why,) = [each.why for each in found.neglected if each.what == "friction of pins"]
     assert what in why
-    page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
+    page = torque_page(train, found)
     assert "Not included: friction of pins (P): " in page
-    assert "Not included: friction of pins (P): " in to_markdown([describe_train(collect_report(train))])
+    assert "Not included: friction of pins (P): " in str(train.report())
     data = torque_figures(train).to_dict()
     assert data["neglected"][0] == {"what": "friction of pins", "where": ["P"], "why": why}
     if found.efficiency is not None:
@@ -171,9 +165,6 @@ def test_friction_on_teeth_without_a_form_is_named() -> None:
     assert found.verdict.kind == "incomplete"
     half = load(text + "gears: [{pair: [s, p], efficiency: 0.98}]\n").torques()
     assert names(half) == {"friction of teeth": ("p~ring",)}
-
-
-# --------------------------------------------------------------------------------------------------------------- teeth
 
 
 def test_a_train_of_real_teeth_asks_the_crank_for_the_mean_of_its_positions() -> None:
@@ -257,9 +248,6 @@ def test_pairs_of_which_neither_torque_is_constant_are_named() -> None:
     assert "mean efficiency" not in names(load(base.format("sun: 1") + "solve_for: carrier\n").torques())
 
 
-# ------------------------------------------------------------------------------------------------------------ bearings
-
-
 def test_bearings_of_a_train_with_retrograde_pointers_are_named_and_motion_prints_the_extremes_of_their_speeds() -> (
     None
 ):
@@ -267,7 +255,7 @@ def test_bearings_of_a_train_with_retrograde_pointers_are_named_and_motion_print
     found = train.torques()
     assert found.verdict.kind == "incomplete"
     assert names(found)["friction of bearings that reverse"] == ("saturn",)
-    page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
+    page = torque_page(train, found)
     assert "N m without friction of bearings that reverse (saturn)." in page
     # by hand: w = 1 - 427/442 tau, with the pin's circle of 14.37 and the axes 1.50 apart
     low, high = (1 - 427 / 442 * 14.37 / (14.37 - side * 1.50) for side in (1, -1))
@@ -288,19 +276,11 @@ def test_a_bearing_of_a_follower_takes_something_though_its_mean_speed_is_none()
 
 def test_efficiencies_there_and_back_name_the_bearings_they_leave_out() -> None:
     train = load("extends: planetary-24-18-60\nname: p\nloads: {carrier: -1}\nlinks: {carrier: {bearing: 1/10}}\n")
-    page = to_markdown([describe_torques(collect_torque_report(train, [train.torques()]))])
+    page = torque_page(train, train.torques())
     assert "Efficiency from 'sun' to 'carrier': 1 without friction of bearings (carrier)." in page
     data = torque_figures(train).to_dict()
     assert data["neglected"] == []
     assert data["drives"]["forward"]["neglected"][0]["where"] == ["carrier"]
-
-
-@pytest.mark.needs("matplotlib")
-def test_the_captions_of_pictures_name_what_is_left_out(tmp_path: Path) -> None:
-    path, picture = tmp_path / "pin.yaml", tmp_path / "pin.svg"
-    path.write_text(PIN.replace(", pin_radius: 10 mm, offset: 8 mm", ""), encoding="utf-8")
-    call("torques", path, "--plot", picture)
-    assert "not included: friction of pins (P), variation within a turn" in picture.read_text(encoding="utf-8")
 
 
 def test_the_means_of_teeth_are_worked_out_once_whatever_is_loaded(monkeypatch: pytest.MonkeyPatch) -> None:

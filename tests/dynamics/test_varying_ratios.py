@@ -47,9 +47,6 @@ def extremes(train: GearTrain, output: str = "b") -> Any:
     return run.statistics[0]
 
 
-# ---------------------------------------------------------------------------------------------------------- joints
-
-
 def test_case_l1_a_joint_of_30_degrees() -> None:
     train = two("kind: universal_joint, angle: 30 deg")
     assert train.solve()["b"] == 1
@@ -133,9 +130,6 @@ def test_the_forks_of_a_joint_that_turns_backwards_start_at_the_same_phase() -> 
         # an error is positive in the sense of the input
         q = np.arctan2(np.sin(angle), np.cos(angle) * cos(radians(40)))
         assert np.allclose(np.sin(way * error(train, S) + angle - q), 0, atol=1e-12)
-
-
-# ------------------------------------------------------------------------------------------------------ round wheels
 
 
 @pytest.mark.parametrize(
@@ -239,9 +233,6 @@ def test_a_pitch_curve_rolls_on_its_mate(lobes: tuple[int, int]) -> None:
         assert first / second * S - float(error(train, S / TURN)[0]) == pytest.approx(turned(C, S), abs=1e-10)
 
 
-# -------------------------------------------------------------------------------------------------------------- laws
-
-
 def test_case_l7_an_equation_cam_in_a_differential() -> None:
     """Two equal suns on idlers: their sum is twice the cage's motion. 6 deg of the hand are a minute."""
     train = load("""
@@ -308,9 +299,6 @@ def test_the_fastest_harmonic_is_followed_between_positions() -> None:
     assert degrees(found.peak_to_peak) == pytest.approx(d.max() - d.min(), abs=1e-8)
 
 
-# ----------------------------------------------------------------------------------------------------------- torques
-
-
 @pytest.mark.parametrize(
     "coupling",
     [
@@ -356,9 +344,6 @@ def test_side_loads_and_followers_are_named_as_left_out() -> None:
     assert "friction of followers" in [each.what for each in cam.neglected]
 
 
-# -------------------------------------------------------------------------------------------------------------- time
-
-
 def simulated(coupling: str) -> GearTrain:
     """A train with inertia that can be simulated in time."""
     return two(coupling, "rate: 1 turn/s").with_changes(
@@ -384,9 +369,6 @@ def test_a_law_that_jumps_is_refused_in_time() -> None:
     train = simulated("kind: law, mean: 1, unit: 1 deg, table: [0, 1, 0, -1], between: steps")
     with pytest.raises(Exception, match="an instantaneous step has no defined force"):
         str(train.dynamics())
-
-
-# ------------------------------------------------------------------------------------------------------------ refusals
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,6 @@ from random_trains import random_train
 
 from geartrain import GearTrain, load, shipped
 
-# axes, bevels and worms -----------------------------------------------------------------------------------------------
-
 DIFFERENTIAL = """
 links:
   frame: {{}}

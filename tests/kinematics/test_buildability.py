@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import re
-import zlib
-from base64 import b64decode
 from math import atan, cos, pi, radians, tan
-from pathlib import Path
 
 import pytest
-from commands import call, imported_by
-from html_reader import Read
+from commands import imported_by
 from shipped import every_train
 
 from geartrain import load
@@ -328,8 +323,6 @@ def test_a_clutch_is_told_once_for_all_states_with_its_place() -> None:
     assert finding.problem.place.startswith("text:")
 
 
-# ------------------------------------------------------------------------------------------------------------------- K5
-
 SPIDER = """
 frame: case
 axes: {axle: {direction: [1, 0, 0]}, spider: {direction: [0, 1, 0]}}
@@ -366,9 +359,6 @@ def test_bevels_of_one_axis_need_opposite_sides_whichever_way_it_points(way: int
     assert found(text) == ([("K5", "error")] if left == right else [])
 
 
-# ------------------------------------------------------------------------------------------------------------------- W3
-
-
 @pytest.mark.parametrize(
     ("counts", "first", "second", "how"),
     [
@@ -392,36 +382,6 @@ def test_a_wheel_has_teeth_of_one_shape(counts: tuple[int, int], first: str, sec
     if how:
         assert "wheel 'b' is not cut: its pairs 'a~b' and 'b~c' require different teeth; they require" in words(text)
         assert how in words(text)
-
-
-# ------------------------------------------------------------------------------------------------------- the same words
-
-
-@pytest.mark.parametrize(("text", "code"), [
-    (pair(sized(20, "1 mm"), sized(40, "2 mm")), 1),
-    (pair(sized(20, "1 mm"), sized(40, "1 mm"), places(A="0 mm", B="100 mm")), 1),
-    (pair(20, 40, CROSSED), 1),
-    (RING.format(planet=20, ring=16, more=""), 1),
-    (RING.format(planet=53, ring=60, more=""), 0),
-    (pair(), 0),
-])  # fmt: skip
-def test_check_report_and_pictures_use_the_same_words(text: str, code: int, tmp_path: Path) -> None:
-    path = tmp_path / "t.yaml"
-    path.write_text(text, encoding="utf-8")
-    told = call("check", path)
-    assert told.exit_code == code
-    findings = load(path).build_findings
-    assert bool(code) == any(finding.is_error for finding in findings)
-    report, (data,) = call("report", path).stdout, json.loads(call("report", path, "--json").stdout)
-    for finding in findings:
-        assert f"{'FAIL' if finding.is_error else 'note'} {finding}" in told.stdout
-        assert finding.problem.what in " ".join(report.split())  # cells are wrapped
-        assert finding.to_dict() in data["build_findings"]
-    assert len(data["build_findings"]) == len(findings)
-    page = tmp_path / "t.html"
-    assert call("view", path, "-o", page).exit_code == 0
-    scenes = zlib.decompress(b64decode(Read(page.read_text(encoding="utf-8")).scripts[0])).decode()
-    assert all(json.dumps(finding.problem.what, ensure_ascii=False)[1:-1] in scenes for finding in findings)
 
 
 @pytest.mark.parametrize("name", every_train())

@@ -121,8 +121,6 @@ def test_a_little_room_is_noted() -> None:
     assert 2 * (70 * sin(pi / 5) - 41) == pytest.approx(0.2899, abs=5e-5)
 
 
-# ---------------------------------------------------------------------------------------- tips of teeth as they are cut
-
 AROUND = """
 links:
   frame: {{}}

@@ -245,9 +245,6 @@ def test_estimate_and_bound_are_valid_up_to_a_condition_of_1e24_or_the_floats_ar
     assert refused > 20
 
 
-# Beyond the range of floats -------------------------------------------------------------------------------------------
-
-
 def planetaries(stages: int) -> dict[str, Any]:
     """Sun in, ring fixed, carrier out to the next sun: planet and carrier of a stage are known only together."""
     links: dict[str, Any] = {"frame": {"wheels": {}}, "c0": {"wheels": {}}}

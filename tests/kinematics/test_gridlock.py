@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import random
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
@@ -20,14 +19,11 @@ from strategies import trains
 from test_cases import KINEMATIC, REJECT, declaration
 
 from geartrain import GearTrain, load
-from geartrain.kinematics import MeshRemoval
+from geartrain.kinematics.gridlock.removal import MeshRemoval
 from geartrain.spherical import Configuration, from_polyhedron, survey
 from geartrain.spherical.polyhedron_gears import SURVEYED
 
 Data = dict[str, Any]
-
-
-# gears on all faces of a polyhedron -----------------------------------------------------------------------------------
 
 
 def ordinary(teeth: Sequence[int], meshes: Iterable[tuple[int, int]], rings: Iterable[int] = ()) -> Data:
@@ -94,9 +90,6 @@ def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> N
     assert sum(mesh in told.replace(",", " ").replace(";", " ").split() for mesh in release.meshes) == 12
 
 
-# trains of the collection ---------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("case", [KINEMATIC["K45"], REJECT["R13"]], ids=["K45", "R13"])
 def test_of_three_wheels_in_a_ring_any_one_mesh_frees(case: Data) -> None:
     data = declaration(case)
@@ -152,9 +145,6 @@ def test_each_diagonal_of_a_lattice_costs_one_mesh() -> None:
     assert proved(found.release) == 4
     assert set(found.release.meshes) == {gear["id"] for gear in data["gears"][-4:]}
     assert found.release.method == "loops"
-
-
-# rings, pins, carriers, brakes ----------------------------------------------------------------------------------------
 
 
 def test_a_ring_in_a_loop_of_three_lets_it_turn_and_in_a_loop_of_four_locks_it() -> None:
@@ -283,9 +273,6 @@ def test_a_greedy_set_says_that_a_smaller_one_may_do() -> None:
     assert all("a, b, c" in str(each) for each in (good, minimum))
 
 
-# whole trains, against dense elimination ------------------------------------------------------------------------------
-
-
 def _frees(data: Data, gone: Iterable[str]) -> bool:
     """Every loop about each carrier closes, and no link stands still both with these ratios and with others."""
     rest = less(data, gone)
@@ -398,8 +385,6 @@ def test_a_loop_that_locks_what_is_held_already_does_not_upset_the_mobility() ->
     assert set(train.kinematics.gridlock.release.meshes) == {"ab", "fc"}
 
 
-# what is printed, and what it costs -----------------------------------------------------------------------------------
-
 THREE = """
 links:
   frame: {}
@@ -426,18 +411,6 @@ def test_check_and_report_say_what_to_disengage(train_file: Callable[..., Path])
     done = call("report", path)
     assert done.exit_code == 1
     assert "disengage one of a20~b30, b30~c40, c40~a20" in done.stdout
-
-
-def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) -> None:
-    data = json.loads(call("report", train_file(THREE), "--json").stdout)[0]["gridlock"]
-    assert set(data) == {"moves", "jams", "held", "release"}
-    assert data["moves"] is False
-    assert set(data["jams"][0]) == {"carrier", "loop", "links", "meshes", "by", "release"}
-    assert data["release"] == data["jams"][0]["release"]
-    assert set(data["release"]) == {"meshes", "method", "minimum", "at_least", "choices", "proofs"}
-    assert data["release"]["choices"] == ["a20~b30", "b30~c40", "c40~a20"]
-    moving = json.loads(call("report", "planetary", "--json").stdout)[0]["gridlock"]
-    assert moving == {"moves": True, "jams": [], "held": [], "release": None}
 
 
 @pytest.mark.parametrize("source", ["'pennestri-2002'", "'freeth-2021'", repr(THREE)])

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from commands import call
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel, lay_out
@@ -141,13 +140,6 @@ def test_without_places_the_hands_may_decide() -> None:
 def test_teeth_that_do_not_lean_alike_are_refused(first: dict[str, Any], second: dict[str, Any], words: str) -> None:
     with pytest.raises(GearTrainError, match=words):
         train(first, second).solve()
-
-
-def test_wheels_that_lean_alike_run() -> None:
-    assert train(helical(20, 15, "right"), helical(40, 15, "left")).solve().speeds["b"] == Fraction(-1, 2)
-    assert train(helical(20, 15), helical(40, 15)).solve().speeds["b"] == Fraction(-1, 2)
-    ring = train(helical(20, 15, "left"), helical(60, 15, "left", internal=True))
-    assert ring.solve().speeds["b"] == Fraction(1, 3)
 
 
 @pytest.mark.parametrize("angle", ["90 deg", "-5 deg"])
@@ -301,18 +293,3 @@ def test_solids_turn_along_their_axis_by_the_helix() -> None:
         area = np.cross(b - a, c - a)[top, 2].sum() / 2
         volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
         assert volume == pytest.approx(20 * area, rel=4e-3)  # chords of the helix
-
-
-def test_the_shipped_pair_runs() -> None:
-    assert call("check", "crossed-helical").exit_code == 0
-    assert "0.807635" in call("torques", "crossed-helical").stdout
-
-
-def test_a_pair_is_requested_for_by_its_helix() -> None:
-    told = call("mesh", "21", "50", "--form", "involute", "--helix", "18deg")
-    assert "a transverse module is 1.05146222 normal modules" in " ".join(told.stdout.split())
-    assert "Contact ratio 1.5" in told.stdout
-    assert call("mesh", "21", "50", "--form", "involute", "--helix", "90deg").exception is not None
-    assert "--helix: this option does not apply to cycloidal teeth" in str(
-        call("mesh", "21", "50", "--form", "cycloidal", "--helix", "18deg").exception
-    )

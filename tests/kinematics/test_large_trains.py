@@ -31,9 +31,6 @@ def mesh(data: Data, i: str, z_i: int, j: str, z_j: int, ring: bool = False) -> 
     data["gears"].append({"pair": [f"i{at}", f"j{at}"]})
 
 
-# G01: a bounded random chain -----------------------------------------------------------------------------------------
-
-
 def bounded_chain(count: int, seed: int = 1) -> tuple[Data, list[tuple[int, int]]]:
     """Fixed-axis gears with random teeth; a mesh is turned round where the ratio would leave 1e-6 to 1e6."""
     rng = random.Random(seed)
@@ -84,9 +81,6 @@ def test_one_output_of_a_long_chain_costs_only_what_drives_it() -> None:
     assert answer.work == 10
 
 
-# G02: a planetary cascade --------------------------------------------------------------------------------------------
-
-
 def planetary_cascade(stages: int, seed: int = 2) -> Data:
     """Sun, planet and fixed ring with R = S + 2P; sun to carrier and back in turns, in pairs of like teeth."""
     rng = random.Random(seed)
@@ -121,9 +115,6 @@ def test_every_second_carrier_of_a_planetary_cascade_returns_to_speed_one(stages
     assert abs(floats[f"m{stages - stages % 2}"] - 1) <= 1e-9
 
 
-# G03: two-wheel epicyclics in series, 10 000 to 1 each ---------------------------------------------------------------
-
-
 def ten_thousand_cascade(stages: int, scale: int = 1) -> Data:
     """100/101 - 100/99 with the first wheel fixed: the carrier turns 10^4 times for one turn of the last wheel."""
     links: Data = {"frame": {"wheels": {}}, "m0": {"wheels": {}}}
@@ -143,9 +134,6 @@ def test_a_cascade_of_ten_thousand_links_reduces_beyond_all_floats_and_stays_exa
     stages = 5000
     answer = GearTrain.declare(ten_thousand_cascade(stages)).solve(method="exact")
     assert answer[f"m{stages}"] == Fraction(1, 10 ** (4 * stages))
-
-
-# G04 and G05: a lattice, and a lattice with one mesh too many --------------------------------------------------------
 
 
 def lattice(side: int, diagonal: bool = False, seed: int = 4) -> tuple[Data, list[int]]:
@@ -194,9 +182,6 @@ def test_one_diagonal_mesh_locks_a_lattice_with_an_odd_loop_as_witness(side: int
     assert len(verdict.loops[0].links) % 2 == 1
 
 
-# G06: beyond the range of floats -------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("meshes", [700, 2000, pytest.param(10_000, marks=pytest.mark.long)])
 def test_a_speed_below_the_range_of_floats_is_exact_and_no_float(meshes: int) -> None:
     data = fixed_axes(meshes + 1)
@@ -211,9 +196,6 @@ def test_a_speed_below_the_range_of_floats_is_exact_and_no_float(meshes: int) ->
     assert abs(math.log10(float(mantissa)) + int(exponent) + meshes * math.log10(3)) < 1e-6
     with pytest.raises(GearTrainError, match="range of float64"):
         train.kinematics.floats()
-
-
-# G07 and G08: loops that all but close -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -236,9 +218,6 @@ def test_a_loop_that_all_but_closes_is_a_gridlock(meshes: tuple[tuple[int, int],
         for loop in (*verdict.loops, jam.loop):
             assert product in (loop.product, 1 / loop.product)
         assert (jam.by, len(train.kinematics.gridlock.release.choices)) == ("ratio", len(meshes)), "any mesh frees it"
-
-
-# Coupled systems: the method is chosen before long numbers are computed ----------------------------------------------
 
 
 def count_eliminations(monkeypatch: pytest.MonkeyPatch) -> list[int]:

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-import subprocess
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import product
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -20,15 +17,11 @@ from studies.residue_errors import first_float_failure, measure_phase_accuracy
 from teeth3d import Wheel, best, in_space, misfits
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.kinematics import MeshPhasing, find_divisibility_rule
-from geartrain.numerics.integer_lattice import saturated_lattice
-from geartrain.numerics.rational_angles import rational_angle, recognised_angle
+from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule
+from geartrain.numerics.rational_angles import rational_angle
 from geartrain.spherical import Configuration, from_polyhedron, spherical_divisibility_rule, spherical_phasing
 
 Data = dict[str, Any]
-
-
-# ------------------------------------------------------------------------------------------------------ trains to judge
 
 
 def position(radius: float, turn: Fraction | float, digits: int = 6) -> list[str]:
@@ -89,9 +82,6 @@ def check_in_space(train: GearTrain) -> None:
 
 def wrapped(value: Fraction) -> Fraction:
     return (value + Fraction(1, 2)) % 1 - Fraction(1, 2)
-
-
-# ------------------------------------------------------------------------------------------------------- planetary rule
 
 
 @pytest.mark.parametrize("count", range(2, 8))
@@ -171,9 +161,6 @@ def test_whole_millimetres_are_exact_and_a_third_of_a_turn_cannot_be_written_in_
     assert abs(float(closure.worst)) < 1e-3
 
 
-# ------------------------------------------------------------------------------------------------------ gears in a ring
-
-
 def test_four_gears_on_a_square_close_if_four_divides_the_alternating_sum_of_their_teeth() -> None:
     kinks = [(0, 0), (1, 0), (1, 1), (0, 1)]
     ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
@@ -226,9 +213,6 @@ def test_a_hexagon_of_idlers_round_a_wheel_is_six_loops_and_a_hexagonal_lattice_
         closure = GearTrain.declare(data).closure
         assert closure.how == "exact"
         assert abs(closure.worst) == abs(wrapped(Fraction(3 * (12 - teeth), 3)))
-
-
-# ------------------------------------------------------------------------------------------------------ compound wheels
 
 
 @pytest.mark.parametrize("count", [2, 3, 4, 5])
@@ -295,9 +279,6 @@ def test_two_rings_on_the_frame_are_mounted_each_as_its_planets_want_it() -> Non
     assert train.closure.kind == "open"
     assert set(train.closure.angles) >= {"r0", "r1", "sun"}
     check_in_space(train)
-
-
-# ----------------------------------------------------------------------------------------- against whole-number algebra
 
 
 def kernel(rows: Sequence[Sequence[int]]) -> list[list[int]]:
@@ -432,21 +413,6 @@ def test_carriers_geared_together_are_requested_for_what_only_all_their_meshes_f
     if train.closure:
         assert max(map(abs, train.closure.last_errors.values())) < 1e-6
     assert all(not loop.gears and "together" in loop.text for loop in train.closure.loops)
-
-
-@given(st.lists(st.lists(st.integers(-30, 30), min_size=6, max_size=6), min_size=1, max_size=4))
-def test_saturation_gives_all_whole_rows_of_a_span_with_columns_dual_to_them(rows: list[list[int]]) -> None:
-    sparse = [{at: value for at, value in enumerate(row) if value} for row in rows]
-    basis, dual, index = saturated_lattice(sparse)
-    dense = np.array([[row.get(k, 0) for k in range(6)] for row in basis], object).reshape(-1, 6)
-    columns = np.array([[row.get(k, 0) for k in range(6)] for row in dual], object).reshape(-1, 6)
-    assert np.array_equal(dense @ columns.T, np.eye(len(basis), dtype=int))  # so no multiple of a row is missing
-    assert len(basis) == np.linalg.matrix_rank(np.array(rows, float))
-    assert np.linalg.matrix_rank(np.vstack([dense.astype(float), np.array(rows, float)])) == len(basis)
-    assert index >= 1
-
-
-# --------------------------------------------------------------------------------------------------------- on a sphere
 
 
 def antiprism(n: int, latitude: float) -> Configuration:
@@ -616,36 +582,12 @@ def test_a_bevel_differential_closes_if_its_spiders_divide_the_teeth_of_both_sid
     check_in_space(train)
 
 
-# ----------------------------------------------------------------------------------------------------- what is answered
-
-
-def test_angles_are_rational_parts_of_a_turn_only_where_niven_lets_them() -> None:
-    assert rational_angle((1, 0, 0), (1, 1, 0), 1 / 8) == Fraction(1, 8)
-    assert rational_angle((1, 0, 0), (-1, -1, 0), 5 / 8) == Fraction(5, 8)
-    assert rational_angle((3, 4, 0), (-4, 3, 0), 0.25) == Fraction(1, 4)
-    assert rational_angle((1, -1, 0), (0, 1, -1), 1 / 3) == Fraction(1, 3)
-    assert rational_angle((1, 0, 0), (4, 3, 0), 0.1024) is None
-    assert recognised_angle(1 / 3 + 1e-7, 1e-6) == Fraction(1, 3)
-    assert recognised_angle(0.36787944, 1e-6) is None
-    assert recognised_angle(1 - 1e-9, 1e-8) == 0
-
-
 def test_an_angle_between_whole_vectors_is_rational_if_and_only_if_floats_see_a_multiple_of_a_24th() -> None:
     box = [v for v in product(range(-2, 4), repeat=3) if any(v)][::2]
     for u, v in product(box, box):
         turn = math.atan2(float(np.linalg.norm(np.cross(u, v))), float(np.dot(u, v))) / math.tau
         near = abs(24 * turn - round(24 * turn)) < 1e-9
         assert (rational_angle(u, v, turn) is not None) == near, (u, v)
-
-
-@given(st.fractions(0, Fraction(19, 20), max_denominator=200), st.floats(-1, 1), st.floats(1e-12, 1e-3))
-def test_a_fraction_is_recognised_if_and_only_if_few_are_as_simple(part: Fraction, off: float, slack: float) -> None:
-    chance = 2 * 0.304 * part.denominator**2 * slack
-    found = recognised_angle((float(part) + off * slack) % 1, slack * 1.0001)
-    if chance < 0.99e-3:
-        assert found == part
-    if found is not None:
-        assert 2 * 0.303 * found.denominator**2 * slack <= 1e-3
 
 
 @given(
@@ -765,21 +707,3 @@ def test_floats_fail_where_they_say_they_may() -> None:
     for found in measure_phase_accuracy([10**k for k in range(1, 17)]):
         assert found.error <= found.bound
     assert first_float_failure() in (10**13, 10**14, 10**15)
-
-
-def test_closure_brings_numpy_alone_and_nothing_without_being_requested() -> None:
-    code = "import geartrain, sys; t = geartrain.load('three-planets'); t.solve()"
-    tail = (
-        "; print(sorted({name.split('.')[0] for name in sys.modules} & {'numpy', 'scipy', 'networkx', 'matplotlib'}))"
-    )
-    for ask, brought in [("", "[]"), ("; t.closure.text", "['numpy']")]:
-        done = subprocess.run([sys.executable, "-c", code + ask + tail], capture_output=True, text=True, check=True)
-        assert done.stdout.strip() == brought
-
-
-def test_anything_with_the_parts_of_a_configuration_is_judged() -> None:
-    config = from_polyhedron("octahedron")
-    alike = SimpleNamespace(**{name: getattr(config, name) for name in ("names", "axes", "meshes", "kinds", "regular")})
-    alike.teeth = {"3": 11}
-    closure: MeshPhasing = spherical_phasing(alike)
-    assert closure.kind == "closes"

@@ -10,8 +10,6 @@ from models import refusal
 
 from geartrain import load
 
-# couplings ------------------------------------------------------------------------------------------------------------
-
 
 def lunar(coupling: str) -> str:
     """A pin on k1 and a slot in k2, both riding on e, which turns once while k1 turns ten times."""

@@ -7,11 +7,9 @@ from math import cos, isclose, sin, tau
 
 import pytest
 import yaml
-from fitters import passed, rules_of
 
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
-from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.simulation import find_link_inertias
 from geartrain.simulation.time.time_report import collect_time_report
 
@@ -81,17 +79,6 @@ def test_each_planet_bears_its_part_of_the_load(n: int) -> None:
         assert abs(pair.torques[0 if name.startswith("s") else 1]) == Fraction(3, 10) * whole / n
 
 
-def test_strength_is_that_of_one_of_them() -> None:
-    rest = "tooth_form: {form: involute, backlash: 0.05}\nmaterial: steel\n"
-    wide = ", face_width: 10 mm"
-    text = SET.format(s="24" + wide, p="{teeth: 18" + wide + "}", r="60" + wide, n=3, more="") + rest
-
-    one, three = (read(text.replace("copies: 3", f"copies: {n}")).strength() for n in (1, 3))
-    assert set(three.pairs) == {"s~p", "p~r", "s~p.2", "p.2~r", "s~p.3", "p.3~r"}
-    for name in ("s~p", "p~r"):
-        assert isclose(3 * three.pairs[name].tangential, one.pairs[name].tangential, rel_tol=1e-12)
-
-
 def test_loads_on_a_planet_act_on_each() -> None:
     text = SET.format(s=24, p=18, r=60, n=3, more="").replace(
         "carrier: -0.3 N m}", "carrier: -0.3 N m, planet: 0.01 N m}"
@@ -157,21 +144,6 @@ def test_unfolded_parts_were_written_where_the_first_was() -> None:
     assert every.place("links", "planet.3") == every.place("links", "planet")
     assert every.place("gears", 2) == every.place("gears", 0)
     assert every.place("gears", 5) == planetary().declaration.place("gears", 1)
-
-
-def test_pictures_and_parts_hold_all_of_them() -> None:
-    train = planetary()
-    assert [wheel.id for wheel in make_scene(train).wheels] == ["s", "p", "p.2", "p.3", "r"]
-    model = SolidModel(train, ManufacturingSizes())
-    assert {"p", "p.2", "p.3"} <= {part.name for part in model.parts}
-
-
-def test_tooth_counts_that_are_searched_can_be_put_together() -> None:
-    text = SET.format(s=24, p=18, r=60, n=4, more="")
-    train = read(text)
-    rules = rules_of(train.declaration, ["p", "r"])
-    found = [(p, 24 + 2 * p) for p in range(10, 40) if passed(rules, p=p, r=24 + 2 * p)]
-    assert found == [(p, r) for p in range(10, 40) if (24 + (r := 24 + 2 * p)) % 4 == 0]
 
 
 @pytest.mark.parametrize(

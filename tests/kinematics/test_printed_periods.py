@@ -7,13 +7,14 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+import yaml
 from commands import call
 
 from geartrain import load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
-from geartrain.search.train.train_search import search_train
-from geartrain.train.declaration_files import read_declaration
+from geartrain.search import search_train
+from geartrain.train import declare
 
 PAIR = """
 name: printed
@@ -156,7 +157,7 @@ def test_a_failure_by_the_sign_only_names_the_remedy(tmp_path: Path) -> None:
 def test_a_search_satisfies_what_is_printed(value: str, holds: Callable[[int, int], bool]) -> None:
     text = pair("1 d", 19, 235, f"{{published: {{value: {value}}}}}", speed="1")
     text = text.replace("a: 19", "a: {teeth: {search: [18, 22]}}").replace("b: 235", "b: {teeth: {search: [230, 240]}}")
-    found = search_train(read_declaration(text), best=1000)
+    found = search_train(declare(yaml.safe_load(text)), best=1000)
     # by enumeration
     counts = [(a, b) for a in range(18, 23) for b in range(230, 241) if holds(a, b)]
     assert sorted((each.teeth["a"], each.teeth["b"]) for each in found.solutions) == counts
@@ -168,7 +169,7 @@ def test_a_ratio_to_several_inputs_is_refused_with_its_reason() -> None:
     text = text.replace("a: 19", "a: {teeth: {search: [18, 22]}}").replace("links: {", "links: {c: {}, ")
     text = text.replace("A: [frame, a]", "A: [frame, a], C: [frame, c]").replace("inputs: {", "inputs: {c: 2, ")
     with pytest.raises(QuestionError) as refused:
-        search_train(read_declaration(text))
+        search_train(declare(yaml.safe_load(text)))
     (problem,) = refused.value.problems
     assert problem.why == "a ratio needs exactly one input that turns, and 2 turn"
 
@@ -177,9 +178,6 @@ def test_a_wrong_kind_of_published_value_is_reported_once() -> None:
     with pytest.raises(DeclarationError) as refused:
         load(pair("1 d", 19, 235, "{published: {value: 12.37 d, as: Period}}"))
     assert len(refused.value.problems) == 1
-
-
-# rates of clocks ------------------------------------------------------------------------------------------------------
 
 
 def target_of(text: str) -> TargetResult:

@@ -32,9 +32,6 @@ def same_answer(one: Answer, other: Answer) -> bool:
     return one.verdict.kind == other.verdict.kind and dict(one.speeds) == dict(other.speeds)
 
 
-# the whole answer, against another method ----------------------------------------------------------------------------
-
-
 @some
 @given(requested_trains())
 def test_answer_counts_and_carriers_are_those_of_dense_elimination(data: Data) -> None:
@@ -132,9 +129,6 @@ def test_every_loop_shown_is_a_loop_of_meshes_in_one_carriers_frame(data: Data) 
     assert all(loop.product != 1 for loop in mobility.locked)
 
 
-# changes of the declaration that change nothing ----------------------------------------------------------------------
-
-
 def renamed(data: Data, names: dict[str, str]) -> Data:
     """The same train with other link names."""
     return {
@@ -183,9 +177,6 @@ def test_reordering_the_declaration_changes_nothing(data: Data, random: Any) -> 
     assert (one.by_rank, one.redundant, set(one.still)) == (two.by_rank, two.redundant, set(two.still))
 
 
-# laws of motion ------------------------------------------------------------------------------------------------------
-
-
 def basic_ratio(data: Data, a: str, b: str, c: str) -> Fraction | None:
     """i_ab^c: speed of a over that of b with c held; None where b cannot turn or a does not follow."""
     answer = solved({**data, "fixed": [c], "inputs": {b: 1}})
@@ -219,9 +210,6 @@ def test_speeds_are_the_sum_of_what_each_input_does_alone(data: Data) -> None:
     for name in data["inputs"]:
         alone = solve_naively({**data, "inputs": {**dict.fromkeys(data["inputs"], 0), name: 1}})
         assert {link: answer.ratios[link][name] for link in data["links"]} == alone.speeds
-
-
-# the other ways to ask -----------------------------------------------------------------------------------------------
 
 
 UNRELATED: Data = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -71,22 +70,6 @@ def test_a_brake_says_by_which_clutch_it_holds(accepted: Callable[[str], GearTra
     train = accepted(DIFFERENTIAL + text)
     assert train.solve("open")["crown"] == 2
     assert "'spider' is fixed by B, which fixes 'crown'" in train.solve("held").verdict.text
-
-
-def test_solve_check_report_and_json_agree_on_a_held_spider(tmp_path: Path) -> None:
-    path = tmp_path / "held.yaml"
-    path.write_text(DIFFERENTIAL + "fixed: [spider]\ninputs: {left: 1}\n")
-    solved, checked, reported = (call(*verb.split(), path) for verb in ("solve", "check", "report"))
-    assert (solved.exit_code, checked.exit_code, reported.exit_code) == (1, 1, 1)
-    (verdict, one) = (
-        json.loads(call("solve", "--json", *more, path).stdout)["states"][0]["verdict"]
-        for more in ([], ["--of", "crown"])
-    )
-    text = verdict["text"]
-    assert verdict["kind"] == one["kind"] == "locked"
-    assert "which fixes 'crown'" in text
-    assert all(text in told.stdout for told in (solved, checked))
-    assert text.split(":")[0] in reported.stdout
 
 
 @pytest.mark.parametrize("axes", ["", "axes: {A: {direction: [1, 0, 0]}, B: {direction: [0, 0, 1]}}\n"])

@@ -9,8 +9,6 @@ from models import pair, refusal
 
 from geartrain import GearTrainError, load
 
-# fixed, locks, clutches and states ------------------------------------------------------------------------------------
-
 FREE_SET = """
 links:
   frame: {{}}

@@ -15,10 +15,8 @@ import pytest
 import geartrain
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.numerics.exact import OTHER_PI, PI, pi_text
-from geartrain.report.answers import answer_text
 from geartrain.teeth.couplings.crank_slider import CrankSliderTransmission
-from geartrain.train import with_long_forms, with_short_forms
+from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
 RACK = """
 links: {frame: {}, pinion: {}, carriage: {}}
@@ -31,38 +29,8 @@ inputs: {pinion: 1}
 
 def shown(train: GearTrain, name: str) -> str:
     """Return the line of a link in the output of `geartrain solve`, with single blanks."""
-    lines = (" ".join(line.split()) for line in answer_text(train.solve()).splitlines())
+    lines = (" ".join(line.split()) for line in str(train.solve()).splitlines())
     return next(line for line in lines if line.startswith(f"{name} "))
-
-
-# ------------------------------------------------------------------------------------------------------ number for pi
-
-
-def is_prime(number: int) -> bool:
-    """Return the result of the Miller-Rabin test, which is certain below 3.3e24 for these bases."""
-    odd, twos = number - 1, 0
-    while odd % 2 == 0:
-        odd, twos = odd // 2, twos + 1
-    for base in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41):
-        x = pow(base, odd, number)
-        if x not in (1, number - 1) and not any((x := x * x % number) == number - 1 for _ in range(twos - 1)):
-            return False
-    return True
-
-
-@pytest.mark.parametrize("number", [PI, OTHER_PI])
-def test_pi_is_a_quotient_of_primes_nearer_than_a_float(number: Fraction) -> None:
-    assert is_prime(number.numerator)
-    assert is_prime(number.denominator)
-    digits = Fraction("3.14159265358979323846264338327950288")
-    assert abs(number / digits - 1) < Fraction(1, 10**18)
-    assert float(number) == pi
-
-
-def test_a_value_that_is_no_multiple_of_pi_is_printed_as_a_decimal() -> None:
-    assert pi_text(1 + PI) == "≈ 4.14159265359"
-    assert pi_text(PI * PI) == "≈ 9.86960440109"
-    assert pi_text(-3 / PI) == "-3/π"
 
 
 def test_a_travel_with_and_without_pi_is_marked_as_not_exact() -> None:
@@ -77,9 +45,6 @@ inputs: {a: 1, b: 1}
 """.replace("c: {}}", "c: {}, d: {}}"))  # fmt: skip
     assert shown(train, "d") == f"d ≈ {pi - 1:.12g} mm {pi - 1:.12g} mm (not exact: contains π)"
     assert dict(train.solve().contains_pi) == {"frame": False, "a": False, "b": False, "c": False, "d": True}
-
-
-# -------------------------------------------------------------------------------------------------------------- cases
 
 
 def test_t1_a_rack() -> None:
@@ -243,9 +208,6 @@ def test_a_slider_is_where_its_rod_reaches() -> None:
     assert law.error_moments()[0] == pytest.approx(law.error(S[:-1]).mean(), rel=1e-12)
 
 
-# ------------------------------------------------------------------------------------------------- carriers that slide
-
-
 def test_travel_adds_along_slides_of_one_axis() -> None:
     train = geartrain.load("""
 links: {frame: {}, a: {}, b: {}, c: {}, d: {}}
@@ -335,9 +297,6 @@ inputs: {{a: 1}}
     assert verdict.loops[0].product in (Fraction(5, 4), Fraction(4, 5))
 
 
-# ----------------------------------------------------------------------------------------------------- speeds per time
-
-
 def test_travel_per_time_follows_the_unit_of_the_inputs() -> None:
     assert geartrain.load(RACK.replace("pinion: 1", "pinion: 30 rpm")).declaration.travel_unit == "mm/min"
     train = geartrain.load(RACK.replace("pinion: 1", "carriage: 0.9 m/s"))
@@ -370,9 +329,6 @@ def test_outputs_of_slides_are_judged_as_lengths() -> None:
         ("targets: [{speed: 113 mm, tolerance: 0.01 %}]", False),
     ):
         assert bool(geartrain.load(f"{RACK}outputs: {{carriage: {{{key}}}}}\n").solve()) is holds, key
-
-
-# ------------------------------------------------------------------------------------------------------------- mistakes
 
 
 DRUM = "kind: drum, turns: pinion, slides: carriage, diameter: 40 mm"
@@ -467,9 +423,6 @@ def test_a_mistake_is_refused_with_its_fix(mistake: str) -> None:
     with pytest.raises(GearTrainError) as refused:
         geartrain.load(RACK.replace(old, new)).circuits  # noqa: B018
     assert said in str(refused.value)
-
-
-# ------------------------------------------------------------------------------------------- motion, forms, inheritance
 
 
 def test_the_anomaly_of_a_pin_reaches_a_rack_in_millimetres() -> None:

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 import shipped
-from commands import call
 from hypothesis import given, settings
 from joint_rates import move
 from random_trains import driven_train
@@ -148,9 +147,6 @@ def test_a_speed_beyond_floats_is_refused_in_words() -> None:
         WillisSystem(("frame", "a"), rows).matrix()
 
 
-# ------------------------------------------------------------------------------------------------- solved by the train
-
-
 @pytest.mark.parametrize("name", ["pennestri-2002", "three-planets", "four-gear-loop", "humpage"])
 def test_the_sparse_method_factorises_exactly_this_matrix(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     train, factorised = shipped.train(name), []
@@ -206,21 +202,7 @@ def test_conditions_are_those_of_the_dense_inverse(seed: int) -> None:
         assert condition == (pytest.approx(reach[at] / abs(speeds[at]), rel=1e-6) if speeds[at] else np.inf)
 
 
-def test_the_older_name_of_the_method_is_the_same_method() -> None:
-    train = load("pennestri-2002")
-    assert train.solve(method="sparse").to_dict() == train.solve(method="floats").to_dict()
-    assert "residual" not in train.solve(method="exact").to_dict()
-
-
 def test_a_frame_or_a_link_at_rest_has_an_infinite_condition() -> None:
     found = load("two-k-h-10000").kinematics.floats().condition
     assert found["case"] == found["held"] == np.inf
     assert round(found["output"]) == 80399
-
-
-def test_the_command_tells_condition_estimate_and_residual() -> None:
-    out = call("solve", "two-k-h-10000", "--method", "sparse").output
-    assert "condition 8.04e+04, estimate" in out
-    assert out.splitlines()[-1].startswith("  residual: at most ")
-    assert out == call("solve", "two-k-h-10000", "--method", "floats").output
-    assert "inf" not in out.split()

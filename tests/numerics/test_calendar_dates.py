@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.train import date_of, julian_day, read_date
+from geartrain.train.periods import date_of, julian_day, read_date
 
 REFORM = Fraction("2299160.5")  # 1582-10-15
 

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from geartrain import GearTrain
 from geartrain.errors import RangeError
 from geartrain.numerics import decimal
-from geartrain.numerics.exact import abridged_text, as_float, count_digits, fraction_text, is_short, read_fraction
+from geartrain.numerics.exact import fraction_text, read_fraction
 
 MINIMUM = 640  # digits: no process can set its limit lower, but for none at all
 PAIRS = 60
@@ -82,14 +82,12 @@ whole = st.integers(-(10**30), 10**30) | st.builds(
 @example(10**640)
 @example(10**640 - 1)
 @example(-(10**2500))
-def test_integers_of_any_size_are_written_and_counted_as_python_does_without_its_limit(number: int) -> None:
+def test_integers_of_any_size_are_written_as_python_does_without_its_limit(number: int) -> None:
     sys.set_int_max_str_digits(0)
     plain = str(number)
     sys.set_int_max_str_digits(MINIMUM)
     assert fraction_text(number) == plain
-    assert count_digits(number) == len(plain.lstrip("-"))
     assert read_fraction(plain) == number
-    assert is_short(number, 40) == (len(plain) <= 40)
 
 
 @given(whole, whole.filter(bool))
@@ -105,7 +103,7 @@ def test_decimals_beyond_floats_are_right_to_half_a_unit_of_their_last_digit(
     top: int, bottom: int, digits: int
 ) -> None:
     value = Fraction(top, bottom)
-    assume(as_float(value) is None)
+    assume(not Fraction(1, 10**308) < abs(value) < 10**309)
     mantissa, _, exponent = decimal(value, digits).partition("e")
     assert len(mantissa.lstrip("-")) == digits + 1
     unit = Fraction(10) ** (int(exponent) - digits + 1)
@@ -122,8 +120,7 @@ def test_a_long_number_is_told_by_its_decimal_and_the_number_of_its_digits(tmp_p
     file.write_text(json.dumps(FAR | {"outputs": {"last": {"of": LAST}}}), encoding="utf-8")
     value = long(999_999_999_999, 17)
     told = call("solve", file, "--of", "last").output
-    assert abridged_text(value) == "(720 digits)/(74 digits)"
-    assert abridged_text(value) in told
+    assert "(720 digits)/(74 digits)" in told
     assert decimal(value, 12) in told
     assert "e+6" in told
 
@@ -142,7 +139,7 @@ def test_json_has_every_digit(tmp_path: Path) -> None:
 
 def test_a_notebook_shows_a_long_number_short() -> None:
     answer = GearTrain.declare(chain(999_999_999_999, 17)).solve()
-    assert abridged_text(long(999_999_999_999, 17)) in answer._repr_html_()
+    assert "(720 digits)/(74 digits)" in answer._repr_html_()
 
 
 TOLD = [("solve",), ("solve", "--json"), ("check",), ("report",), ("report", "--json")]

@@ -6,19 +6,16 @@ import json
 import math
 import multiprocessing
 import os
-import random
 import resource
 import signal
 import subprocess
 import sys
-from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import closing, contextmanager
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
-from threading import Lock
 from typing import Any
 
 import pytest
@@ -35,14 +32,11 @@ from clusters import (
     small_cluster,
     until,
 )
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from places import TESTS
 
 from geartrain.errors import GearTrainError, MissingExtraError, QuestionError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.numerics.work import cores
-from geartrain.numerics.work.worker_pool import WorkerPool
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -93,18 +87,11 @@ def executor(request: pytest.FixtureRequest) -> Iterator[Executor | None]:
         yield request.getfixturevalue(request.param)
 
 
-# --- results --------------------------------------------------------------------------------------------------------
-
-
 def test_results_come_in_the_order_of_the_tasks_and_are_the_same_whoever_works(executor: Executor | None) -> None:
     wanted = [
         {"n": n, "third": n / 3, "huge": n**40, "pair": [n, None], "text": "Zähne\n", "no": []} for n in range(40)
     ]
     assert list(run(mixed, range(40), executor)) == wanted
-
-
-def test_no_tasks_have_no_results(executor: Executor | None) -> None:
-    assert list(run(mixed, [], executor)) == []
 
 
 def test_a_journal_changes_no_result_and_gives_it_again_without_work(executor: Executor | None, tmp_path: Path) -> None:
@@ -173,20 +160,6 @@ def test_progress_is_told_at_most_ten_times_a_second_and_to_the_end(monkeypatch:
     assert told[-1][:2] == (7, 0)
 
 
-def test_progress_counts_what_a_journal_has(executor: Executor | None, tmp_path: Path) -> None:
-    with Journal(tmp_path / "journal", {}) as journal, closing(run(mixed, range(20), executor, journal)) as results:
-        for _ in range(5):
-            next(results)
-    told: list[tuple[int, int]] = []
-    with Journal(tmp_path / "journal", {}) as journal:
-        list(run(mixed, range(20), executor, journal, lambda done, total: told.append((done, total))))
-    assert told == sorted(told)
-    assert told[-1] == (20, 20)
-
-
-# --- workers that die -----------------------------------------------------------------------------------------------
-
-
 def test_a_worker_killed_in_the_middle_costs_nothing_but_time(
     crew: Executor, processes: Executor, tmp_path: Path
 ) -> None:
@@ -227,74 +200,6 @@ def test_a_cluster_gives_up_a_task_that_kills_its_workers(cluster: Any, dask: Ex
     assert list(run(mixed, range(3), dask)) == list(run(mixed, range(3)))
 
 
-@settings(max_examples=30)
-@given(
-    width=st.integers(1, 4),
-    deadly=st.dictionaries(st.integers(0, 39), st.sampled_from([1, 1, 1, 99]), max_size=6),
-    seed=st.integers(0, 999),
-)
-def test_only_a_task_that_kills_is_blamed_and_one_accident_is_forgiven(
-    width: int, deadly: dict[int, int], seed: int
-) -> None:
-    killers = {task for task, times in deadly.items() if times == 99}
-    with closing(Mortal(width, dict(deadly), seed)) as crew:
-        results = run(abs, range(40), crew)
-        if killers:
-            with pytest.raises(GearTrainError, match="kills its worker") as caught:
-                list(results)
-            assert int(caught.value.problems[0].what.split()[1]) in killers
-        else:
-            assert list(results) == list(range(40))
-        assert crew.most <= 4 * width
-
-
-class Mortal(WorkerPool):
-    """A pool in this process: tasks end in any order; those that are deadly so many times take all others along."""
-
-    def __init__(self, width: int, deadly: dict[int, int], seed: int) -> None:
-        self._width, self.deadly, self.draw = width, deadly, random.Random(seed)
-        self.waiting: list[tuple[Future[Any], Any, Any]] = []
-        self.died: Counter[int] = Counter()
-        self.most = 0
-        self.lock, self.thread = Lock(), ThreadPoolExecutor(1)
-
-    @property
-    def width(self) -> int:
-        return self._width
-
-    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        future: Future[Any] = Future()
-        with self.lock:
-            self.waiting.append((future, fn, args))
-            self.most = max(self.most, len(self.waiting))
-            if any(self.died[task] >= 2 for _, _, (_, task) in self.waiting):
-                assert len(self.waiting) == 1, "a suspect runs alone"
-        self.thread.submit(self.step)
-        return future
-
-    def step(self) -> None:
-        with self.lock:
-            ended = self.waiting.pop(self.draw.randrange(len(self.waiting))) if self.waiting else None
-            if ended is None:
-                return
-            future, fn, args = ended
-            gone = []
-            if self.deadly.get(args[1], 0):
-                self.deadly[args[1]] -= 1
-                gone, self.waiting = [ended, *self.waiting], []
-                self.died.update(task for _, _, (_, task) in gone)
-        for each, _, _ in gone:
-            each.set_exception(BrokenExecutor("killed"))
-        if not gone:
-            future.set_result(fn(*args))
-
-    def close(self) -> None:
-        self.thread.shutdown()
-
-    def dismiss(self) -> None:
-        self.close()
-
-
 def test_a_pool_that_stays_broken_is_said() -> None:
     class Plain(Executor):
         def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
@@ -324,9 +229,6 @@ def test_tasks_cancelled_just_before_a_worker_dies_upset_nothing(tmp_path: Path)
         for future in futures[:5]:
             with pytest.raises(BrokenExecutor):
                 future.result(timeout=PATIENCE)
-
-
-# --- the journal ----------------------------------------------------------------------------------------------------
 
 
 def kept(path: Path, question: Any, results: list[Any]) -> bytes:
@@ -487,8 +389,6 @@ def a_full_disk(size: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-# --- runs that are cut ----------------------------------------------------------------------------------------------
-
 SCRIPT = """
 import json, sys
 sys.path.insert(0, {tests!r})
@@ -538,9 +438,6 @@ def test_an_iterator_that_is_left_keeps_what_was_finished_meanwhile(processes: E
             until(lambda: len(begun(tmp_path)) >= 8, "the tasks in flight")
             until(lambda: processes.submit(abs, 1).result(timeout=PATIENCE), "all before this one")
         assert len(journal) >= 7
-
-
-# --- whom to ask ----------------------------------------------------------------------------------------------------
 
 
 def test_one_worker_is_this_process_and_brings_no_pool() -> None:
@@ -659,55 +556,34 @@ for address in ("tcp://127.0.0.1:1", "nonsense://x", "tcp://", ""):
     assert done.stdout.count("no dask scheduler responds") == 4
 
 
-def dask_pool(address: str, **given: float) -> Any:
-    from geartrain.numerics.work.cluster import DaskPool
-
-    return DaskPool(address, **given)
-
-
 def test_a_cluster_of_another_version_is_refused(cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     here = os.getpid()
     monkeypatch.setattr("geartrain.numerics.work.cluster.version", lambda _: "9.9" if os.getpid() == here else "9.8")
     with pytest.raises(GearTrainError, match=r"runs another version of geartrain than 9\.9") as caught:
-        dask_pool(cluster.scheduler_address)
+        open_executor(dask=cluster.scheduler_address).__enter__()
     assert caught.value.problems[0].why == "its workers run 9.8"
     assert "9.9" in caught.value.problems[0].fix
 
 
-def test_a_cluster_without_workers_is_told() -> None:
+def test_a_cluster_without_workers_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
-    with (
-        distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0", silence_logs=60) as cluster,
-        pytest.raises(GearTrainError, match="has no workers"),
-    ):
-        dask_pool(cluster.scheduler_address, answer=0.3)
+    monkeypatch.setattr("geartrain.numerics.work.cluster.DaskPool.__init__.__defaults__", (0.3,))
+    local = distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0", silence_logs=60)
+    with local, pytest.raises(GearTrainError, match="has no workers"):
+        open_executor(dask=local.scheduler_address).__enter__()
 
 
 def test_a_cluster_that_is_lost_in_the_middle_is_told_and_what_it_did_is_kept(cluster: Any, tmp_path: Path) -> None:
     tasks = [(str(tmp_path), n, 2) for n in range(9)]
-    crew = dask_pool(cluster.scheduler_address)
-    with Journal(tmp_path / "journal", {}) as journal, closing(run(gated, tasks, crew, journal)) as results:
-        assert [next(results), next(results)] == [0, 1]
-        crew._client.loop.add_callback(crew._client.scheduler_comm.comm.abort)
-        with pytest.raises(GearTrainError, match="the work was interrupted"):
-            next(results)
-    until(lambda: crew._client.status == "running", "the client to find the scheduler again: it leaves nothing open")
-    crew.dismiss()
+    with open_executor(dask=cluster.scheduler_address) as found:
+        crew: Any = found
+        with Journal(tmp_path / "journal", {}) as journal, closing(run(gated, tasks, crew, journal)) as results:
+            assert [next(results), next(results)] == [0, 1]
+            crew._client.loop.add_callback(crew._client.scheduler_comm.comm.abort)
+            with pytest.raises(GearTrainError, match="the work was interrupted"):
+                next(results)
+        until(lambda: crew._client.status == "running", "the client to find the scheduler: it leaves nothing open")
     (tmp_path / "gate").touch()
     with Journal(tmp_path / "journal", {}) as journal:
         assert len(journal) == 2
         assert list(run(gated, tasks, None, journal)) == [n**2 for n in range(9)]
-
-
-def test_a_cluster_whose_workers_do_not_come_back_is_told(cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    now = 0.0
-    monkeypatch.setattr("geartrain.numerics.work.cluster.monotonic", lambda: now)
-    crew = dask_pool(cluster.scheduler_address)
-    monkeypatch.setattr(crew._client, "nthreads", dict)
-    now = 60.0
-    crew.check()
-    now = 61.0
-    with pytest.raises(GearTrainError, match=r"the scheduler at .* has lost all its workers") as caught:
-        crew.check()
-    assert "60 s" in caught.value.problems[0].why
-    crew.dismiss()

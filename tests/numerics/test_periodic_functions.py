@@ -8,7 +8,6 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from geartrain.errors import RangeError
 from geartrain.numerics.periodic_function import (
     HarmonicSeries,
     PeriodicFunction,
@@ -53,12 +52,6 @@ def test_a_cubic_table_is_the_periodic_spline(values: list[float]) -> None:
         value, slope = _spline(values, at)
         assert float(table(float(at))) == pytest.approx(float(value), abs=1e-13)
         assert float(table.derivative(float(at) + 5)) == pytest.approx(float(slope), abs=1e-11)
-
-
-def test_twelve_points_have_extremes_between_them() -> None:
-    table = PeriodicTable([k / 12 for k in range(12)], TWELVE, 1.0, "cubic")
-    assert table.extremes() == pytest.approx((-14.508061186, 16.443871908), abs=5e-10)
-    assert float(table.derivative(0.87)) == pytest.approx(-55.586296615, abs=5e-10)
 
 
 def test_pchip_stays_within_its_points_and_steps_keep_them() -> None:
@@ -146,28 +139,3 @@ def test_breakpoints_of_parts_that_coincide_but_for_rounding_are_one() -> None:
     whole = PeriodicSum(parts, 2.1)
     assert len(whole.breakpoints) == 21
     assert whole.extremes()[1] == pytest.approx(2, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("positions", "interpolation", "message"),
-    [
-        ([0, 0.5, 0.4], "pchip", "not above"),
-        ([0, 0.5, 0.5], "pchip", "not above"),
-        ([0, 0.5, 1.0], "linear", "outside the period"),
-        ([-0.1, 0.5, 0.6], "linear", "outside the period"),
-        ([0, 0.3, 0.6], "cubic", "not enough points"),
-        ([0, 0.3, float("nan")], "pchip", "not finite"),
-        ([0, 0.3, 0.6], "quintic", "not an interpolation"),
-    ],
-)
-def test_points_that_define_no_periodic_function_are_refused(
-    positions: list[float], interpolation: str, message: str
-) -> None:
-    with pytest.raises(RangeError, match=message):
-        PeriodicTable(positions, [0.0, 1.0, 0.5], 1.0, interpolation)  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize("n", [0, -1, 1.5])
-def test_orders_that_are_not_whole_numbers_are_refused(n: int) -> None:
-    with pytest.raises(RangeError, match="whole numbers"):
-        HarmonicSeries([(n, 0.1, 0.0)], 1.0)

@@ -19,7 +19,7 @@ pytest.importorskip("matplotlib")
 
 
 def every_kind() -> list[type[Any]]:
-    for room in ("analysis", "dynamics", "search", "simulation", "workshop"):
+    for room in ("analysis", "dynamics", "teeth", "search", "simulation", "workshop"):
         package = importlib.import_module(f"geartrain.{room}")
         for module in pkgutil.walk_packages(package.__path__, f"geartrain.{room}."):
             importlib.import_module(module.name)

@@ -116,8 +116,6 @@ def test_modules_are_named_by_nouns() -> None:
     assert sorted(filter(participle, stems)) == []
 
 
-# ----------------------------------------------------------------------------- names of modules in texts and in strings
-
 # files whose `geartrain` is the object that a page with the viewer gives to scripts
 OF_THE_PAGE = {"docs/viewer.md", *(f"tests/browser/{path.name}" for path in (TESTS / "browser").glob("*.py"))}
 # files that a command writes, and a name that is to be missing

@@ -78,18 +78,12 @@ def data(*arguments: str) -> Any:
     return json.loads(done.stdout)
 
 
-# ---------------------------------------------------------------------------------------------------- all kinds
-
-
 @pytest.mark.parametrize("name", KINDS)
 def test_the_answers_of_every_kind_of_train_hold(files: Path, name: str) -> None:
     for verb in ("solve", "torques", "report", "compare"):
         holds(verb, data(verb, f"{name}.yaml", "--json"))
     holds("solve", data("solve", f"{name}.yaml", "--method", "floats", "--json"))
     holds("solve", data("solve", f"{name}.yaml", "--of", "c", "--json"))
-
-
-# --------------------------------------------------------------------------------------------------- one shape of each
 
 
 @pytest.mark.parametrize("verb", ["solve", "torques", "report", "compare"])
@@ -122,8 +116,6 @@ def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
         call(verb, "plain.yaml", "-o", f"{verb}.json")
         assert json.loads((files / f"{verb}.json").read_text(encoding="utf-8")) == data(verb, "plain.yaml", "--json")
 
-
-# ------------------------------------------------------------------------------------------------- all other questions
 
 RATIO = ("teeth", "ratio", "7/3", "--stages", "1", "--best", "2")
 CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--cutting", "pitch_deviation=2 %")

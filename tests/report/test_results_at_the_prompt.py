@@ -135,7 +135,7 @@ RESULTS: dict[str, Case] = {
     "build findings": (lambda: load(SMALL_RING).build_findings[0], None),
     "gearbox": (lambda: load("zf-8hp70").gearbox(), ("gearbox", "zf-8hp70")),
     "gear search": (lambda: room("analysis").find_gears(load("zf-8hp70")), ("gearbox", "zf-8hp70", "--search")),
-    "accuracy": (lambda: room("analysis").find_accuracy(load("planetary-24-18-60"), None, 100), None),
+    "accuracy": (lambda: room("analysis.accuracy").find_accuracy(load("planetary-24-18-60"), None, 100), None),
     # core: torques, motion
     "torques": (lambda: load("longcase-clock-loaded").torques(), ("torques", "longcase-clock-loaded")),
     "driven": (lambda: load("planetary-24-18-60").driven("carrier", "sun"), None),
@@ -332,20 +332,6 @@ def closed(page: str) -> str:
     """HTML with no element that XML would take for open."""
     assert not re.search(r"<(br|img|hr|input)\b[^>]*[^/]>", page)
     return page
-
-
-@pytest.mark.needs("pandas")
-@pytest.mark.parametrize("name", [name for name in RESULTS if name not in ("train",)])
-def test_a_table_has_meanings_and_units(name: str) -> None:
-    result = made(name)
-    if not hasattr(result, "to_frame"):
-        pytest.skip("not tabular")
-    frame = result.to_frame()
-    assert len(frame) > 0
-    assert [column for column in frame.columns if not frame.attrs["meanings"].get(column)] == []
-    numbers = [column for column in frame.columns if frame[column].dtype.kind == "f"]
-    counts = ("teeth", "events", "mode", "* angle")
-    assert [column for column in numbers if column not in frame.attrs["units"] and column not in counts] == []
 
 
 @cache

@@ -20,9 +20,8 @@ from places import ROOT
 
 from geartrain import load
 from geartrain.errors import Problem, printable
-from geartrain.numerics.files import LongTable, csv_line, csv_lines, csv_text
-from geartrain.report import Document, Section, Table, collect_report, to_markdown, to_text
-from geartrain.report.train_report import describe_train
+from geartrain.numerics.files import csv_line, csv_lines, csv_text
+from geartrain.report import Document, Section, Table, to_markdown, to_text
 
 EVIL = "\x1b]0;owned\x07\x1b[2J\x9b31m\u202etxt"
 STEERING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2028\u2029]")
@@ -47,9 +46,6 @@ def hostile(tmp_path: Path) -> Path:
     path = tmp_path / "t.yaml"
     path.write_text(json.dumps(HOSTILE), encoding="utf-8")
     return path
-
-
-# ----------------------------------------------------------------------------------------------------------------- CSV
 
 
 @given(st.lists(st.lists(st.text(max_size=8), min_size=1, max_size=4), min_size=1, max_size=4))
@@ -123,18 +119,6 @@ def outputs() -> list[str]:
     return [word for name in NAMES for word in (f"--of={name}",)]
 
 
-def test_an_interrupted_table_with_such_names_is_taken_up(tmp_path: Path) -> None:
-    header = csv_line([*NAMES, "line\nfeed"])
-    try:
-        with LongTable(tmp_path / "x.csv", header) as table:
-            table.write(csv_lines([[1.0] * 8]))
-            raise KeyboardInterrupt
-    except KeyboardInterrupt:
-        pass
-    with LongTable(tmp_path / "x.csv", header, resume=True) as table:
-        assert table.rows == 1
-
-
 def test_every_other_csv_is_made_in_the_same_place(tmp_path: Path, hostile: Path) -> None:
     assert call("export", hostile, "--to", tmp_path / "set", "--as", "csv").exit_code == 1
     for path in (tmp_path / "set").rglob("*.csv"):
@@ -148,9 +132,6 @@ def test_every_other_csv_is_made_in_the_same_place(tmp_path: Path, hostile: Path
     source = ROOT / "geartrain"
     uses = [path for path in source.rglob("*.py") if re.search(r"^\s*import csv$", path.read_text("utf-8"), re.M)]
     assert [path.name for path in uses if "csv.writer" in path.read_text("utf-8")] == ["tabular.py"]
-
-
-# -------------------------------------------------------------------------------------------------------- Markdown, XML
 
 
 def test_markdown_holds_no_html_of_a_user() -> None:
@@ -174,8 +155,6 @@ def test_a_report_of_a_hostile_train_holds_none(verb: str, hostile: Path) -> Non
     inner = [child for token in tokens for child in token.children or ()]
     assert not [token for token in (*tokens, *inner) if token.type.startswith("html")]
 
-
-# ------------------------------------------------------------------------------------------------------------ terminals
 
 SHOWN = [
     *(("report",), ("report", "--json"), ("compare",), ("compare", "--all"), ("compare", "--json")),
@@ -244,7 +223,7 @@ def test_no_complaint_of_a_wrong_command_line_steers_one(words: tuple[str, ...])
 
 
 def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
-    text = to_text([describe_train(collect_report(load(hostile)))], 200)
+    text = to_text([load(hostile).report()], 200)
     assert not STEERING.search(text)
     assert "\\x1b]0;owned" in text
 

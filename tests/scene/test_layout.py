@@ -6,7 +6,6 @@ import cmath
 import itertools
 import math
 import random
-import sys
 from collections.abc import Iterator
 
 import numpy as np
@@ -17,7 +16,6 @@ from shapely.geometry import Point
 
 import geartrain
 from geartrain.scene import Layout, WheelPlace, lay_out
-from geartrain.scene.layout.parallel_groups import find_axial_slots
 
 NAMES = sorted(path.stem for path in train_files())
 Z = np.array([0.0, 0.0, 1.0])
@@ -260,21 +258,6 @@ def test_an_arbor_runs_to_its_dial_past_a_wheel_that_covers_it(face: str, large_
     above = layout.wheels["A"].centre[2] - layout.wheels["C"].centre[2]
     assert above > 1 if face == "front" else above < -1
 
-
-def test_slots_are_found_in_a_row_longer_than_calls_may_be_deep() -> None:
-    """Two wheels of a long row collide: the search examines the whole row, without recursion."""
-    count = sys.getrecursionlimit() + 100
-    row = [(f"w{at}", f"w{at + 1}") for at in range(count)]
-    near, far = f"w{count - 10}", f"w{count - 8}"
-    slots = find_axial_slots(row, lambda one, other: (one == near and other == far) or (one == far and other == near))
-    assert len(slots) == count + 1
-    for one, other in row:
-        assert slots[one].low <= slots[other].high, "mates share a slot"
-        assert slots[other].low <= slots[one].high, "mates share a slot"
-    assert slots[near].high < slots[far].low or slots[far].high < slots[near].low
-
-
-# groups of equal planets ----------------------------------------------------------------------------------------------
 
 RAVIGNEAUX = """
 name: planets on planets

@@ -13,7 +13,6 @@ from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.parts import frame_plan
-from geartrain.scene.parts.arbor_columns import AxisColumn, FramePlaces
 
 EFFORT = {"between": Fraction(3), "beyond": Fraction(3, 2), "passes": Fraction(11, 10)}
 CORES = (4.0, 3.0, 2.0, 1.5, 1.0, 0.8)
@@ -32,7 +31,7 @@ def searched(name: str, patch: pytest.MonkeyPatch) -> tuple[Search, frame_plan.P
     return calls[0], search(*calls[0])
 
 
-def effort(column: AxisColumn, places: FramePlaces) -> Fraction:
+def effort(column: Any, places: Any) -> Fraction:
     back, front = places.back[0], places.front[0]
     if "stud" in column.bearing.value:
         inside = [each for each in column.members if each.high > back and each.low < front]
@@ -41,7 +40,7 @@ def effort(column: AxisColumn, places: FramePlaces) -> Fraction:
     return EFFORT["passes"] * len(passed)
 
 
-def every_place(search: Search) -> Iterator[tuple[tuple[int, Fraction], bool, FramePlaces, tuple[Any, ...]]]:
+def every_place(search: Search, kind: type[Any]) -> Iterator[tuple[tuple[int, Fraction], bool, Any, tuple[Any, ...]]]:
     """Yield the costs of every pair of gaps with every combination of carrier seats."""
     axes, discs, seats, gaps, blocked, cut = search
     pairs = [(gaps[low], gaps[high]) for high in range(len(gaps) - 1, 0, -1) for low in range(high)]
@@ -51,7 +50,7 @@ def every_place(search: Search) -> Iterator[tuple[tuple[int, Fraction], bool, Fr
             problems = [frame_plan.with_discs(axis, stack) for axis in axes]
             for back, front in pairs:
                 if (back > gaps[0] and front < gaps[-1]) == inside:
-                    places = FramePlaces((back, back), (front, front))
+                    places = kind((back, back), (front, front))
                     best = [frame_plan.best_column(each.columns(places)) for each in problems]
                     bad = sum(len(each.hit) + (each.tangled is not None) for each in best)
                     bad += blocked(chosen) + cut(back) + cut(front)
@@ -61,7 +60,7 @@ def every_place(search: Search) -> Iterator[tuple[tuple[int, Fraction], bool, Fr
 @pytest.mark.parametrize("name", ["longcase-clock", "huygens-planetarium-1682", "zf-9hp48", "pennestri-2002"])
 def test_no_place_of_the_plates_is_better_than_the_one_found(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     search, choice = searched(name, monkeypatch)
-    every = list(every_place(search))
+    every = list(every_place(search, type(choice.places)))
     outer = min((each for each in every if not each[1]), key=lambda each: each[0])
     expected = outer if not outer[0][0] else min(every, key=lambda each: each[0])
     assert (choice.places, choice.seats) == expected[2:]
@@ -69,10 +68,10 @@ def test_no_place_of_the_plates_is_better_than_the_one_found(name: str, monkeypa
 
 
 def test_the_arbor_is_the_thickest_usual_one_that_passes_all_wheels(monkeypatch: pytest.MonkeyPatch) -> None:
-    (axes, discs, _, gaps, *_), _ = searched("freeth-2021", monkeypatch)
+    (axes, discs, _, gaps, *_), choice = searched("freeth-2021", monkeypatch)
     thinned = 0
     for back, front in [(gaps[0], gaps[-1]), (gaps[0], gaps[9]), (gaps[5], gaps[-1]), (gaps[3], gaps[12])]:
-        places = FramePlaces((back, back), (front, front))
+        places = type(choice.places)((back, back), (front, front))
         for problem in (frame_plan.with_discs(axis, discs) for axis in axes):
             for at, column in enumerate(problem.columns(places)):
                 usual = {core: list(replace(problem, core=core).columns(places))[at] for core in CORES}

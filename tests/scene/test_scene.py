@@ -279,7 +279,7 @@ def test_dials_of_one_face_do_not_cover_each_other() -> None:
 
 def test_sizes_stay_small_enough_for_a_page() -> None:
     assert len(json.dumps(shipped.scene("freeth-2021").to_dict())) < 480_000  # engraved dials are half of it
-    assert len(json.dumps(shipped.scene("freeth-2021-teeth").to_dict())) < 900_000
+    assert len(json.dumps(shipped.scene("freeth-2021-teeth").to_dict())) < 800_000
 
 
 def test_what_is_lost_at_wheels_sums_to_what_is_lost_between_teeth() -> None:

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from math import cos, pi, sin
+from math import pi
 from typing import Any
 
 import numpy as np
 import pytest
-import shipped
 from shapely.geometry import Point, Polygon
 from shapely.ops import unary_union
 from test_scene_movement import Reader
 
 from geartrain import GearTrain, load
 from geartrain.scene import Scene, make_scene
-from geartrain.scene.elements import SceneWheel
 
 
 def outline(scene: Scene, number: int, turned: float) -> Any:
@@ -124,63 +122,6 @@ def test_likenesses_mesh_without_cutting_into_each_other() -> None:
         deep, gap = meshing(pair_of(z1, z2, {"form": "ideal"}, ring=ring), steps=5)
         assert deep < 1e-6
         assert gap < 0.1
-
-
-@pytest.mark.parametrize(
-    ("name", "state"),
-    [
-        ("bevel-differential", "turn"),
-        ("south-pointing-chariot", "a bend leftwards"),
-        ("planets-in-place", None),
-        ("freeth-jones-2012", None),
-        ("humpage", None),
-    ],
-)
-def test_where_pitch_circles_touch_a_tooth_meets_a_space(name: str, state: str | None) -> None:
-    """In space, so also for bevel wheels; the point of contact is found by a search on both circles."""
-    scene = shipped.scene(name, state)
-    reader = Reader(scene)
-    for pair in scene.pairs:
-        wheels = [scene.wheels[at] for at in pair.wheels]
-        contact, gap = touching(*wheels)
-        assert gap < 1e-3 * wheels[0].module
-        for turns in (0.0, 0.37, 12.4):
-            angles = reader.angles(turns)
-            teeth = []
-            for wheel, at in zip(wheels, contact, strict=True):
-                pitch = 2 * pi / wheel.teeth
-                turned = wheel.turn + angles[wheel.body] - angles[pair.carrier] - at
-                teeth.append((turned % pitch) / pitch * forwards(wheel, at))
-            along = float(np.dot(teeth[0], teeth[1]))
-            where = [float(np.linalg.norm(each)) for each in teeth]
-            off = (where[0] - (where[1] if along > 0 else -where[1])) % 1
-            assert off == pytest.approx(0.5, abs=1e-3)
-
-
-def forwards(wheel: SceneWheel, angle: float) -> Any:
-    """Return the direction of motion of a rim at an angle, as a unit vector."""
-    u, v = frame_of(wheel)
-    return -sin(angle) * u + cos(angle) * v
-
-
-def frame_of(wheel: SceneWheel) -> tuple[Any, Any]:
-    u = np.array(wheel.reference)
-    return u, np.cross(wheel.direction, u)
-
-
-def touching(first: SceneWheel, second: SceneWheel) -> tuple[list[float], float]:
-    """Return the angles at which two pitch circles are nearest, and the distance, by successively finer grids."""
-    middle, reach = np.zeros(2), pi
-    for _ in range(14):
-        grid = [centre + reach * np.linspace(-1, 1, 73) for centre in middle]
-        points = []
-        for wheel, at in zip((first, second), grid, strict=True):
-            u, v = frame_of(wheel)
-            points.append(np.array(wheel.centre) + wheel.radius * (np.outer(np.cos(at), u) + np.outer(np.sin(at), v)))
-        apart = np.linalg.norm(points[0][:, None] - points[1][None], axis=2)
-        best = np.unravel_index(int(apart.argmin()), apart.shape)
-        middle, reach = np.array([grid[0][best[0]], grid[1][best[1]]]), reach / 4
-    return middle.tolist(), float(apart.min())
 
 
 def test_a_bent_wheel_stands_about_its_generator_and_its_wave_rises_by_a_module() -> None:

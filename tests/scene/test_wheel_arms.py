@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from shapely.geometry import Polygon
 
-from geartrain.scene.solids.wheel_blanks import HUB, RIM, spoke_windows
+from geartrain.scene.solids.wheel_blanks import spoke_windows
+
+RIM, HUB = 2.25, 1.125  # depth of the rim [module], radius of the hub [diameter of the bore]
 
 
 @pytest.mark.parametrize(

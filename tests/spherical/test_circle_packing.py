@@ -17,7 +17,6 @@ from scipy.spatial import ConvexHull
 
 from geartrain import GearTrainError
 from geartrain.spherical import GraphSet, from_graph, from_polyhedron
-from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_rows
 
 Floats = NDArray[np.float64]
 Edge = tuple[str, str]
@@ -108,9 +107,6 @@ def check_in_space(packing: Any, digits: float = 1e-14) -> None:
     assert np.abs(packing.pitch_points.sum(axis=0)).max() < 1e-12 * len(packing.meshes)
 
 
-# packings ------------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("solid", "cones"),
     [
@@ -180,9 +176,6 @@ def test_a_thousand_gears_pack_and_close() -> None:
     assert found.exact == ("phases",)
 
 
-# gears from graphs ---------------------------------------------------------------------------------------------------
-
-
 def check_pitch(found: GraphSet) -> None:
     """One pitch, measured in space: the angle of every mesh is the sum of cones of one pitch."""
     axes, z = found.configuration.axes, found.sizing.teeth
@@ -245,20 +238,6 @@ def test_a_map_without_symmetry_with_closed_phases() -> None:
     check_phases(found)
 
 
-def test_closed_phases_have_the_minimum_variance_of_pitches_nearby() -> None:
-    """Along every direction that keeps the loops closed the variance is stationary."""
-    found = from_graph(faces_and_vertices(ASYM), aim="phases", teeth=ASYM_TEETH)
-    z, axes = found.sizing.teeth.astype(float), found.configuration.axes
-    side = nx.bipartite.color(nx.Graph(list(found.configuration.meshes)))
-    corners = corners_of(found.packing.regions, np.array([1 if side[k] else -1 for k in range(len(z))], dtype=np.int64))
-    _, J = loop_sums(axes, corners, z)
-    logs, A = pitch_rows(axes, found.configuration.meshes, z)
-    gradient = A.T @ (logs - logs.mean())
-    _, values, V = np.linalg.svd(J.toarray())
-    free = V[(values > 1e-9 * values[0]).sum() :]
-    assert np.abs(free @ gradient).max() < 1e-7
-
-
 @pytest.mark.parametrize("aim", ["pitch", "phases"])
 def test_solids_that_close_are_found_again(aim: str) -> None:
     graph = from_polyhedron("icosidodecahedron").meshes
@@ -307,9 +286,6 @@ def test_a_networkx_graph_serves_as_well_as_pairs() -> None:
     assert "exact pitch and phases" in str(found)
 
 
-# idlers --------------------------------------------------------------------------------------------------------------
-
-
 def test_idlers_on_all_edges_of_a_tetrahedron_stand_on_the_cube() -> None:
     """Stand-ins on the faces make it the packing of the cuboctahedron, with six faces for idlers."""
     corners = nx.complete_graph(4)
@@ -339,9 +315,6 @@ def test_one_idler_across_a_face_is_put_in() -> None:
     assert len(found.configuration.axes) == 9
     assert overlaps(found.packing.axes, found.packing.cones) == 0
     check_pitch(found)
-
-
-# refusals ------------------------------------------------------------------------------------------------------------
 
 
 def cube_beside_cube() -> list[tuple[int, int]]:

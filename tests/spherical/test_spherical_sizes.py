@@ -63,9 +63,6 @@ def tip_gap(teeth: tuple[int, int], kind: str) -> float:
     return degrees(acos(max(float(axes[0] @ axis) for axis in axes[1:])) - 2 * cone - 2 * module)
 
 
-# one pair ------------------------------------------------------------------------------------------------------------
-
-
 def pair_of(S: float, z_1: int, z_2: int) -> SphereSizing:
     """Sizes of two gears whose axes are an angle S [rad] apart."""
     axes = np.array([[0, 0, 1.0], [sin(S), 0, cos(S)]])
@@ -112,9 +109,6 @@ def test_two_pitches_have_cosines_about_that_of_the_mean() -> None:
     alpha = np.unique(size_gears(from_polyhedron("5-4-3", teeth={"5": 15, "4": 12, "3": 6})).pressure.round(12))
     assert len(alpha) == 2
     assert np.prod(np.cos(alpha)) == pytest.approx(cos(radians(20)) ** 2)
-
-
-# sets with one kind of mesh ------------------------------------------------------------------------------------------
 
 
 def test_the_icosidodecahedron_has_the_printed_sizes() -> None:
@@ -185,9 +179,6 @@ def test_sizes_go_to_json() -> None:
     assert len(data["meshes"]) == 24
 
 
-# three types on fixed axes -------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("solid", "teeth", "says"),
     [
@@ -210,8 +201,6 @@ def test_one_pitch_is_given_where_the_teeth_allow_it() -> None:
     assert not size_gears(other).exact
     assert impossibility_theorem(other) == "", "no theorem is against it"
 
-
-# compromises ---------------------------------------------------------------------------------------------------------
 
 # teeth, mismatch, cones of the first and of the second kind of mesh, pressure angles: at the digits printed
 ROWS = [
@@ -369,9 +358,6 @@ def test_loops_that_only_nearly_close_pass_with_a_tolerance() -> None:
 def test_equal_spacing_gives_exact_rules(solid: str, rule: dict[str, Fraction]) -> None:
     assert loop_rules(from_polyhedron(solid)) == (tuple(rule.values()),)  # type: ignore[arg-type]
     assert loop_rules(from_polyhedron("octahedron")) == ()
-
-
-# families ------------------------------------------------------------------------------------------------------------
 
 
 def worst_tangency(configuration: Configuration) -> float:

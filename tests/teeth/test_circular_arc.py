@@ -18,10 +18,7 @@ from shapely.geometry import Polygon
 
 import geartrain
 from geartrain import GearTrain, load
-from geartrain.dynamics.motion.pair_impacts import PairOperation, find_pair_impacts
 from geartrain.errors import GearTrainError
-from geartrain.report import collect_report, to_markdown
-from geartrain.report.train_report import describe_train
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth import CircularArc
 
@@ -64,9 +61,6 @@ def test_leaves_are_thinner_than_half_a_pitch(leaves: int, thickness: float, add
     assert wheel.thickness == pi / 2
     # their spaces are 0.4 modules deeper than the wheel's tips are high
     assert leaf.dedendum == pytest.approx(wheel.addendum + 0.4, rel=1e-12)
-
-
-# the same pair by another way: an epicycloid rolled point by point, polygons that shapely brings to touch ------------
 
 
 def rolled_addendum(leaves: int, ratio: float) -> float:
@@ -139,9 +133,6 @@ def test_polygons_touch_where_the_transmission_says(z1: int, z2: int) -> None:
         assert free == pytest.approx(expected, abs=2e-6)
 
 
-# the law -----------------------------------------------------------------------------------------------------------
-
-
 def test_the_ratio_holds_in_the_mean_and_the_other_flanks_are_the_mirror_image() -> None:
     transmission = FORM.transmission(60, 8, 0.15)
     S = np.linspace(0, transmission.period, 4001)
@@ -170,17 +161,6 @@ def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
     falls = -np.diff(transmission.speed(S)) / np.diff(S)
     assert transmission.steepest_fall() == pytest.approx(falls.max(), rel=1e-3)
     assert transmission.reversed_motion().steepest_fall() == transmission.steepest_fall()
-
-
-def test_collisions_of_any_form_cost_what_inelastic_impacts_do() -> None:
-    transmission, inertia, rate = FORM.transmission(60, 8), 3e-7, 2.0
-    found = find_pair_impacts(transmission, PairOperation(inertia, rate, load=1e-3))
-    (leap,), omega = transmission.speed_leaps(), 2 * pi * rate
-    assert found is not None
-    assert found.dissipated == pytest.approx(inertia * (omega * (leap.after - leap.before)) ** 2 / 2)
-    assert found.handed == pytest.approx(inertia * omega**2 * (leap.after**2 - leap.before**2) / 2)
-    assert inertia * (2 * pi * found.void) ** 2 * transmission.steepest_fall() == pytest.approx(1e-3)
-    assert find_pair_impacts(transmission, PairOperation(rate=rate)) is None
 
 
 def test_friction_costs_and_no_friction_costs_nothing() -> None:
@@ -235,9 +215,6 @@ def test_axles_too_near_jam_and_too_far_part() -> None:
         assert kind in {fault.kind for fault in form.transmission(60, 8).verdict.faults}
 
 
-# a train -------------------------------------------------------------------------------------------------------------
-
-
 @pytest.fixture(scope="module")
 def clock() -> GearTrain:
     return shipped.train("longcase-clock-bs978")
@@ -246,7 +223,7 @@ def clock() -> GearTrain:
 def test_a_shipped_clock_runs_with_them_and_its_hands_stray_by_little(clock: GearTrain) -> None:
     assert not clock.mechanics.faults
     assert {mesh.form for mesh in clock.meshes} == {"circular_arc"}
-    said = " ".join(to_markdown([describe_train(collect_report(clock))]).split())
+    said = " ".join(str(clock.report()).split())
     assert "circular arc" in said
     assert "the contact of their outlines" in said
 
@@ -258,9 +235,6 @@ def test_what_is_cut_has_the_standards_tips(clock: GearTrain) -> None:
     assert great[0].tip_radius / great[1] == pytest.approx(48 + 1.488, abs=0.006)
     assert leaf[0].tip_radius / leaf[1] == pytest.approx(4.67, rel=1e-12)
     assert Polygon(great[0].contours[0].flattened(1e-4)).is_valid
-
-
-# without a line for it anywhere else ---------------------------------------------------------------------------------
 
 
 def test_the_command_of_the_form_tells_what_its_law_does() -> None:

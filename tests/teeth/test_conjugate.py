@@ -147,9 +147,6 @@ def test_points_of_the_profiles_are_those_of_the_table(row: list[str]) -> None:
         assert text == "-" or close(float(value), text, 2)
 
 
-# what no table is needed for -----------------------------------------------------------------------------------------
-
-
 @given(
     st.integers(8, 200),
     st.integers(8, 200),
@@ -187,17 +184,6 @@ def test_every_path_obeys_the_fundamental_law_and_euler_savary(
     for flank, speed in ((partial(found.flank, 1), c.U1), (partial(found.flank, 2), c.U2)):
         moved = np.linalg.norm(flank(at + step) - flank(at - step), axis=-1) / (2 * step)
         np.testing.assert_allclose(moved, np.abs(speed), rtol=1e-5)
-
-
-@given(st.integers(6, 300), st.integers(6, 300), st.floats(5, 40), st.floats(0.1, 0.6))
-@settings(max_examples=40, deadline=None)
-def test_the_loss_of_an_involute_has_its_closed_form(z1: int, z2: int, psi: float, arc: float) -> None:
-    """loss = (A + B) J / X of either side."""
-    for angle in (None, pi / 2):
-        found = involute((z1, z2, angle), psi, (arc, arc))
-        pitch, X, tilted = found.pitch, arc * found.pitch.p, radians(psi)
-        J = X**2 / 2 if angle is None else 2 * sin(X * cos(tilted) / 2) ** 2 / cos(tilted) ** 2
-        assert loss(found) == pytest.approx((pitch.A + pitch.B) * J / X, rel=1e-12)
 
 
 WINDOWS = [
@@ -289,9 +275,6 @@ def test_uniform_stress_is_uniform_and_never_undercuts_from_five_teeth_to_a_hund
         assert c.H[30] == pytest.approx(expected, rel=1e-12)
 
 
-# faults against textbook formulas of the involute --------------------------------------------------------------------
-
-
 @given(st.integers(8, 150), st.integers(8, 150), st.floats(12, 30), st.floats(0.2, 0.9), st.floats(0.2, 0.9))
 @settings(max_examples=60, deadline=None)
 def test_an_involute_is_undercut_from_where_its_line_touches_the_base_circle(
@@ -321,13 +304,6 @@ def test_the_tip_of_an_involute_is_as_wide_as_the_textbook_says(
         half = pi / (2 * z) + (tan(alpha) - alpha) - (tan(tip) - tip)
         assert tip_thickness(pair.path, gear, pair.halves) == pytest.approx(2 * half, abs=1e-12)
         assert any(fault.kind == "pointed" and fault.gear == gear for fault in pair.faults) == (half < 0)
-
-
-def test_a_bevel_pair_of_small_cones_has_the_tips_of_the_spur_pair() -> None:
-    pairs = [involute_pair((24, 36, angle), 20, (0.5, 0.6)) for angle in (None, 3e-3)]
-    for gear in (1, 2):
-        flat, cones = (tip_thickness(pair.path, gear, pair.halves) for pair in pairs)
-        assert cones == pytest.approx(flat, abs=1e-6)
 
 
 def test_a_contact_ratio_below_one_is_named() -> None:

@@ -27,9 +27,6 @@ def inv(angle: float) -> float:
     return tan(angle) - angle
 
 
-# ------------------------------------------------------------------------------------------------------------ outlines
-
-
 def involute(z: int, low: float, high: float, psi: float = TWENTY) -> OutlineCurve:
     """The side ahead of a tooth of module 1 from radius low to high, at azimuth 0 on the pitch circle."""
     base = z / 2 * cos(psi)
@@ -83,9 +80,6 @@ def triangular(z: int, R: float, beta: float, length: float) -> GearOutline:
     return GearOutline((ToothFlanks.symmetric((OutlineCurve(points, 0.0, length),)),), z)
 
 
-# -------------------------------------------------------------------------------------------------------- brute force
-
-
 def dense(curves: tuple[OutlineCurve, ...], number: int = 4001) -> np.ndarray:
     """Many points of a chain of curves, radius and azimuth, (2, n)."""
     parts = [curve.at(np.linspace(curve.start, curve.end, number)) for curve in curves]
@@ -108,9 +102,6 @@ def brute(first: GearOutline, second: GearOutline, distance: float, phi1: float,
         off = np.arctan2(side[inside], far[inside]) - own - j * second.pitch
         found = max(found, float(off.max(initial=-inf)))
     return found
-
-
-# ------------------------------------------------------------------------------------------------------------ involute
 
 
 @pytest.mark.parametrize("distance", [30.0, 30.02, 30.2, 30.5])
@@ -241,9 +232,6 @@ def test_a_measured_tooth_comes_nearer_with_the_square_of_its_points() -> None:
     assert all(3 < a / b < 5 for a, b in pairwise(off)), off
 
 
-# ------------------------------------------------------------------------------------------------------------- lantern
-
-
 PITCH_POINT = 2 * 18 * float(np.arcsin(0.8 / 36))
 
 
@@ -290,8 +278,6 @@ def test_a_pin_fouls_the_beginning_of_a_mate_that_starts_at_the_pitch_point() ->
         assert found - 1e-12 < exact < found + 1e-10
         assert (exact - X / 18 > 1e-6) == (X > 2)
 
-
-# ------------------------------------------------------------------------------------------------- triangular, printed
 
 CASES = [(48, 96, 0.01), (48, 96, 0.025), (96, 72, 0.01), (96, 72, 0.025), (96, 96, 0.01), (96, 96, 0.025)]
 
@@ -346,9 +332,6 @@ def test_triangular_teeth_of_any_number_and_aperture_have_their_transmission(
         return
     phi1 = np.linspace(0, 2 * pi / z1, 57)
     assert np.abs(contact(first, second, sizes.D, phi1).angle - transmission.angle(phi1)).max() < 1e-13
-
-
-# ------------------------------------------------------------------------------------------------------ conjugate teeth
 
 
 def stress(z1: int, z2: int, **wheels: Any) -> PathOfContact:
@@ -418,9 +401,6 @@ def test_an_eccentric_cycloid_repeats_itself_after_the_turns_that_bring_the_same
     assert low > -1e-9
 
 
-# ------------------------------------------------------------------------------------------------- any shape whatever
-
-
 def bulging(z: int, width: float, depth: float, bend: float, wave: float) -> GearOutline:
     """A tooth whose side is a cubic in radius, from width at its root to a sixth of it at its tip."""
 
@@ -461,9 +441,6 @@ def test_tables_are_as_near_to_the_contact_as_they_say(one, two, deep, side) -> 
     off = np.abs(table.angle(phi1) - contact(first, second, distance, phi1, side).angle)[away]
     assert np.nanmax(off, initial=0.0) <= max(table.uncertainty, 1e-13)
     assert table.period == pytest.approx(first.pitch)
-
-
-# ----------------------------------------------------------------------------------------------------------- bad input
 
 
 def test_wheels_too_far_apart_touch_nowhere() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, degrees, hypot, sin
+from math import atan2, cos, degrees, sin
 
 import numpy as np
 import pytest
@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from shapely.affinity import rotate
 from shipped import train as load
 
+from geartrain import load as load_text
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
-from geartrain.teeth.outlines import Contour, repeated
-from geartrain.teeth.outlines.fixed_teeth import escape_tooth
 
 Points = NDArray[np.float64]
 
@@ -29,29 +28,29 @@ def lean(tooth: Points, tip: float, root: float, sense: int) -> float:
 
 @pytest.mark.parametrize(("z", "sense"), [(30, 1), (30, -1), (15, 1), (12, -1), (5, 1), (3, -1)])
 def test_an_escape_wheel_has_its_teeth_evenly_and_its_tips_on_a_circle(z: int, sense: int) -> None:
-    cut = escape_tooth(z, sense).cut()
-    shape = shapely.Polygon(Contour.of(repeated(cut.tooth, z)).flattened(1e-4))
+    train = load_text(
+        f"""
+links: {{frame: {{}}, a: {{wheels: {{w: 40}}}}, e: {{wheels: {{p: 8, points: {z}}}}}}}
+revolutes: {{A: [frame, a], E: [frame, e]}}
+gears: [w ~ p]
+inputs: {{a: {-sense}}}
+escapement: {{link: e, teeth: {z}, beat: 1 s}}
+"""
+    )
+    (blank,) = (
+        each for name, each in SolidModel(train, ManufacturingSizes()).blanks.wheels.items() if name == "points"
+    )
+    shape = shapely.Polygon(blank.contours[0].flattened(1e-4))
     assert shape.is_valid
     assert shape.exterior.is_ccw
-    assert cut.tip == z / 2
     turned = rotate(shape, 360 / z, origin=(0, 0))
     assert shape.symmetric_difference(turned).area < 1e-3
-    assert shape.hausdorff_distance(shapely.Point(0, 0)) == pytest.approx(cut.tip, abs=1e-6)
-    assert shapely.Point(0, 0).distance(shape.exterior) == pytest.approx(cut.root, abs=1e-3)
-    ring = shapely.Point(0, 0).buffer(0.9995 * cut.tip, quad_segs=720).exterior.intersection(shape)
+    tip, root = blank.tip_radius, blank.root_radius
+    assert shape.hausdorff_distance(shapely.Point(0, 0)) == pytest.approx(tip, abs=1e-6)
+    assert shapely.Point(0, 0).distance(shape.exterior) == pytest.approx(root, abs=1e-3)
+    ring = shapely.Point(0, 0).buffer(0.9995 * tip, quad_segs=720).exterior.intersection(shape)
     assert len(ring.geoms) in (z, z + 1), "so many points, one of them perhaps cut where the ring begins"
-
-
-@pytest.mark.parametrize("sense", [1, -1])
-def test_its_leading_faces_are_undercut_by_six_degrees(sense: int) -> None:
-    cut = escape_tooth(30, sense).cut()
-    assert lean(np.array(cut.tooth)[:, :2], cut.tip, cut.root, sense) == pytest.approx(6.0, abs=1e-9)
-
-
-def test_the_middle_of_its_root_is_on_the_x_axis() -> None:
-    cut = escape_tooth(30, 1).cut()
-    feet = [at for at in cut.tooth if abs(hypot(*at[:2]) - cut.root) < 1e-9]
-    assert sum(atan2(y, x) for x, y, _ in feet) == pytest.approx(0.0, abs=1e-12)
+    assert lean(blank.contours[0].points[:4], tip, root, sense) == pytest.approx(6.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", ["longcase-clock", "longcase-clock-cycloidal"])
@@ -77,7 +76,7 @@ def test_the_escape_wheel_of_a_train_leans_the_way_it_turns(name: str) -> None:
 def test_a_carried_escape_wheel_leans_the_way_it_turns_relative_to_its_carriage(
     ring: str, speed: float, passed: float
 ) -> None:
-    train = load(
+    train = load_text(
         f"""
 frame: plate
 links:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import cos, radians, sqrt
+from math import cos, pi, radians, sqrt
 
 import numpy as np
 import pytest
 from finite_elements import plane_stress, root_stress_factor, triangles
 
-from geartrain.simulation.strength.iso_6336 import RackWheel, ToothSide, outer_single_contact
+from geartrain.simulation.strength.iso_6336 import ToothSide
 from geartrain.teeth import Involute
 from geartrain.teeth.conjugate import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
@@ -19,7 +19,10 @@ TWENTY = radians(20)
 def pinion(z: int = 17, mate: int = 51) -> tuple[ToothSide, float]:
     pair = Involute(form="involute").pair(WheelPair(z, mate))
     side = ToothSide.of(ToothRequirement(pair, 1, 1e-4, 0.25).cut().tooth)
-    return side, outer_single_contact(RackWheel(z, 0, z / 2 + 1), TWENTY, pair.path.contact_ratio)
+    # along the line of action, the outer point of single contact is a base pitch after contact begins
+    base, tip = z / 2 * cos(TWENTY), z / 2 + 1
+    along = sqrt(tip**2 - base**2) - (pair.path.contact_ratio - 1) * pi * cos(TWENTY)
+    return side, sqrt(base**2 + along**2)
 
 
 def test_triangles_fill_the_polygon_and_no_more() -> None:

@@ -18,17 +18,15 @@ from geartrain.teeth import (
     Lantern,
     LeastFriction,
     PairFriction,
-    RubbedTransmission,
     StribeckFriction,
     TabulatedFriction,
     TransmissionFunction,
     Triangular,
     UniformStress,
 )
+from geartrain.teeth.rubbed_transmission import RubbedTransmission
 
 FT_MIN = 0.3048 / 60
-
-# ---------------------------------------------------------------------------------------------------------------- laws
 
 
 def test_buckinghams_law_has_the_three_values_that_smith_prints() -> None:
@@ -69,8 +67,6 @@ def test_a_table_is_joined_by_straight_lines_and_level_outside() -> None:
     )
     assert transmission.coefficient(np.array([0.0, 90, 500]) * FT_MIN) == pytest.approx([0.1, 0.075, 0.05])
 
-
-# --------------------------------------------------------------------------------------------------------------- forms
 
 FORMS: dict[str, tuple[Any, tuple[int, int]]] = {
     "triangular": (Triangular.declared({"half_angle": "30 deg", "window": "0.5"}), (24, 36)),
@@ -158,8 +154,6 @@ def test_teeth_lock_where_the_coefficient_of_the_moment_locks_them() -> None:
     assert fast.locks
     assert np.isnan(fast.efficiency_mean())
 
-
-# -------------------------------------------------------------------------------------------------------------- trains
 
 TRAIN = """
 links:
@@ -291,8 +285,6 @@ def test_a_law_that_is_none_is_refused_with_its_line(friction: str, said: str) -
     assert problem.place.endswith(":9")
     assert said in " ".join((problem.what, problem.why, problem.fix))
 
-
-# ------------------------------------------------------------------------------------------------------ least friction
 
 UNDER = {
     "stribeck": {"friction_law": "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s", "pitch_line_speed": "50 mm/s"},

@@ -17,7 +17,6 @@ from scipy.special import jv
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion.motion_model import Motion
-from geartrain.dynamics.motion.motion_run import find_spectrum
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth.table import GivenError
 from geartrain.teeth.transmission import TransmissionFunction
@@ -47,9 +46,6 @@ def chain(*forms: dict[str, Any] | None, counts: tuple[tuple[int, int], ...], **
     last = f"s{len(counts)}"
     kept = {"links": links, "revolutes": joints, "gears": gears, "inputs": {"s0": 1}, "outputs": {last: {}}}
     return GearTrain.declare(kept | more)
-
-
-# ------------------------------------------------------------------------------------------------- a table over a pitch
 
 
 @pytest.mark.parametrize(
@@ -91,8 +87,6 @@ def test_u3_slopes_of_the_spline_have_their_extremes_between_the_points() -> Non
     assert slopes == pytest.approx([-0.3373754153, 0.3485501066], abs=5e-11)
 
 
-# ------------------------------------------------------------------------------------------ one error inside the other
-
 U1 = chain(
     {"error": {"over": "driver_turn", "harmonics": [[1, "0.4 deg"]]}},
     {"error": {"over": "driver_pitch", "harmonics": [[1, "0.1 deg"]]}},
@@ -121,9 +115,6 @@ def test_u1_lines_are_bessel_functions() -> None:
     for order, amplitude in wanted.items():
         assert -lines[order].imag == pytest.approx(amplitude, abs=1e-13)
         assert amplitude == pytest.approx(printed[order], abs=5e-13)
-
-
-# -------------------------------------------------------------------------------------------------------------- runout
 
 
 def runout(**keys: Any) -> TransmissionFunction:
@@ -204,9 +195,6 @@ def test_both_eccentricities_have_no_constant_error_but_that_of_second_order() -
     law = table(eccentricity="0.1")._transmission((20, 60), (0.1, 0.1))
     mean, rms = law.error_moments()
     assert abs(mean) < 0.01 * rms
-
-
-# ------------------------------------------------------------------------------------- sums, inverse, backlash, leaps
 
 
 def test_errors_over_several_periods_are_added() -> None:
@@ -293,9 +281,6 @@ def test_the_steepest_fall_of_a_harmonic() -> None:
     assert law.steepest_fall() == pytest.approx(radians(0.1) * 40**2)
 
 
-# ---------------------------------------------------------------------------------------------------------- efficiency
-
-
 def test_a_declared_efficiency_acts_in_mean_torques_and_at_every_position() -> None:
     error = {"over": "driver_turn", "harmonics": [[1, "2 deg"]]}
     form = {"error": error, "efficiency": {"forward": "0.9", "backward": "0.8"}}
@@ -331,9 +316,6 @@ def test_the_friction_of_a_train_does_not_apply_and_is_reported() -> None:
     assert any("no sliding speed" in each.why for each in torques.neglected)
 
 
-# ---------------------------------------------------------------------------------- a period of many pitches in trains
-
-
 def dense_range(motion: Motion, turns: float) -> tuple[float, float]:
     error = motion.at(np.linspace(0, turns, 20_001)).error[0]
     return float(error.min()), float(error.max())
@@ -355,7 +337,9 @@ def test_a_run_finds_the_extremes_of_errors_over_many_pitches(inputs: dict[str, 
 def test_the_spectrum_has_lines_at_fractions_of_the_pitch() -> None:
     error = {"over": "driven_turn", "harmonics": [[1, "0.2 deg"], [90, "0.05 deg"]]}
     motion = chain({"error": error}, counts=((20, 30),)).motion()
-    lines = {line.order: degrees(line.expected) for line in find_spectrum(motion, 3, 20_000)["s1"]}
+    run = motion.run(turns=3, samples=20_000)
+    run.find_spectra()
+    lines = {line.order: degrees(line.expected) for line in run.spectra["s1"]}
     assert lines == {Fraction(2, 3): pytest.approx(0.2), Fraction(60): pytest.approx(0.05)}
 
 
@@ -408,8 +392,6 @@ def test_a_simulation_in_time_follows_the_runout() -> None:
     assert np.ptp(error) == pytest.approx(0.8129719335, rel=1e-3)
 
 
-# ------------------------------------------------------------------------------------------------------------ refusals
-
 POINT = ["0", "0 deg"]
 REFUSED: list[tuple[dict[str, Any], str]] = [
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/4", "0 deg"]]}}, "not above that of the point before it"),
@@ -455,9 +437,6 @@ def test_the_drift_of_a_measurement_is_stated_as_a_ratio() -> None:
     keys = {"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1", "0.018 deg"]]}}
     with pytest.raises(GearTrainError, match=r"differ from 20/60 by 0\.001"):
         _ = chain(keys, counts=((20, 60),)).meshes
-
-
-# ------------------------------------------------------------------------------------------------------------ commands
 
 
 def test_nested_parameters_of_a_form_are_yaml_on_the_command_line() -> None:

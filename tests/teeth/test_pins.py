@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 
 from geartrain import load
 from geartrain.errors import GearTrainError
-from geartrain.teeth import PinToSlotTransmission, SlidingEfficiency, SlotToPinTransmission
+from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 from geartrain.teeth.couplings.pins import pin_transmission
+from geartrain.teeth.pair_results import SlidingEfficiency
 
 TURN = np.linspace(0, 2 * pi, 721)
 distances = st.tuples(st.floats(0.1, 10), st.floats(0.1, 10)).filter(lambda pair: abs(pair[0] / pair[1] - 1) > 0.01)

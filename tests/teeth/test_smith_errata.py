@@ -55,9 +55,6 @@ def test_63_is_what_the_sum_in_45_makes_with_its_sign_turned_and_the_difference_
         assert abs(bent[0] - 2 * bent[1] + bent[2]) > 1e-12 * abs(bent[1])
 
 
-# the extremal of (64) -----------------------------------------------------------------------------------------------
-
-
 def lagrange(Z: Any, polynomial: list[Any]) -> Any:
     """The left side of (64) at theta = 0 on the curve r = sum of a_n theta^n."""
 

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from studies.reference_solutions import reference
 
 from geartrain.teeth import TransmissionFunction
 from geartrain.teeth.transmission_table import CellTable, fit, folded_kinks
@@ -94,33 +93,6 @@ def test_the_order_of_convergence_is_one_more_than_the_degree(
     assert above.sum() >= 3
     slope = -np.polyfit(steps[above][-3:], np.log2(np.array(errors)[above][-3:]), 1)[0]
     assert order - 0.5 < slope < order + 0.5
-
-
-@pytest.mark.parametrize("transmission", TRANSMISSIONS[:4] + DWELLS)
-def test_a_table_repeats_over_many_turns(transmission: TriangularTransmission) -> None:
-    table = tables(transmission)["error"]
-    S = angles(transmission, 1_000, 0.5)
-    for periods in (1, -7, 10**4, 10**7):
-        far = S + periods * transmission.period
-        rounding = 4e-16 * np.abs(far).max() * (1 + transmission.speed_range()[1])
-        off = np.abs(table(far) - transmission.error(far)).max()
-        assert off <= table.uncertainty + 1e-14 * transmission.sizes.p2 + rounding
-
-
-def test_a_table_meets_the_definition_of_the_transmission_in_many_digits() -> None:
-    transmission = transmission_of(96, 96, 30, 0.01)
-    S = np.random.default_rng(3).uniform(0, transmission.period, 50)
-    error, speed = reference(transmission.sizes, S)
-    table = tables(transmission)
-    assert np.abs(table["error"](S) - error).max() <= table["error"].uncertainty + 1e-14 * transmission.sizes.p2
-    assert np.abs(table["speed"](S) - speed).max() <= table["speed"].uncertainty + 1e-14
-
-
-def test_a_coarser_tolerance_makes_a_smaller_table_that_keeps_it() -> None:
-    transmission = transmission_of(12, 12)
-    fine, coarse = (tables(transmission, tolerance)["error"] for tolerance in (1e-13, 1e-7))
-    assert coarse.cells < fine.cells
-    assert fine.uncertainty <= 1e-13 * transmission.sizes.p2 < coarse.uncertainty <= 1e-7 * transmission.sizes.p2
 
 
 def test_a_tolerance_below_rounding_ends_and_the_table_says_so() -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from math import acos, cos, degrees, hypot, isnan, log, pi, radians, sin, sqrt, tan
 from typing import Any
 
@@ -23,10 +21,8 @@ from geartrain.teeth.conjugate import (
     WheelPair,
     efficiency,
     measure,
-    pair_outlines,
 )
 from geartrain.teeth.conjugate.admissibility import tip_gap
-from geartrain.teeth.contact import solve
 
 SHAPES = {
     "involute": Involute,
@@ -67,8 +63,6 @@ def bisected(f: Any, low: float, high: float) -> float:
         low, high = (middle, high) if (f(middle) > 0) == (f(low) > 0) else (low, middle)
     return low
 
-
-# the involute's sizes ------------------------------------------------------------------------------------------------
 
 TEETH = st.integers(18, 120)
 
@@ -159,9 +153,6 @@ def test_declared_lengths_with_a_unit_are_measured_in_the_module_of_the_wheels()
     assert real.path.contact_ratio == pytest.approx(plain.path.contact_ratio, rel=1e-12)
 
 
-# rings ---------------------------------------------------------------------------------------------------------------
-
-
 def test_flanks_of_a_ring_and_its_pinion_are_drawn_involutes() -> None:
     z1, z2, alpha = 20, 55, radians(20)
     path = shape("involute").path(z1, z2, internal=True)
@@ -185,9 +176,6 @@ def test_tips_of_a_ring_clear_those_of_its_pinion_by_the_textbook(z1: int, z2: i
     gap = theta1 * z1 / z2 + inv(alpha) - inv(second) - theta2
     assert (("interference", 0) in kinds(transmission)) == (gap < 0)
     assert tip_gap(transmission.path) == pytest.approx(gap, abs=1e-13)
-
-
-# undercut, interference, points, jams --------------------------------------------------------------------------------
 
 
 def kink_cuts(z: int, x: float) -> float:
@@ -270,9 +258,6 @@ def test_a_misfit_of_involute_wheels_has_a_name_and_a_remedy(given: dict[str, st
     assert bool(verdict) == (kind == "runs")
     assert words in " ".join(fault.fix for fault in verdict.faults)
     assert verdict.to_dict()["kind"] == kind
-
-
-# cycloids, tips, the literal extremal --------------------------------------------------------------------------------
 
 
 def test_radial_flanks_come_from_rolling_circles_of_half_the_pitch_circle() -> None:
@@ -394,9 +379,6 @@ def test_teeth_that_backlash_leaves_no_thickness_are_told_to_have_less_of_it() -
     assert all("less backlash" in fault.fix for fault in found)
 
 
-# the optimal forms against the tables --------------------------------------------------------------------------------
-
-
 def test_uniform_temperature_has_the_depth_it_is_requested_for() -> None:
     for reading in "abc":
         for wheels in ({}, {"internal": True}, {"shaft_angle": RIGHT}):
@@ -418,9 +400,6 @@ def test_what_is_to_be_uniform_is(wheels: dict[str, Any]) -> None:
     np.testing.assert_allclose(first.Q1, first.Q1[0], rtol=1e-10)
     hotter = contact(shape("uniform_temperature", heat="0.5"))
     np.testing.assert_allclose(np.maximum(hotter.Q1, hotter.Q2), 0.5, rtol=1e-10)
-
-
-# friction ------------------------------------------------------------------------------------------------------------
 
 
 def torque_balance(path: PathOfContact, X: float, friction: float, driver: int) -> float:
@@ -593,9 +572,6 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
     assert transmission.efficiency_mean() == pytest.approx(np.nanmean(found), abs=1e-5)
 
 
-# bad input -----------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("given", "words"),
     [
@@ -680,22 +656,6 @@ def test_a_declared_design_distance_is_no_misplacement() -> None:
     assert shape("uniform_stress", centre_distance="45").transmission(30, 60).verdict
 
 
-# the contact of drawn outlines ----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("wheels", [{}, {"internal": True}])
-def test_outlines_in_contact_keep_the_ratio_at_the_design_distance(wheels: dict[str, Any]) -> None:
-    """First touch of the two outlines, which knows no normals: conjugate to rounding, with the phase and play told."""
-    for form in (*EVERY[:2], shape("uniform_temperature", reading="a"), EVERY[-1]):
-        loose = form.model_copy(update={"backlash": shape("involute", backlash="0.1").backlash})
-        pair = loose.transmission(24, 72, **wheels).pair
-        distance = abs(pair.path.pitch.R2) + pair.path.pitch.R1 * (-1 if wheels else 1)
-        touch = solve(*pair_outlines(pair), distance, np.linspace(0, 2 * pi / 24, 24))
-        expected = np.linspace(0, 2 * pi / 24, 24) / 3 + (pi / 2 - 0.05) / 36
-        np.testing.assert_allclose(touch.front.angle, expected, atol=1e-12)
-        np.testing.assert_allclose(touch.backlash, 0.1 / 36, atol=1e-12)
-
-
 @pytest.mark.parametrize(("wheels", "wide"), [({}, "35.05"), ({"internal": True}, "14.96")])
 def test_a_misplaced_involute_does_what_its_working_circles_say(wheels: dict[str, Any], wide: str) -> None:
     at_home = shape("involute", addendum="0.8").transmission(20, 50, **wheels).pair
@@ -741,13 +701,6 @@ def test_at_a_wrong_distance_other_teeth_have_a_transmission_of_their_own() -> N
     assert transmission.verdict
     tight = shape("uniform_stress", arcs="0.6", centre_distance="29.97").transmission(24, 36)
     assert tight.verdict.kind == "jam"
-
-
-def test_declaring_a_tooth_form_imports_no_numpy() -> None:
-    names = ", ".join(f"geartrain.teeth.{name}" for name in SHAPES)
-    code = f"import sys, {names}; geartrain.teeth.involute.Involute(form='involute'); print('numpy' in sys.modules)"
-    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == "False"
 
 
 def test_equal_pairs_of_a_long_train_share_one_path() -> None:

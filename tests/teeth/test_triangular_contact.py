@@ -59,23 +59,6 @@ class Worst:
         return f"{self.error:.3g} at {self.at}"
 
 
-def test_the_reference_closes_its_own_equations() -> None:
-    for _, pair, random in pairs(1, 20, 1e6):
-        for x, phase in positions(pair, random):
-            y, v = pair.approach(x) if phase == APPROACH else pair.recess(x)
-            lean = x + pair.b1 if phase == APPROACH else pair.b2 - y
-            along = pair.R1 * mp.cos(x) - v * mp.cos(lean) + pair.R2 * mp.cos(y) - pair.D
-            across = pair.R1 * mp.sin(x) - v * mp.sin(lean) - pair.R2 * mp.sin(y)
-            assert max(abs(along), abs(across)) < 1e-45 * pair.D
-            assert v >= 0
-
-
-def test_both_phases_meet_where_flank_lies_on_flank() -> None:
-    for _, pair, _ in pairs(2, 20, 1e6):
-        if abs(pair.matching) < pair.amax:
-            assert abs(pair.approach(pair.matching)[0] - pair.recess(pair.matching)[0]) < 1e-45
-
-
 @pytest.mark.parametrize("number", MANY)
 @pytest.mark.parametrize("most", [1e3, 1e6])
 def test_angle_speed_and_efficiency_at_50_digits(most: float, number: int) -> None:

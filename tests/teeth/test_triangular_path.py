@@ -9,7 +9,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from mechanics import overlap
+from polygons import Judge
 from sorge import (
     Pair,
     Segment,
@@ -65,9 +65,6 @@ def few_teeth(random: Random, most: int = 12) -> TriangularSizes:
         return sizes.at(sizes.maximum_excess * random.uniform(0.001, 0.999))
 
 
-# ------------------------------------------------------------------------------------------------------- at 50 digits
-
-
 def aligned(path: list[Segment], intervals: tuple[Any, ...]) -> list[Segment]:
     """The reference's segments in the order of the intervals: both begin anywhere in the pitch."""
     assert len(path) == len(intervals), (path, intervals)
@@ -120,9 +117,6 @@ def test_switches_and_jumps_at_50_digits(most: float, number: int, of_jumps: flo
             assert abs(jumps[interval.start] - jump) <= of_jumps, (sizes, float(jump))
 
 
-# -------------------------------------------------------------------------------------------------- every couple
-
-
 @pytest.mark.parametrize("number", [pytest.param(90), pytest.param(8000, marks=pytest.mark.long)])
 @pytest.mark.parametrize("teeth", ["few", "any"])
 def test_the_lowest_tooth_pair_is_the_lowest_of_all(teeth: str, number: int) -> None:
@@ -160,9 +154,6 @@ def test_the_work_does_not_grow_with_the_number_of_tooth_pairs() -> None:
     assert max(counts) < 3 * min(counts) < 3000, counts
 
 
-# ------------------------------------------------------------------------------------------------------------ outlines
-
-
 @pytest.mark.parametrize("number", [pytest.param(60), pytest.param(2000, marks=pytest.mark.long)])
 def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
     """Few deep teeth, whose flanks reach beyond the meeting of the tip circles."""
@@ -180,10 +171,7 @@ def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
         y = np.where(positions.random(100) < 0.5, np.maximum(y, upper - 0.02 * sizes.p2), y)
         shifted = y + np.floor((upper - y) / sizes.p2) * sizes.p2
         sure = np.minimum(np.abs(shifted - lower), upper - shifted) > 1e-9 * sizes.p2
-        assert (overlap(sizes, t, y) != (shifted >= lower))[sure].all(), sizes
-
-
-# ------------------------------------------------------------------------------------------------------------ verdicts
+        assert (Judge.of(sizes).overlap(t, y) != (shifted >= lower))[sure].all(), sizes
 
 
 @pytest.mark.parametrize("number", [pytest.param(90), pytest.param(6000, marks=pytest.mark.long)])
@@ -270,9 +258,6 @@ def test_beyond_the_reach_the_wheels_are_apart() -> None:
         assert not Pair.of(beyond).touches
         assert kind_of(beyond) == "apart"
         assert Pair.of(sizes).touches
-
-
-# ------------------------------------------------------------------------------------------------------------- windows
 
 
 def bisected(margin: Any, sizes: TriangularSizes, low: float, high: float) -> float:

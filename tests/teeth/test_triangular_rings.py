@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 import pytest
-from polygons import Judge, Outline
+from polygons import Judge
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.drawing.tooth_contact import tooth_pair_pose
@@ -137,8 +137,6 @@ def test_figures_of_pairs_that_do_not_run() -> None:
     assert (degrees(stands.idle), degrees(stands.lost)) == pytest.approx((0.4204070996, 0.1528032784), abs=6e-11)
 
 
-# A rack is the limit of a ring and of an outer wheel, from either side: 10^9 teeth, the mean of both ------------------
-
 # driver; distance of the axis from the tips; tau over its mean; error peak to peak; error at 0, 1/4, 1/2, 3/4 of a
 # pitch; mean efficiencies; jump; play. Errors and play in pitches of the rack, where the rack drives in deg
 RACKS: dict[str, tuple[Any, ...]] = {
@@ -179,17 +177,6 @@ def test_a_rack_has_the_reference_figures(name: str) -> None:
     assert (figures(0) + figures(2)) / 2 == pytest.approx(flat, abs=2e-10)
 
 
-# Outlines ------------------------------------------------------------------------------------------------------------
-
-
-def outlines(sizes: TriangularSizes) -> Judge:
-    wheels = [
-        Outline(np.arange(z) * 2 * pi / z, np.full(z, R), np.full(z, beta), np.full(z, beta), sign < 0)
-        for z, R, beta, sign in zip((sizes.z1, sizes.z2), sizes.radii, sizes.half_angles, sizes.signs, strict=True)
-    ]
-    return Judge(*wheels, sizes.D)
-
-
 def random_pairs() -> list[TriangularSizes]:
     """Ten pairs of 8 to 40 teeth in rings of 1 to 60 more, unlike half angles and radii, within their windows."""
     rng, found = np.random.default_rng(43), []
@@ -216,7 +203,7 @@ def test_polygons_touch_where_the_transmission_function_says(driver: str) -> Non
         S = rng.uniform(0, 2 * pi, 6)
         upper = -transmission.error(S) - sizes.ratio * S
         lower = transmission.error(-S) - sizes.ratio * S - sizes.p2
-        low, high = outlines(sizes).free(-S, (upper + lower) / 2, 0.75 * sizes.p2, 100)
+        low, high = Judge.of(sizes).free(-S, (upper + lower) / 2, 0.75 * sizes.p2, 100)
         assert transmission.verdict.kind == "runs", sizes
         assert np.abs(high - upper).max() < 1e-10, sizes
         assert np.abs(low - lower).max() < 1e-10, sizes
@@ -271,9 +258,6 @@ def test_the_force_between_the_axes_is_that_of_the_drawn_normal() -> None:
             assert here.centre[0] == pytest.approx(centre, rel=1e-9)
             found.append(sizes.D * sizes.z2 / 40 / arm * abs(nx))
         assert mesh.separation == pytest.approx(float(np.mean(found)), rel=1e-4)
-
-
-# Planetary sets ------------------------------------------------------------------------------------------------------
 
 
 def planetary(counts: tuple[int, int, int], beyond: float, distance: float, held: str, driver: str) -> GearTrain:
@@ -342,9 +326,6 @@ def test_a_planetary_set_has_the_reference_motion_and_efficiency(name: str) -> N
         changed = train if loads is None else train.with_changes(**loads)
         cycle = changed.torques(turns=float(motion.period), of=driver if loads is None else out)
         assert cycle.efficiency == pytest.approx(wanted, abs=2e-9)
-
-
-# Refusals ------------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from sorge import Pair, drawn, first_of_all, integral, mp
 
-from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth
 
 THIRTY = radians(30)
@@ -58,9 +57,6 @@ def transmissions(seed: int, number: int, most: float, kind: str = "runs", frict
             yield sizes, transmission, random
 
 
-# ----------------------------------------------------------------------------------------------------- printed results
-
-
 @pytest.mark.parametrize(("z1", "z2", "excess", "jumps"), PRINTED)
 def test_jumps_and_phases_of_the_source(z1: int, z2: int, excess: float, jumps: dict[str, float]) -> None:
     transmission = TriangularTransmission(equally_deep(z1, z2, excess), 0.2)
@@ -80,8 +76,6 @@ def test_more_digits_of_the_source(z1, z2, excess, speeds, efficiency, peak_to_p
     joined = [(ends[0][0], ends[-1][1])] if len(active) == 1 else ends
     assert [tuple(round(end, 4) for end in each) for each in joined] == active
 
-
-# ------------------------------------------------------------------------------------------------------- at 50 digits
 
 CASES = [
     pytest.param(1e3, 15),
@@ -165,9 +159,6 @@ def test_the_minimum_efficiency_is_the_minimum_of_a_fine_scan() -> None:
         assert transmission.efficiency_minimum() > 0
 
 
-# ------------------------------------------------------------------------------------------------------- over pitches
-
-
 def test_the_mean_of_the_transmission_is_the_ratio_of_teeth() -> None:
     """From any angle, a whole number of pitches turns the driven wheel by as many of its own."""
     for kind in ("runs", "dwell"):
@@ -208,24 +199,6 @@ def test_any_shape_of_angles_gives_that_shape() -> None:
     assert transmission.error(0.5).shape == ()
 
 
-# ----------------------------------------------------------------------------------------------------------- collisions
-
-
-def test_collisions_share_the_work_of_the_driver() -> None:
-    """Handed to the driven side, J w^2 (after^2 - before^2)/2; dissipated, J w^2 (after - before)^2/2."""
-    for kind in ("runs", "dwell"):
-        for sizes, transmission, random in transmissions(40, 10, 1e3, kind):
-            inertia, omega = random.uniform(0.01, 3), random.uniform(0.1, 20)
-            pairs = Pair.of(sizes).jumps
-            handed, dissipated, work = collision_energies(transmission.speed_leaps(), inertia, omega)
-            scale = inertia * omega**2
-            assert handed == pytest.approx(float(sum(b**2 - a**2 for a, b in pairs) / 2) * scale, rel=1e-9)
-            assert dissipated == pytest.approx(float(sum((b - a) ** 2 for a, b in pairs) / 2) * scale, rel=1e-9)
-            assert work == pytest.approx(float(sum(b * (b - a) for a, b in pairs)) * scale, rel=1e-9)
-            assert handed + dissipated == pytest.approx(work, rel=1e-14)
-            assert dissipated > 0
-
-
 def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
     for sizes, transmission, _ in transmissions(42, 15, 300):
         S = np.linspace(0, transmission.period, 20001)
@@ -235,9 +208,6 @@ def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
         fall = fall[fall < 4 * np.median(np.abs(fall)) + 10 * transmission.steepest_fall()]
         cut = np.sort(fall)[: -8 * len(transmission.intervals)]
         assert transmission.steepest_fall() >= max(0.0, cut.max()) * (1 - 1e-3), sizes
-
-
-# --------------------------------------------------------------------------------------------------------- standstills
 
 
 def test_a_driven_wheel_that_stands_never_turns_back_nor_lags() -> None:

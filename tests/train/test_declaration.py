@@ -17,8 +17,6 @@ from geartrain import GearTrainError, load, teeth
 from geartrain.errors import DeclarationError
 from geartrain.train import declare, period_table
 
-# short forms and ids --------------------------------------------------------------------------------------------------
-
 
 def test_the_same_train_is_read_from_text_file_mapping_and_name(tmp_path: Path) -> None:
     text = PLANETARY.format(rest="inputs: {sun: 1}")
@@ -85,9 +83,6 @@ def test_name_spaces_are_separate() -> None:
     answer = train.solve()
     assert answer.speeds["a"] == 1
     assert answer["a"] == Fraction(-1, 3), "an output of the name comes before the link"
-
-
-# numbers --------------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -158,9 +153,6 @@ def test_a_published_ratio_needs_one_input_that_is_not_zero() -> None:
     assert two.solve().outputs["carrier"].published_holds is False
 
 
-# teeth ----------------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     "teeth",
     ["{value: 60, range: [59, 61]}", "{value: 60, choices: [50, 60]}", "{value: 60, search: [15, 80]}", "{value: 60}"],
@@ -182,9 +174,6 @@ def test_a_range_is_inclusive_and_lists_its_counts() -> None:
     assert wheel.status == "surviving"
 
 
-# outputs --------------------------------------------------------------------------------------------------------------
-
-
 def test_an_output_is_a_link_or_a_link_seen_from_a_link() -> None:
     answer = planetary(
         "inputs: {sun: 7}\noutputs: {rel: {of: planet, relative_to: carrier}, sun: ~, arm: {of: carrier}}"
@@ -193,9 +182,6 @@ def test_an_output_is_a_link_or_a_link_seen_from_a_link() -> None:
     assert answer["arm"] == 2
     # in the carrier's frame the sun makes 5 turns, and the planet -24/18 as many
     assert answer["rel"] == Fraction(-24, 18) * 5
-
-
-# units ----------------------------------------------------------------------------------------------------------------
 
 
 def test_named_inputs_give_speeds_in_their_unit() -> None:
@@ -214,17 +200,12 @@ def test_a_unit_names_what_one_turn_takes() -> None:
     assert pair("inputs: {a: 1}\nunit: {per: 18 ft}").declaration.unit_days is None
 
 
-# targets --------------------------------------------------------------------------------------------------------------
-
-
 def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
     name = next(row.name for row in period_table().values() if row.kind == "speed")
     text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: %s}}\noutputs: {{b: {{targets: [{name}]}}}}")
     assert "the train's unit is not a year" in refusal(text % "1 d")
     assert load(text % "year_julian").solve().outputs["b"].targets[0].speed == period_table()[name].value
 
-
-# what makes no sense --------------------------------------------------------------------------------------------------
 
 REFUSED = {
     "inputs: {a: 1}\noutputs: {%s}": [
@@ -292,9 +273,6 @@ def test_what_makes_no_sense_is_refused(rest: str, said: str) -> None:
 )
 def test_a_tooth_count_that_makes_no_sense_is_refused(teeth: str, said: str) -> None:
     assert said in refusal(PAIR.format(rest="inputs: {a: 1}").replace("w: 60", f"w: {teeth}"))
-
-
-# view, dials, what is kept for later ----------------------------------------------------------------------------------
 
 
 def test_the_view_is_counter_clockwise_unless_it_says_otherwise() -> None:

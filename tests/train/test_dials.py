@@ -8,7 +8,8 @@ import pytest
 
 from geartrain import GearTrain
 from geartrain.errors import DeclarationError
-from geartrain.train import Dial, declare
+from geartrain.train import declare
+from geartrain.train.outputs import Dial
 
 
 def declared(**keys: object) -> dict[str, object]:

@@ -13,7 +13,7 @@ from models import refusal
 from scipy.integrate import solve_ivp
 
 from geartrain import load
-from geartrain.train import SpringDrive
+from geartrain.train.states import SpringDrive
 
 
 def spring(turns: float = 5.5, **fusee: Any) -> SpringDrive:

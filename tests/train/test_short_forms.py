@@ -14,7 +14,7 @@ from shipped import every_train
 import geartrain
 from geartrain import shipped
 from geartrain.errors import DeclarationError
-from geartrain.train import with_long_forms, with_short_forms
+from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
 LONG = """\
 name: set

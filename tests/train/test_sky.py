@@ -13,7 +13,7 @@ from geartrain import GearTrain, load
 from geartrain.drawing.dial_faces import pointer_readings
 from geartrain.errors import DeclarationError
 from geartrain.scene import build_scene
-from geartrain.train import julian_day, read_date
+from geartrain.train.periods import julian_day, read_date
 from geartrain.train.sky import angle_at, read_sky_angle
 
 # E. M. Standish, Keplerian elements for approximate positions of the major planets, Solar System Dynamics Group, JPL,

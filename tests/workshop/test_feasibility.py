@@ -15,7 +15,7 @@ import pytest
 from geartrain import GearTrain, load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.numerics import Execution, Journal
-from geartrain.train import HandDrive
+from geartrain.train.states import HandDrive
 from geartrain.workshop import FeasibilityResult, find_feasibility_plan, read_error_overrides, run_feasibility
 from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan, LoadedPart, wedge_torque
 
@@ -185,6 +185,7 @@ def test_without_spreads_every_trial_has_the_deterministic_outcome(hand: int, st
     text = PAIR.replace("strength: 140", f"strength: {strength}")
     found = run_feasibility(plan_of(text + f"drive: {{hand: {{torque: {hand} N mm}}}}\n"), 32)
     assert counts(found) == {outcome: 32}
+    assert [*found.causes["breaks"]] == (["tooth of w"] if outcome == "breaks" else []), "the driven tooth is weaker"
     assert found.crank_torque is not None
     # 20 and 30 teeth without friction: two thirds of the load
     assert found.crank_torque[5.0].value == found.crank_torque[95.0].value == pytest.approx(20e-3)
@@ -200,6 +201,7 @@ def test_outcomes_sum_to_one_and_what_is_not_declared_is_named() -> None:
     bare = run_feasibility(find_feasibility_plan(load("moon-triangular"), outputs=("moon",)), 4)
     assert bare.crank_torque is None
     assert bare.forced is None
+    assert bare.causes == {"cannot be cut": {}, "jams": {}, "breaks": {}}
     assert len(bare.neglected) == 2
 
 

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, solve_block
+from geartrain.dynamics.torques.load_case import power_inputs
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
 from geartrain.dynamics.torques.torque_balance import TorqueBalance, equal_planets
 from geartrain.numerics.elimination import LinearForm
@@ -53,12 +54,13 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
 
 
 class AxisForce(NamedTuple):
-    """Force on the second link of a pair, and the opposite force on its first link: r along + |r| lean apart, where r
-    is the torque on the carrier; or a force on one link in proportion to the torque on it.
+    """Force on the second link of a pair, and the opposite force on its first link; or a force on a single link.
+
+    With the torque r on the carrier (of a single link, the torque on it), the force is r `along` + |r| `lean` `apart`.
     """
 
     name: str
-    """Name of the pair; the link for the line of a weight."""
+    """Name of the pair, or of the link on which the line of a weight acts."""
     links: tuple[str | None, str]
     """First link (None for a single force) and second link."""
     carrier: str
@@ -95,7 +97,7 @@ class BearingLoads:
 
     @property
     def missing(self) -> Mapping[str, Sequence[str]]:
-        """Names of the pairs whose forces on these bearings are unknown, by the reason."""
+        """Names of the pairs and lines whose forces on these bearings are unknown, by reason."""
         _ = self.forces  # lists the pairs
         return self._left_out
 
@@ -138,7 +140,7 @@ class BearingLoads:
 
     def _line(self) -> Iterator[AxisForce]:
         """Yield the pull of the line of a driving weight, in proportion to the torque on its drum."""
-        drive, source = self.setting.case.drive, self.source
+        drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return
         if (down := self._down) is None:
@@ -148,16 +150,9 @@ class BearingLoads:
         pull = scaled(down, 1 / drive.drum.si)
         yield AxisForce(source, (None, source), frame, (0.0, 0.0, 0.0), pull, 1.0, (None, None))
 
-    @cached_property
-    def source(self) -> str | None:
-        """Link at which power enters, if it is unique."""
-        case, crank = self.setting.case, self.setting.train.crank
-        return crank or (next(iter(case.inputs)) if len(case.inputs) == 1 else None)
-
     @property
     def _down(self) -> Vector | None:
-        gravity = self.setting.train.gravity
-        return None if gravity is None else unit_vector(gravity)
+        return self.setting.train.gravity and unit_vector(self.setting.train.gravity)
 
     def _leave_out(self, circuit: Circuit, why: str) -> None:
         if any(self._inside(link, circuit.i) != self._inside(link, circuit.j) for link in self.links):
@@ -175,12 +170,6 @@ class BearingLoads:
             found += [(number, a, b)] if a is None else [(number, a, b), (number, b, a)]
         return tuple(found)
 
-    def _share(self, own: float | None, other: float | None, place: float | None) -> float:
-        """Return the part of a force that a bearing takes, by the law of the lever."""
-        if own is None or other is None:
-            return 1.0
-        return 0.5 if place is None else (other - place) / (other - own)
-
     @cached_property
     def _shares(self) -> Floats:
         """Part of each force that presses on each bearing, shape (bearings, forces)."""
@@ -189,15 +178,13 @@ class BearingLoads:
             for column, force in enumerate(self.forces):
                 for sign, end, place in zip((-1, 1), force.links, force.places, strict=True):
                     if self._inside(self.links[number], end):
-                        found[row, column] += sign * self._share(own, other, place)
+                        found[row, column] += sign * _share(own, other, place)
         return found
 
     @cached_property
     def masses(self) -> Mapping[str, float | None]:
         """Mass of each link whose weight presses on these bearings [kg]; None if it is not declared."""
-        if self._down is None or not self.steady:
-            return {}
-        links = self.setting.train.links.items()
+        links = self.setting.train.links.items() if self._down and self.steady else ()
         carried = {link: part.mass for link, part in links if any(self._inside(each, link) for each in self.links)}
         return {link: None if mass is None else mass.si for link, mass in carried.items()}
 
@@ -212,7 +199,7 @@ class BearingLoads:
         found = np.zeros((len(self._supports), 3, 1))
         for row, (number, own, other) in enumerate(self._supports):
             mass = sum(mass or 0.0 for link, mass in self.masses.items() if self._inside(self.links[number], link))
-            found[row, :, 0] = np.array(self._down or (0.0,) * 3) * GRAVITY * mass * self._share(own, other, None)
+            found[row, :, 0] = np.array(self._down or (0.0,) * 3) * GRAVITY * mass * _share(own, other, None)
         return found
 
     @cached_property
@@ -324,6 +311,13 @@ class BearingLoads:
             for symbol, value in torques.get(force.name, {}).items():
                 found[row, -1 - symbol] = float(value)
         return found
+
+
+def _share(own: float | None, other: float | None, place: float | None) -> float:
+    """Return the part of a force that a bearing takes, by the law of the lever."""
+    if own is None or other is None:
+        return 1.0
+    return 0.5 if place is None else (other - place) / (other - own)
 
 
 def fixed_point(function: Callable[[Floats], Floats], size: int) -> Floats | None:

@@ -21,7 +21,8 @@ from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.flow_patterns import solve_block
-from geartrain.dynamics.torques.torque_analysis import build_balance, find_idle_pairs, find_torques, power_inputs
+from geartrain.dynamics.torques.load_case import power_inputs
+from geartrain.dynamics.torques.torque_analysis import build_balance, find_idle_pairs, find_torques
 from geartrain.dynamics.torques.torque_balance import equal_planets
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.numerics.elimination import LinearForm

@@ -292,6 +292,17 @@ class LoadCase:
         return friction.sliding.base
 
 
+def power_inputs(setting: LoadCase) -> tuple[str, ...]:
+    """Return the links at which power may enter: the inputs, or the crank, if it is another link.
+
+    A crank replaces a single input, which then only prescribes the speed; several inputs remain besides the crank.
+    """
+    inputs, crank = tuple(setting.case.inputs), setting.train.crank
+    if crank is None or crank in inputs:
+        return inputs
+    return (crank,) if len(inputs) == 1 else (crank, *inputs)
+
+
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
     """Return the links at which power enters and leaves the train; None if they are not unique.
 

@@ -21,8 +21,8 @@ from functools import cached_property
 from itertools import combinations
 
 from geartrain.dynamics.torques.drivers import drag_torques
-from geartrain.dynamics.torques.load_case import PRESCRIBED, LoadCase
-from geartrain.dynamics.torques.torque_analysis import find_torques, power_inputs, resist
+from geartrain.dynamics.torques.load_case import PRESCRIBED, LoadCase, power_inputs
+from geartrain.dynamics.torques.torque_analysis import find_torques, resist
 from geartrain.dynamics.torques.torque_results import Torques, TorqueVerdict
 from geartrain.dynamics.train_mechanics import TrainMechanics
 from geartrain.errors import DeclarationError, Problem
@@ -30,8 +30,8 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.circuits.joint_tree import close_joints, rigid_across_axes
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate, feasible
-from geartrain.train import Clutch, StateCase, Train
-from geartrain.train.states import OneWayAction, SteppedLink
+from geartrain.train import StateCase, Train
+from geartrain.train.states import Clutch, OneWayAction, SteppedLink
 
 MOST_CLUTCHES = 12
 """Maximum number of one-way clutches in one state: 2^12 patterns are enumerated."""

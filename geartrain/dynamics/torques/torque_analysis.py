@@ -12,7 +12,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
-from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies, balancing_torque, unbalanced_motions
+from geartrain.dynamics.torques.load_case import (
+    LoadCase,
+    MeanEfficiencies,
+    balancing_torque,
+    power_inputs,
+    unbalanced_motions,
+)
 from geartrain.dynamics.torques.torque_balance import LoadedPair, LoadShares, TorqueBalance, generic_balance, idle_pairs
 from geartrain.dynamics.torques.torque_results import (
     BearingTorque,
@@ -539,17 +545,6 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
     )
     certain += candidates if len(candidates) < lacking else ()
     return TorqueQuestion(loads, certain, False, TorqueVerdict("undecided", text, candidates))
-
-
-def power_inputs(setting: LoadCase) -> tuple[str, ...]:
-    """Return the links at which power may enter: the inputs, or the crank, if it is another link.
-
-    A crank replaces a single input, which then only prescribes the speed; several inputs remain besides the crank.
-    """
-    inputs, crank = tuple(setting.case.inputs), setting.train.crank
-    if crank is None or crank in inputs:
-        return inputs
-    return (crank,) if len(inputs) == 1 else (crank, *inputs)
 
 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:

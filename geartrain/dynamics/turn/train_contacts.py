@@ -152,7 +152,7 @@ class ToothFriction(SlidingFriction):
     """
 
     turned: int = 1
-    """-1 for a ring, whose wheels turn in the same sense; otherwise 1."""
+    """-1 for a pair with a ring, whose wheels turn in the same sense; otherwise 1."""
 
     def lean(self, tau: Floats, rubbing: tuple[Floats, Floats], f: Floats, way: Floats) -> Floats:
         """Return the separating force divided by the tangential force: docs/torques.md (29).

@@ -491,10 +491,9 @@ class TurnBalance:
                 reactions[row] = -(first + second)
                 column = self.of_pair[force.name]
                 by_side = state.forces[self.columns[column].meshes[0].id]
-                pressed = np.where(best.values[column] < 0, -1, 1)
-                for side, contact in by_side.items() if len(by_side) > 1 else ():
-                    if contact.lean is not None:
-                        leans[row] = np.where(pressed == side, contact.lean, leans[row])
+                ahead, back = by_side[1].lean, by_side.get(-1, by_side[1]).lean
+                if ahead is not None and back is not None:
+                    leans[row] = np.where(best.values[column] < 0, back, ahead)
             elif force.name in self.requested:
                 reactions[row] = best.values[self.requested_columns[self.requested.index(force.name)]]
             else:

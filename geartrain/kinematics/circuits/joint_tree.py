@@ -24,7 +24,9 @@ from geartrain.numerics.elimination import eliminate
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel, size
-from geartrain.train import Escapement, Revolute, Slide, StateCase, Train, Wheel
+from geartrain.train import StateCase, Train, Wheel
+from geartrain.train.mechanism import Revolute, Slide
+from geartrain.train.states import Escapement
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,12 +43,7 @@ class RemovalBound(Result):
 
 @dataclass(frozen=True, slots=True)
 class MeshRemoval(Result):
-    """Meshes to remove so that all locked links can move. The set is minimal: each mesh in it is necessary.
-
-    See Also
-    --------
-    Gridlock : Contains an example.
-    """
+    """Meshes to remove so that all locked links can move. The set is minimal: each mesh in it is necessary."""
 
     KEYS = ("meshes", "method", "minimum", "at_least", "choices", "proofs")
 

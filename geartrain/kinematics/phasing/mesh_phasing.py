@@ -84,22 +84,6 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
     Only the coefficients modulo 1 matter. The forms generate a finite abelian group, which is the direct sum of its
     p-parts. In every p-part the rows modulo a power of p are reduced to triangular (Howell) form. Conditions on a
     single kind are then combined.
-
-    Parameters
-    ----------
-    forms : iterable of mapping of str to Fraction
-        Coefficient of each kind's tooth count.
-
-    Returns
-    -------
-    DivisibilityRule
-        Independent conditions.
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> find_divisibility_rule([{"a": Fraction(2, 3), "b": Fraction(-2, 5)}]).text
-    '3 divides za and 5 divides zb'
     """
     rows = list({tuple(sorted((k, f % 1) for k, f in form.items() if f % 1)): None for form in forms})
     kinds = sorted({kind for row in rows for kind, _ in row})

@@ -20,7 +20,7 @@ from geartrain.kinematics.answer import Loop, Verdict, abridged_names
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import ReducedSystem, SolvedPart
 from geartrain.kinematics.willis_system import relative_speed
-from geartrain.numerics.containers import ItemwiseMapping, collector_paused
+from geartrain.numerics.containers import FrozenDict, ItemwiseMapping, collector_paused
 from geartrain.numerics.elimination import (
     PRIME,
     Echelon,
@@ -419,7 +419,9 @@ def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -
     def ratios(link: str) -> Mapping[str, Fraction]:
         form = resolve_form(part.reduced.form(part.reduced.components.index[link]), forms())
         own = signs.get(link, 1)
-        return {name: own * form.get(-1 - at, _ZERO) * signs.get(name, 1) for at, name in enumerate(case.inputs)}
+        return FrozenDict(
+            (name, own * form.get(-1 - at, _ZERO) * signs.get(name, 1)) for at, name in enumerate(case.inputs)
+        )
 
     return ItemwiseMapping(part.links, ratios)
 

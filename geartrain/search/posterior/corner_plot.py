@@ -144,7 +144,7 @@ def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapp
         table[other - second[0], one - first[0]] = probability
     edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
     # the colour scale needs two different ends, even if all probabilities are 0
-    mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300))
+    mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300), rasterized=True)
     mesh.set_gid(f"{a}, {b}")
     _ticks(axes.yaxis, second)
     axes.set_ylim(second[0] - 0.5, second[1] + 0.5)

@@ -80,10 +80,7 @@ class WheelPosterior(Result):
     def probability(self, count: int) -> CountProbability:
         """Return the posterior probability of a count.
 
-        Parameters
-        ----------
-        count : int
-            Tooth count. The probability of an impossible count is 0.
+        count   tooth count. The probability of an impossible count is 0.
         """
         if count not in self.uncertainty.counts or not self.probabilities:
             return CountProbability(Fraction(0))
@@ -131,16 +128,7 @@ class CountCombination(Result):
 
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
-    """Sobol indices of the speed of an output, for tooth counts distributed as their prior.
-
-    See Also
-    --------
-    infer_counts : Compute the posterior of uncertain tooth counts.
-
-    References
-    ----------
-    Sobol, I. M. 2001. Global sensitivity indices for nonlinear mathematical models. Math. Comput. Simul. 55.
-    """
+    """Sobol indices of the speed of an output, for tooth counts distributed as their prior."""
 
     KEYS = ("output", Key("mean", to=as_float), "spread", Key("own", to=float), Key("whole", to=float))
 

@@ -69,10 +69,7 @@ class Assignment(CountSizes, Result):
     def measure(self, by: By) -> tuple[Fraction | int, ...]:
         """Return the sort key of the assignment: the requested criterion, then error, total and largest count.
 
-        Parameters
-        ----------
-        by : {"error", "total", "largest", "distinct", "change"}
-            Primary criterion.
+        by   primary criterion
         """
         total, largest = self.total, self.largest
         first: dict[By, Fraction | int] = {

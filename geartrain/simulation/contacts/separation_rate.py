@@ -137,25 +137,6 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
     equation 7).
 
     The result is empty unless inertias and a `rate` are declared.
-
-    Parameters
-    ----------
-    train : TrainMechanics
-        Mechanics of the train, from `GearTrain.mechanics`.
-    state : str, optional
-        Name of a declared state; None only for a train that has no states.
-
-    Returns
-    -------
-    mapping of str to ToothImpact
-        Impacts by pair.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> found = find_tooth_impacts(geartrain.load("moon-triangular-inertia").mechanics)
-    >>> list(found)
-    []
     """
     train = train.planets_as_one
     case = train.kinematics.case(state)

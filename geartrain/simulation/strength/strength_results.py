@@ -125,12 +125,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
 @dataclass(frozen=True)
 class WeakestPart(Result):
-    """Part of a train with the minimum safety factor, and its mode of failure.
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
-    """
+    """Part of a train with the minimum safety factor, and its mode of failure."""
 
     part: str
     """Name of the wheel or link."""
@@ -287,12 +282,7 @@ class FlankWear(Result):
 
 @dataclass(frozen=True)
 class WheelForce(Result):
-    """Force on a wheel from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
-
-    See Also
-    --------
-    TrainStrength : Contains such objects.
-    """
+    """Force on a wheel from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N."""
 
     pair: str
     """Name of the pair."""

@@ -38,7 +38,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import TrainTeeth
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.outlines.wheel_requirement import CutTooth
-    from geartrain.train import ArborSizes, GearPair, Material, Wheel
+    from geartrain.train import GearPair, Material, Wheel
+    from geartrain.train.manufacturing import ArborSizes
 
 
 # Julian year, as in the units of declarations

@@ -124,10 +124,7 @@ class PathMeasures(Result):
     def over(self, other: PathMeasures) -> PathRatios:
         """Return the ratio of each quantity to the same quantity of another path of contact.
 
-        Parameters
-        ----------
-        other : PathMeasures
-            Measures of the reference path, for example of an involute.
+        other   measures of the reference path, for example of an involute
         """
         free = {name: getattr(self, name) / getattr(other, name) for name in FREE}
         return PathRatios(self.one_pair.over(other.one_pair), self.shared.over(other.shared), free)

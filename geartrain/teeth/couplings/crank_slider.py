@@ -56,18 +56,8 @@ class CrankSliderTransmission(LosslessTransmission):
 
     The driven angle is 2 pi times the travel of the slide from its outer dead centre in mm. Friction is not modelled.
 
-    Parameters
-    ----------
-    radius : float
-        Crank radius r [mm], above 0.
-    rod : float
-        Length l of the rod [mm], above r.
-
-    Examples
-    --------
-    >>> crank = CrankSliderTransmission(20, 60)
-    >>> [round(end / (2 * pi), 9) for end in crank.error_range()]
-    [-40.0, 0.0]
+    radius   crank radius r [mm], above 0
+    rod      length l of the rod [mm], above r
     """
 
     ratio = Fraction(0)

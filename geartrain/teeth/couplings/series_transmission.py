@@ -31,35 +31,12 @@ class SeriesTransmission(LosslessTransmission):
 
     At S = -phase the driven side passes its mean position with extreme speed: the maximum for A > 0.
 
-    Parameters
-    ----------
-    ratio : Fraction
-        Mean speed ratio m, without sign.
-    factor : float
-        Factor A of the deviation from uniform motion; either sign.
-    order : int
-        Number n of periods in one revolution of the driver.
-    rho : float
-        Ratio of successive terms of the series, 0 or more and below 1.
-    rest : float, optional
-        The difference 1 - rho, where it is known more accurately than by subtraction.
-    phase : float, optional
-        Angle of the driver at S = 0 [rad], default 0.
-
-    Raises
-    ------
-    RangeError
-        If rho is out of range.
-
-    Examples
-    --------
-    A universal joint at 30 degrees has the speed ratios cos 30 deg and 1 / cos 30 deg:
-
-    >>> from fractions import Fraction
-    >>> from math import pi, tan
-    >>> joint = SeriesTransmission(Fraction(1), 1.0, 2, tan(pi / 12) ** 2)
-    >>> [round(speed, 8) for speed in joint.speed_range()]
-    [0.8660254, 1.15470054]
+    ratio    mean speed ratio m, without sign
+    factor   factor A of the deviation from uniform motion; either sign
+    order    number n of periods in one revolution of the driver
+    rho      ratio of successive terms of the series, 0 or more and below 1
+    rest     the difference 1 - rho, where it is known more accurately than by subtraction
+    phase    angle of the driver at S = 0 [rad], default 0
     """
 
     def __init__(
@@ -108,7 +85,7 @@ class SeriesTransmission(LosslessTransmission):
         Returns
         -------
         ndarray
-            Derivative of the speed ratio [1/rad], of the shape of S.
+            Derivative by the angle of the driver [1/rad], shape of S.
         """
         x, half = self._argument(S)
         size = self.factor * self.order**2 * self.rho * self.rest * (1 + self.rho)

@@ -30,20 +30,9 @@ class GenevaTransmission(TableTransmission):
     one. With rho = sin(pi/n), the driven angle is atan2(rho sin S, 1 - rho cos S) while |S| <= pi/2 - pi/n, and pi/n
     during the rest; for an internal drive atan2(rho sin S, 1 + rho cos S) while |S| <= pi/2 + pi/n.
 
-    Parameters
-    ----------
-    slots : int
-        Number of slots n, 3 or more.
-    pins : int
-        Number of pins of the driver, evenly spaced.
-    internal : bool
-        True if the pins are inside the driven wheel, which then turns in the sense of the driver.
-
-    Examples
-    --------
-    >>> transmission = GenevaTransmission(4)
-    >>> transmission.ratio, round(transmission.speed_range()[1], 6), transmission.dwell
-    (Fraction(1, 4), 2.414214, Fraction(3, 4))
+    slots      number of slots n, 3 or more
+    pins       number of pins of the driver, evenly spaced
+    internal   true if the pins are inside the driven wheel, which then turns in the sense of the driver
     """
 
     def __init__(self, slots: int, pins: int = 1, internal: bool = False) -> None:
@@ -93,22 +82,10 @@ class StepTransmission(TableTransmission):
 
     The first engagement begins at S = 0. The driven angle is measured from its position before this engagement.
 
-    Parameters
-    ----------
-    teeth : int
-        Number of teeth of the driven wheel.
-    moves : sequence of int
-        Teeth moved by successive engagements.
-    times : int
-        Engagements in one revolution of the driver.
-    over : Fraction
-        Angle of the driver during which an engagement moves the teeth [turn]; 0 for instantaneous steps.
-
-    Examples
-    --------
-    >>> transmission = StepTransmission(24, [12], 1, Fraction(2, 5))
-    >>> transmission.ratio, [float(speed) for speed in transmission.speed([1, 3])], transmission.dwell
-    (Fraction(1, 2), [1.25, 0.0], Fraction(3, 5))
+    teeth   number of teeth of the driven wheel
+    moves   teeth moved by successive engagements
+    times   engagements in one revolution of the driver
+    over    angle of the driver during which an engagement moves the teeth [turn]; 0 for instantaneous steps
     """
 
     def __init__(self, teeth: int, moves: Sequence[int], times: int = 1, over: Fraction = Fraction(0)) -> None:

@@ -31,22 +31,13 @@ _SLIGHT = 1e-9  # of the range of a quantity: smaller jumps are rounding error
 class DeviationTransmission(TransmissionFunction):
     """Transmission function with a periodic deviation from uniform motion, or its inverse function.
 
-    Parameters
-    ----------
-    mean : Fraction
-        Mean speed ratio m of the function, without sign.
-    deviation : PeriodicFunction
-        Deviation d [rad of the other side] as a function of the angle [rad] of the side to which it refers.
-    phase : float
-        Angle in the deviation at S = 0 [rad].
-    way : {1, -1}
-        -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S).
-    inverse : bool
-        True if the other side drives.
-    direction : {1, -1}
-        Direction of rotation.
-    lag : float
-        Constant that is added to the transmission error [rad of the driven side].
+    mean        mean speed ratio m of the function, without sign
+    deviation   deviation d [rad of the other side] as a function of the angle [rad] of the side to which it refers
+    phase       angle in the deviation at S = 0 [rad]
+    way         -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S)
+    inverse     true if the other side drives
+    direction   direction of rotation
+    lag         constant that is added to the transmission error [rad of the driven side]
     """
 
     def __init__(

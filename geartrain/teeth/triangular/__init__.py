@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
-    from geartrain.teeth.triangular.clearance_window import ClearanceWindow as ClearanceWindow
     from geartrain.teeth.triangular.clearance_window import find_window as find_window
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes as TriangularSizes
     from geartrain.teeth.triangular.pair_geometry import equal_depth as equal_depth
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
 __getattr__, __all__ = public_names(
     __name__,
     {
-        "clearance_window": "ClearanceWindow find_window",
+        "clearance_window": "find_window",
         "pair_geometry": "TriangularSizes equal_depth pitch_true",
         "triangular_form": "Triangular",
         "triangular_transmission": "TriangularTransmission",

@@ -223,10 +223,6 @@ class ClearanceWindow(Shown):
 
     The truth value of a window is False if `run` is not above `jam`: the pair then turns at no clearance. If a pair
     turns in several ranges of clearance, the window is the first range.
-
-    See Also
-    --------
-    find_window : Function that computes the window of a pair.
     """
 
     jam: float
@@ -245,10 +241,7 @@ class ClearanceWindow(Shown):
     def factor(self, excess: float) -> float:
         """Return the clearance factor for a given excess.
 
-        Parameters
-        ----------
-        excess : float
-            Relative deviation of the centre distance, as in `TriangularSizes.excess`.
+        excess   relative deviation of the centre distance, as in `TriangularSizes.excess`
         """
         return 1 + self.side * excess
 
@@ -278,10 +271,7 @@ class ClearanceWindow(Shown):
     def at(self, fraction: float) -> float:
         """Return the excess at a given fraction of the window.
 
-        Parameters
-        ----------
-        fraction : float
-            0 at `jam`, 1 at `run`.
+        fraction   0 at `jam`, 1 at `run`
         """
         return self.jam + fraction * (self.run - self.jam)
 

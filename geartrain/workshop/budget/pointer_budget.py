@@ -54,22 +54,15 @@ class BudgetCause(Result):
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
         """Return a cause whose size is unknown, because data are missing or the error cannot be computed.
 
-        Parameters
-        ----------
-        name : str
-            Name of the cause.
-        note : str
-            Reason why the size is unknown.
+        name   name of the cause
+        note   reason why the size is unknown
         """
         return cls(name, "not declared", note=note)
 
     def in_days(self, degrees_per_day: float | None) -> BudgetCause:
         """Return the cause with its size also in days; unchanged if its size or the pointer's speed is unknown.
 
-        Parameters
-        ----------
-        degrees_per_day : float or None
-            Mean speed of the pointer [deg/d]; None if it does not turn, or if no unit of time is declared.
+        degrees_per_day   mean speed of the pointer [deg/d]; None if it does not turn, or if no unit of time is declared
         """
         if self.degrees is None or not degrees_per_day:
             return self

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import OutputResult
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.work import Execution
-    from geartrain.train import Target
+    from geartrain.train.outputs import Target
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
     from geartrain.workshop.monte_carlo.trial_results import TrialResults

@@ -7,21 +7,26 @@ from dataclasses import dataclass, field, replace
 from math import degrees, pi
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.teeth.triangular.pair_geometry import depth
+from geartrain.workshop.cutting.cut_wheel import displaced
+from geartrain.workshop.cutting.wheel_estimate import estimate_measured
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.train import PairMounting, Train, Wheel, WheelManufacture
-    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth
+    from geartrain.train import Train, Wheel
+    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth, PairMounting, WheelManufacture
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "stepping", "eccentricity", "tip", "aperture_deviation")
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
-_ANGLES = ("pitch_deviation", "stepping", "aperture_deviation")
+_ANGLES = {"pitch_deviation": "its pitch", "stepping": "its pitch", "aperture_deviation": "its tooth angle"}
+"""Nominal values of which errors of angles are fractions."""
 _OF_PITCHES = ("pitch_deviation", "stepping", "eccentricity")
 """Kinds of errors that the measured angles of the teeth of a wheel contain."""
 MOST = {kind: 1.0 if kind in _ANGLES else 2.0 for kind in ERROR_KINDS}
@@ -181,7 +186,10 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     by_angles = measured if measured is not None and measured.angles is not None else None
     for each in settings:
         if by_angles is not None and each.kind in _OF_PITCHES:
-            _check_not_measured(each, name)
+            if each.of == name:
+                what = f"the error '{each.kind}' is given for '{name}', whose angles are measured"
+                why, fix = "the measured angles contain it already", f"omit it, or remove `measured` from '{name}'"
+                raise QuestionError(Problem(what, why, fix))
         elif each.kind in OF_WHEELS and each.of in ("", name):
             errors[each.kind] = reader.set(each)
     # errors of size 0 are removed, so that a perfect wheel is recognised as such
@@ -193,22 +201,12 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     return found if by_angles is None else _with_measured_angles(found, by_angles)
 
 
-def _check_not_measured(setting: ErrorOverride, wheel: str) -> None:
-    """Raise `QuestionError` if an override names a wheel with measured angles; for all wheels, it does not apply."""
-    if setting.of == wheel:
-        what = f"the error '{setting.kind}' is given for '{wheel}', whose angles are measured"
-        why = f"the measured angles contain its {setting.kind}, which would be counted twice"
-        raise QuestionError(Problem(what, why, f"omit it, or remove `measured` from '{wheel}'"))
-
-
 def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelErrors:
     """Return the wheel with the pitch deviations and the eccentricity that follow from measured angles of its teeth.
 
     The eccentricity is either part of the pitch deviations, or separate and removed from them. Missing teeth have no
     deviation from the fitted eccentricity, if that is significant, else none from an even division.
     """
-    from geartrain.workshop.cutting.wheel_estimate import eccentric_deviations, estimate_measured
-
     found = estimate_measured(measured, wheel.z)
     depth = wheel.depth / wheel.angle_radius
     if measured.use == "law":
@@ -218,7 +216,12 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
             law["eccentricity"] = ErrorSpecification(found.eccentricity.value / depth)
         return replace(wheel, errors={**wheel.errors, **law}, towards=None)
     size, direction = found.fitted if found.eccentric else (0.0, 0.0)
-    eccentric = eccentric_deviations(size, direction, wheel.z)
+    _, eccentric = displaced(
+        np.ones(wheel.z),
+        np.linspace(0, wheel.z * wheel.pitch, wheel.z, endpoint=False),
+        np.array(size),
+        np.array(direction),
+    )
     behind, tables = eccentric.copy(), dict(wheel.tables)
     behind[found.numbers] = found.off
     if measured.use == "eccentric" and found.eccentric:
@@ -267,8 +270,8 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
             deep = even.depth * module * even.z / 2 / (1 + half if even.ring else 1 - half)
     # the aperture is the whole angle of a tooth, so its unit is twice the half angle
     lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
-    angles = dict.fromkeys(("pitch_deviation", "stepping"), even.pitch)
-    return {**angles, "aperture_deviation": 2 * even.half_angle, **lengths}
+    lengths |= {"pitch_deviation": even.pitch, "stepping": even.pitch, "aperture_deviation": 2 * even.half_angle}
+    return lengths
 
 
 @dataclass(frozen=True, slots=True)
@@ -303,10 +306,7 @@ class _Reader:
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
             if abs(off.size) >= MOST[kind]:  # also for random errors: one standard deviation must leave a tooth
-                units = dict.fromkeys(("pitch_deviation", "stepping"), "its pitch") | {
-                    "aperture_deviation": "its tooth angle"
-                }
-                of = units.get(kind, "the depth of its teeth")
+                of = _ANGLES.get(kind, "the depth of its teeth")
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} times {of}"
                 pitch = self.scales["pitch_deviation"] or 0
                 why = (

@@ -21,26 +21,10 @@ if TYPE_CHECKING:
 def measured_motion(
     train: GearTrain, state: str | None = None, outputs: Sequence[str] = (), without: Sequence[str] = ()
 ) -> Motion:
-    """Compute the motion of a train with its wheels as measured: tables, fixed errors and filing, no random errors.
+    """Return the motion of a train with its wheels as measured: tables, fixed errors and filing, no random errors.
 
-    Parameters
-    ----------
-    train : GearTrain
-        Train with measured wheels.
-    state, outputs, without
-        State, outputs and omitted pairs, as for `GearTrain.motion`.
-
-    Returns
-    -------
-    Motion
-        Motion as a function of the position of the input, in its declared sense.
-
-    Raises
-    ------
-    QuestionError
-        If no wheel has measured teeth or fixed errors.
-    RangeError
-        If a pair jams or disengages, or one of its wheels cannot be cut.
+    The other arguments are those of `GearTrain.motion`. Raises `QuestionError` if no wheel has measured teeth or fixed
+    errors, and `RangeError` if a pair jams or disengages.
     """
     plan = find_trial_plan(train, (), outputs, state, without)
     # an eccentricity without a direction is random

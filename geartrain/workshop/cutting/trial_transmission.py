@@ -6,7 +6,7 @@ from abc import abstractmethod
 from copy import copy
 from fractions import Fraction
 from functools import cached_property
-from math import ceil, floor, inf, lcm, nan, pi
+from math import ceil, floor, inf, lcm, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -109,16 +109,6 @@ class TrialTransmissionFunction(TransmissionFunction):
     def speed_range(self) -> tuple[float, float]:
         """Return the limits 0 and infinity, because the range is unknown before all trials are evaluated."""
         return 0.0, inf
-
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return NaN at each angle, because efficiency is not computed in trials."""
-        return np.full(np.shape(S), nan)
-
-    def efficiency_mean(self) -> float:
-        """Return NaN, because efficiency is not computed in trials."""
-        return nan
-
-    efficiency_at_constant_load = efficiency_minimum = efficiency_mean
 
 
 class CutTrialTransmission(TrialTransmissionFunction):

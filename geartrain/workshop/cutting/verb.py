@@ -14,5 +14,6 @@ def run(file: File, json: Json = False, out: Out = None, force: Force = False) -
     from geartrain.workshop.cutting.wheel_report import describe_measured_wheels, find_measured_wheels
 
     to = sink(out, force, (".md", ".html", ".json"))
-    found = find_measured_wheels(load(file).declaration)
-    give(to, json, lambda: found, lambda: [describe_measured_wheels(found)])
+    train = load(file).declaration
+    found = find_measured_wheels(train)
+    give(to, json, lambda: found, lambda: [describe_measured_wheels(train, found)])

@@ -52,16 +52,6 @@ def stepped_covariance(teeth: Ints, z: int) -> Floats:
     return found
 
 
-def eccentric_deviations(eccentricity: float, direction: float, z: int) -> Floats:
-    """Return the angles by which teeth about an eccentric centre are behind their nominal directions [rad], exactly.
-
-    eccentricity is a fraction of the radius of the teeth; direction is in rad, from the first tooth to later ones.
-    """
-    turned = direction - 2 * pi * np.arange(z) / z
-    found: Floats = np.arctan2(eccentricity * np.sin(turned), 1 + eccentricity * np.cos(turned))
-    return found
-
-
 def _degrees(angle: float) -> float | None:
     return finite(degrees(angle))
 
@@ -112,7 +102,7 @@ class WheelEstimate(Result):
     cutting_deviation: float
     """Standard deviation without the measurement error [rad]."""
     residuals: Floats
-    """Deviation of each measured tooth from the fit [rad], positive for a tooth that is behind."""
+    """Deviation of each measured tooth from the fit [rad], positive for a tooth behind its fitted position."""
     F: float
     """Statistic of the test for an eccentricity, with 2 and n - 3 degrees of freedom for n measured teeth [1]."""
     p: float
@@ -123,7 +113,7 @@ class WheelEstimate(Result):
     """Von Neumann's ratio of the residuals [1]: about 2 for independent deviations, smaller for division by stepping.
     """
     q_limit: float
-    """Value of q below which 5 % of wheels with independent deviations are [1]."""
+    """Value below which q is for 5 % of wheels with independent deviations [1]."""
 
     def _summary(self) -> str:
         found = f"eccentricity {self.eccentricity.value:.3g} of the radius" if self.eccentric else "not eccentric"
@@ -194,7 +184,7 @@ def estimate_wheel(
     --------
     >>> from math import radians
     >>> estimate_wheel([radians(each) for each in (0.3, 71.9, 143.7, 216.1)], teeth=5)
-    <WheelEstimate 4 of 5 teeth, not eccentric, sd 0.0874 deg>
+    <WheelEstimate 4 of 5 teeth, not eccentric, sd 0.046 deg>
     """
     z = len(angles) if teeth is None else teeth
     given = {at: float(each) for at, each in enumerate(angles) if each is not None and not isnan(each)}
@@ -210,12 +200,12 @@ def estimate_wheel(
 
 def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
     """Return the estimates from the angles declared for a wheel, by the law that von Neumann's ratio indicates."""
-    behind, error = measured.deviations(count), 0.0 if measured.error is None else measured.error.si
-    return _estimate(np.array(list(behind)), np.array(list(behind.values())), count, error, None)
+    angles = [None if each is None else each.si for each in measured.angles or ()]
+    return estimate_wheel(angles, count, 0.0 if measured.error is None else measured.error.si)
 
 
 def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLaw | None) -> WheelEstimate:
-    """Return the estimates from the angles of measured teeth minus those of an even division [rad]."""
+    """Return the estimates from the angles `off` of measured teeth minus those of an even division [rad]."""
     from scipy.special import chdtri, fdtrc, fdtri, ncfdtrinc, stdtrit
 
     gamma, n, freedom = 2 * pi * numbers / z, len(numbers), len(numbers) - 3
@@ -230,7 +220,7 @@ def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLa
     q, q_limit = _successive_ratio(step, steps / squares, n)
     law = law or ("stepped" if q < q_limit else "independent")
     unit, variance, ends = np.eye(n), squares / freedom, 1
-    if law == "stepped":
+    if law == "stepped" and len(step):
         unit = stepped_covariance(numbers, z)
         variance, ends = steps / float(np.trace(step @ unit @ step.T)), 2
     covariance = variance * (inverse @ unit @ inverse.T)[1:, 1:]

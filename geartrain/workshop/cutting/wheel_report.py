@@ -2,56 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.results import TrainResult
 from geartrain.report.document import Document, Section, Table
-from geartrain.workshop.cutting.wheel_estimate import WheelEstimate, estimate_measured
+from geartrain.workshop.cutting.wheel_estimate import estimate_measured
 from geartrain.workshop.monte_carlo.monte_carlo_report import angle_text, number_text
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from geartrain.train import Train, Wheel
+    from geartrain.workshop.cutting.wheel_estimate import WheelEstimate
 
 
-@dataclass(frozen=True, slots=True)
-class MeasuredWheels(TrainResult):
-    """Estimates for the measured wheels of a train.
-
-    See Also
-    --------
-    estimate_wheel : Compute the estimates for one wheel.
-    """
-
-    PAGE = "workshop.cutting.wheel_report:describe_measured_wheels"
-
-    name: str
-    """Name of the train."""
-    wheels: Mapping[str, WheelEstimate]
-    """Estimates by name of the wheel."""
-
-
-def find_measured_wheels(train: Train) -> MeasuredWheels:
-    """Return the estimates for all wheels with measured angles. Raises `QuestionError` if there are none."""
+def find_measured_wheels(train: Train) -> dict[str, WheelEstimate]:
+    """Return the estimates for all wheels with measured angles, by name. Raises `QuestionError` without such wheels."""
     cut = {name: (wheel.count, wheel.cutting.measured) for name, (_, wheel) in train.wheels.items() if wheel.cutting}
     found = {name: estimate_measured(each, z) for name, (z, each) in cut.items() if z and each and each.angles}
     if not found:
         what, why = f"no wheel of '{train.name}' has measured angles", "the estimates are computed from angles"
         raise QuestionError(Problem(what, why, "declare `cutting: {measured: {csv: FILE}}` for a wheel"))
-    return MeasuredWheels(train.name, found, _declaration=train)
+    return found
 
 
-def describe_measured_wheels(found: MeasuredWheels) -> Document:
+def describe_measured_wheels(train: Train, found: Mapping[str, WheelEstimate]) -> Document:
     """Return the report on the measured wheels of a train."""
     summary = (
         "Eccentricities are fractions of the radius at which the angles were measured. Directions are from the first "
         "tooth to later teeth. Intervals are at the 95 % confidence level."
     )
-    sections = [_section(name, each, found._declaration.wheels[name][1]) for name, each in found.wheels.items()]
-    return Document(f"Measured wheels: {found.name}", [summary], sections)
+    sections = [_section(name, each, train.wheels[name][1]) for name, each in found.items()]
+    return Document(f"Measured wheels: {train.name}", [summary], sections)
 
 
 def _section(name: str, found: WheelEstimate, wheel: Wheel) -> Section:

@@ -18,22 +18,22 @@ from geartrain.errors import GearTrainError
 from geartrain.train.wheel_stock import material_named
 from geartrain.workshop.cutting.declared_errors import ErrorOverride, ErrorSpecification
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction, friction_spreads
-from geartrain.workshop.monte_carlo.trial_block import BLOCK, RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import BLOCK, HAND, STRENGTH, RandomStreams
 from geartrain.workshop.monte_carlo.trial_plan import TrialPlan, find_trial_plan
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
     from geartrain.numerics.arrays import Floats
-    from geartrain.train import ArborSizes, Train
+    from geartrain.train import Train
+    from geartrain.train.manufacturing import ArborSizes
 
-_STRENGTH, _HAND = 9, 10  # numbers of the random streams of strengths and of the hand, after those of `trial_block`
 _SAMPLES = 2_000  # positions of the input in a run
 
 
 def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, float]) -> float:
     """Return the torque on the driven wheel of each flank of a jammed pair [unit of `torque`]; 0 if the pair releases
-    itself: docs/cut-by-hand.md, equation (5). Equal ratios without friction give an infinite torque.
+    itself: docs/cut-by-hand.md, equation (7). Equal ratios without friction give an infinite torque.
 
     torque        torque on the driver
     front, back   ratio of driven to driver speed, and efficiency, of each flank; at the back the driven wheel drives
@@ -110,12 +110,12 @@ class FeasibilityPlan:
 
     @cached_property
     def nominal(self) -> PairLoads | None:
-        """Torques without spreads; None without loads with a unit, or if they do not follow from the loads."""
+        """Torques without spreads; None without loads with a unit, or if the loads do not determine them."""
         known = self.declared.is_loaded(self.state) and self.declared.has_torque_units(self.state)
         return self.loads(self.train) if known else None
 
     def loads(self, train: GearTrain) -> PairLoads | None:
-        """Return the torques of a train, infinite if friction locks it; None if they do not follow from the loads."""
+        """Return the torques of a train, infinite if friction locks it; None if the loads do not determine them."""
         found = train.torques(self.state)
         crank = found.external.get(self.crank)
         if found.verdict.kind in ("self-locking", "stalled"):
@@ -166,9 +166,7 @@ class FeasibilityPlan:
         materials, found = sorted({part.material for part in self.parts}), np.zeros((trials, len(self.parts)))
         for at, part in enumerate(self.parts):
             item = at if self.per_part else materials.index(part.material)
-            found[:, at] = part.strength * np.exp(
-                part.spread * _drawn("standard_normal", seed, trials, item, _STRENGTH)
-            )
+            found[:, at] = part.strength * np.exp(part.spread * _drawn("standard_normal", seed, trials, item, STRENGTH))
         return found
 
     def hands(self, seed: int, trials: int) -> Floats | None:
@@ -179,7 +177,7 @@ class FeasibilityPlan:
         if drive.hand is None or drive.hand.range is None:
             return np.full(trials, drive.steady_torque)
         low, high = (end.si for end in drive.hand.range)
-        return low + (high - low) * _drawn("random", seed, trials, 0, _HAND)
+        return low + (high - low) * _drawn("random", seed, trials, 0, HAND)
 
     def held(self, pair: str) -> Mapping[str, float]:
         """Return the torque on the driven wheel of each pair for a unit torque at the crank while the driven link of

@@ -125,12 +125,12 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def rough(self) -> ProbabilityEstimate:
-        """Probability that tips of teeth clash (rough running), of the trials in which the train turns."""
+        """Probability that tips of teeth clash (rough running), in the trials in which the train turns."""
         return self._of_turning(CLASH)
 
     @property
     def loose(self) -> ProbabilityEstimate:
-        """Probability that a pair loses contact, of the trials in which the train turns."""
+        """Probability that a pair loses contact, in the trials in which the train turns."""
         return self._of_turning(DISENGAGED)
 
     def _of_turning(self, mark: int) -> ProbabilityEstimate:
@@ -139,7 +139,7 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def forced(self) -> Mapping[str, ProbabilityEstimate] | None:
-        """Probability that the hand breaks a tooth, of the trials in which the train jams; None without strengths or a
+        """Probability that the hand breaks a tooth, in the trials in which the train jams; None without strengths or a
         hand. `torque` is a lower bound from the torque of the hand; `wedge` includes the squeezed flanks of the pair.
         """
         if self.hand is None or not self.plan.parts:
@@ -162,9 +162,9 @@ class FeasibilityResult(Pictured, Result):
         """Probability of an outcome with each cause, most frequent first: the pairs that cannot be cut or jam (several
         may jam in a trial), and the part whose stress is highest in proportion to its strength.
         """
-        names, weakest = [pair.name for pair in self.plan.cutting.pairs], self.excess.argmax(axis=1, keepdims=True)
+        names = [pair.name for pair in self.plan.cutting.pairs]
         masks = dict(zip(OUTCOMES, (self._marked(UNCUT), self._marked(JAM)), strict=False))
-        masks["breaks"] = weakest == np.arange(len(self.plan.parts)) if self.plan.parts else np.zeros((1, 0), bool)
+        masks["breaks"] = self.excess == self.excess.max(axis=1, initial=0.0, keepdims=True)
         found: dict[str, dict[str, ProbabilityEstimate]] = {}
         for kind, mask in masks.items():
             parts = [part.name for part in self.plan.parts] if kind == "breaks" else names
@@ -214,8 +214,11 @@ class FeasibilityResult(Pictured, Result):
         ):
             if values:
                 yield f"{name} {min(values):.4g} to {max(values):.4g}"
+        texts = (
+            f"of {'bearings' if name.startswith('bearing of ') else name} {each}" for name, each in spreads.items()
+        )
         fixed = "none" if declared.friction is None else "without spread"
-        yield "friction " + ("; ".join(f"of {name} {each}" for name, each in spreads.items()) or fixed)
+        yield "friction " + ("; ".join(dict.fromkeys(texts)) or fixed)
         yield "filed to fit" if self.plan.cutting.files else "no filing"
         if spreads or any(part.spread for part in self.plan.parts):
             yield f"spreads drawn once per {'part' if self.plan.per_part else 'workshop'}"
@@ -284,7 +287,7 @@ def run_feasibility(
 
     Notes
     -----
-    The outcomes are examined in the order of `OUTCOMES`: docs/cut-by-hand.md, section 9.
+    The outcomes are examined in the order of `OUTCOMES`: docs/cut-by-hand.md, section 10.
 
     Examples
     --------

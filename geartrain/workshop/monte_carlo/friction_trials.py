@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
+from itertools import count, repeat
 from math import sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -24,19 +25,20 @@ from geartrain.numerics.confidence_intervals import (
     mean_of,
     percentiles_of,
 )
-from geartrain.numerics.quantity import Figure
+from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
 from geartrain.report.document import Document, Section, Table
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
-from geartrain.workshop.monte_carlo.trial_block import BLOCK, FRICTION, RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import BLOCK, FRICTION, PIVOT, RADIUS, RandomStreams
 from geartrain.workshop.monte_carlo.trial_run import check_trials
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.coupling import Coupling
     from geartrain.train import GearPair, Train
+    from geartrain.train.mechanism import BearingFriction
 
 
 FIGURES = ("mean", "maximum", "starting", "efficiency")
@@ -71,7 +73,7 @@ class FrictionSpread(NamedTuple):
 class FrictionPlan:
     """Plan of trials with random friction coefficients: the train, and the input positions of each trial.
 
-    Raises `QuestionError` if no friction coefficient of the train has a standard deviation.
+    Raises `QuestionError` if no friction coefficient of the train has a distribution.
 
     See Also
     --------
@@ -127,8 +129,15 @@ class FrictionPlan:
 
 
 def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
-    """Return the distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
-    return {name: _spread(friction) for name, _, friction in _declarers(declared) if _is_random(friction)}
+    """Return the distributions of random friction coefficients, by the part that declares them, or "train"."""
+    found = {name: _spread(friction) for name, _, friction in _declarers(declared) if _is_random(friction)}
+    for name, link in declared.links.items():
+        bearing = link.bearing
+        if bearing is not None and bearing.coefficient is not None and (bearing.range or bearing.radii):
+            low, high = (float(end.value) for end in bearing.range or (bearing.coefficient, bearing.coefficient))
+            spread = FrictionSpread(float(bearing.coefficient.value), (high - low) / sqrt(12), (low, high))
+            found[f"bearing of {name}"] = spread
+    return found
 
 
 def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False) -> Train:
@@ -141,9 +150,31 @@ def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False
     for name, item, friction in _declarers(declared, per_part):
         if _is_random(friction):
             drawn[name] = _with_coefficient(friction, streams.rng(item, FRICTION), trial % BLOCK)
+    links = {
+        name: link.model_copy(update={"bearing": _drawn_bearing(link.bearing, streams, item, trial % BLOCK)})
+        for item, (name, link) in zip(count(1) if per_part else repeat(0), declared.links.items(), strict=False)
+        if link.bearing is not None
+    }
     gears = [gear.model_copy(update=_friction_update(gear.name, drawn)) for gear in declared.gears]
     couplings = [joint.model_copy(update=_friction_update(joint.name, drawn)) for joint in declared.couplings]
-    return declared.model_copy(update={**_friction_update(_TRAIN, drawn), "gears": gears, "couplings": couplings})
+    parts = {"gears": gears, "couplings": couplings, "links": {**declared.links, **links}}
+    return declared.model_copy(update={**_friction_update(_TRAIN, drawn), **parts})
+
+
+def _drawn_bearing(bearing: BearingFriction, streams: RandomStreams, item: int, row: int) -> BearingFriction:
+    """Return a bearing with its coefficient and radius drawn for trial number `row` of a block."""
+
+    def between(low: float, high: float, kind: int) -> str:
+        return repr(float(streams.rng(item, kind).uniform(low, high, BLOCK)[row]))
+
+    update: dict[str, Any] = {}
+    if bearing.range is not None:
+        low, high = bearing.range
+        update |= {"coefficient": Figure.parse(between(float(low.value), float(high.value), PIVOT)), "range": None}
+    if bearing.radii is not None:
+        length = f"{between(bearing.radii[0].si, bearing.radii[1].si, RADIUS)} m"
+        update |= {"radius": Quantity.parse(length, "length", plain=False), "radii": None}
+    return bearing.model_copy(update=update)
 
 
 def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[str, CoulombFriction]:

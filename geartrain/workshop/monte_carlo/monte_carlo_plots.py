@@ -283,7 +283,7 @@ def probability_figure(steps: Sequence[tuple[float, ProbabilityEstimate]], name:
     """Draw a probability with its 95 % interval as a curve. Raises `QuestionError` without steps.
 
     steps          ascending abscissas with their estimates
-    missing, fix   reason and remedy if there are no steps
+    missing, fix   reason and remedy without steps
     """
     _require(steps, missing, fix)
     x = np.array([float(each) for each, _ in steps])

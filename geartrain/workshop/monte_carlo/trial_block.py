@@ -49,8 +49,10 @@ NUMBER = {
     "stepping": 9,
 }
 """Number of the random stream of each kind of error. Results depend on these numbers, so they must never change."""
-TOWARDS, POSITION, FRICTION = 2, 7, 8
-"""Numbers of the streams of the direction of an eccentricity, the position of the input, and friction."""
+TOWARDS, POSITION, FRICTION, HAND, PIVOT, RADIUS, STRENGTH = 2, 7, 8, 10, 11, 12, 13
+"""Numbers of the streams of the direction of an eccentricity, the position of the input, the friction of teeth, the
+hand at the crank, the friction and the radii of pivots, and the strength of metals.
+"""
 Streams = tuple[Container[int], Container[int]]
 EVERY = range(1 << 31)
 """Range that contains the numbers of all wheels and pairs, or of all kinds of error."""

@@ -294,12 +294,7 @@ class PairEventRates(Result):
 
 @dataclass(frozen=True, slots=True)
 class FilingStatistics(Result):
-    """Amount of filing after which one pair, or the whole train, turns without a jam.
-
-    See Also
-    --------
-    TrialResults : Results of all trials, with the filing of every pair.
-    """
+    """Amount of filing after which one pair, or the whole train, turns without a jam."""
 
     KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
 
@@ -422,10 +417,7 @@ class PointerErrorStatistics(Result):
     def beyond(self, angle: float) -> ProbabilityEstimate:
         """Return the probability that the absolute pointer error exceeds an angle.
 
-        Parameters
-        ----------
-        angle : float
-            Angle, 0 or more [rad].
+        angle   angle, 0 or more [rad]
         """
         return ProbabilityEstimate(int(np.count_nonzero(np.abs(self.kept) > angle)), len(self.kept))
 

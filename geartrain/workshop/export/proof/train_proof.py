@@ -46,12 +46,7 @@ _SHARE = 1e-6  # of the smaller part: a larger common volume is not a sliver
 
 @dataclass(frozen=True, slots=True)
 class TrainProof(Result):
-    """Result of the check that a train can be made and can turn: measured values and findings.
-
-    See Also
-    --------
-    prove_train : Prove a train.
-    """
+    """Result of the check that a train can be made and can turn: measured values and findings."""
 
     KEYS = (Key("ready", "is_ready"), "verdict", "meshes", "links", "findings")
 
@@ -80,32 +75,8 @@ class TrainProof(Result):
 def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> TrainProof:
     """Check whether the exported parts of a train can turn, mesh by mesh and as a whole.
 
-    Parameters
-    ----------
-    work : SolidModel
-        Solid model of the train.
-    watch : callable, optional
-        Progress function, called after each of `proof_steps` steps.
-
-    Returns
-    -------
-    TrainProof
-        Measured values and findings.
-
-    Raises
-    ------
-    MissingExtraError
-        If shapely and manifold3d (extra `proof`) are not installed.
-    GearTrainError
-        If the train cannot be laid out or has no sizes.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.scene import ManufacturingSizes, SolidModel
-    >>> proof = prove_train(SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0)))
-    >>> proof.verdict, [mesh.pair for mesh in proof.meshes], round(proof.meshes[0].minimum, 2)
-    ('ready to cut', ['s~p', 'p~ring'], 0.1)
+    work    solid model of the train
+    watch   progress function, called after each of `proof_steps` steps
     """
     if not proof_is_installed():
         raise MissingExtraError("shapely and manifold3d", "proof", "a proof that a train turns")

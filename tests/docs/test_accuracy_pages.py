@@ -8,12 +8,13 @@ from importlib import import_module
 from typing import get_type_hints
 
 import make_best_radii
+import make_study
 import pytest
 from make_accuracy import PAGES, STUDIES, page
 from places import DOCS
 from studies.records import StudyRecords, error_text, number, seconds_text, span
 
-OTHERS = {"best_radii", "extras", "frames"}
+OTHERS = {"best_radii", "extras", "frames", "study"}
 """Data of other pages."""
 
 
@@ -28,6 +29,14 @@ def test_a_page_is_what_its_script_writes_from_the_data(name: str) -> None:
 def test_the_page_on_radii_is_what_its_script_writes_from_the_data() -> None:
     data = json.loads(make_best_radii.DATA.read_text(encoding="utf-8"))
     assert make_best_radii.PAGE.read_text(encoding="utf-8") == make_best_radii.page(data)
+
+
+def test_the_study_is_what_its_script_writes_from_the_data() -> None:
+    data = json.loads(make_study.DATA.read_text(encoding="utf-8"))
+    text = make_study.WRITTEN.read_text(encoding="utf-8")
+    assert text == make_study.page(data)
+    assert len(text.split()) <= 2500
+    assert text.count("![") <= 6
 
 
 @pytest.mark.parametrize(("name", "place"), STUDIES.items())

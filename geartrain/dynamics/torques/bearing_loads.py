@@ -186,7 +186,7 @@ class BearingLoads:
         """Mass of each link whose weight presses on these bearings [kg]; None if it is not declared."""
         links = self.setting.train.links.items() if self._down and self.steady else ()
         carried = {link: part.mass for link, part in links if any(self._inside(each, link) for each in self.links)}
-        return {link: mass and mass.si for link, mass in carried.items()}
+        return {link: None if mass is None else mass.si for link, mass in carried.items()}
 
     @property
     def weighs(self) -> bool:

@@ -216,7 +216,12 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
             law["eccentricity"] = ErrorSpecification(found.eccentricity.value / depth)
         return replace(wheel, errors={**wheel.errors, **law}, towards=None)
     size, direction = found.fitted if found.eccentric else (0.0, 0.0)
-    _, eccentric = displaced(np.ones(wheel.z), np.arange(wheel.z) * wheel.pitch, np.array(size), np.array(direction))
+    _, eccentric = displaced(
+        np.ones(wheel.z),
+        np.linspace(0, wheel.z * wheel.pitch, wheel.z, endpoint=False),
+        np.array(size),
+        np.array(direction),
+    )
     behind, tables = eccentric.copy(), dict(wheel.tables)
     behind[found.numbers] = found.off
     if measured.use == "eccentric" and found.eccentric:

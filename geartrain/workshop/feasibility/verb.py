@@ -82,6 +82,7 @@ def run(
     from geartrain.workshop.feasibility.feasibility_plan import find_feasibility_plan
     from geartrain.workshop.feasibility.feasibility_report import describe_feasibility
     from geartrain.workshop.feasibility.feasibility_trials import run_feasibility
+    from geartrain.workshop.monte_carlo.clearance_study import read_sweep
     from geartrain.workshop.monte_carlo.trial_run import check_trials, journal_key
 
     to = sink(out, force, (".md", ".html", ".json"))
@@ -90,7 +91,7 @@ def run(
     check_distinct_outputs(to, drawing)
     if plot is not None and accuracy is None:
         raise option_error("--plot", "the curve that it shows is missing", "give --accuracy 0.02:0.3:6")
-    steps = _accuracies(accuracy) if accuracy else ()
+    steps = tuple(read_sweep(f"accuracy={accuracy}", "--accuracy")) if accuracy else ()
     over = None if turns is None else float(read_turns("--turns", turns))
     errors = read_error_overrides(cutting or ())
     plan = find_feasibility_plan(load(file), errors, output or (), state, without or (), over, per_part)
@@ -108,18 +109,3 @@ def run(
         draw(feasibility_figure(found), drawing)
     if not complete:
         raise typer.Exit(INTERRUPTED)
-
-
-def _accuracies(text: str) -> tuple[float, ...]:
-    """Parse a sweep such as `0.02:0.3:6` into equally spaced standard deviations [deg]."""
-    from numpy import linspace
-
-    try:
-        first, last, many = text.split(":")
-        low, high, count = float(first), float(last), int(many)
-    except ValueError:
-        low, high, count = 0.0, 0.0, 0
-    if not 0 <= low < high <= 90 or not 2 <= count <= 100:
-        why = "a sweep is FIRST:LAST:COUNT of ascending angles up to 90 degrees, with a count from 2 to 100"
-        raise option_error("--accuracy", f"'{text}' is not a sweep of accuracies", "for example, give 0.02:0.3:6", why)
-    return tuple(float(each) for each in linspace(low, high, count))

@@ -44,13 +44,17 @@ class ClearanceCase(Result):
         return cast("EventRates", self.events)
 
 
-def read_clearances(text: str) -> list[float]:
-    """Parse a sweep such as `window=0.1:0.9:9` or `clearance_factor=1.005:1.04:8` into equally spaced clearances.
+_SWEPT = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0), "accuracy": (0.0, 90.0)}
+"""Range of each quantity of a sweep, without its upper end."""
 
-    Fractions of a clearance window are below 1, and clearance factors are at least 1.
+
+def read_sweep(text: str, option: str = "--vary") -> list[float]:
+    """Parse a sweep such as `window=0.1:0.9:9` or `accuracy=0.02:0.3:6` into equally spaced values.
+
+    Fractions of a clearance window are below 1, clearance factors are at least 1, and accuracies are in degrees.
     """
     name, _, rest = text.partition("=")
-    bounds = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0)}.get(name.strip())
+    bounds = _SWEPT.get(name.strip())
     try:
         first, last, many = rest.split(":")
         low, high, count = float(first), float(last), int(many)
@@ -58,11 +62,11 @@ def read_clearances(text: str) -> list[float]:
         low, high, count = 0.0, 0.0, 0
     if bounds is None or not bounds[0] <= low <= high < bounds[1] or not 1 <= count <= _MOST:
         why = (
-            "a sweep is NAME=FIRST:LAST:COUNT of ascending values of clearance_factor (1 to 10) or window (0 to 1), "
-            f"with a count of at most {_MOST}"
+            "a sweep is FIRST:LAST:COUNT of ascending values of clearance_factor (1 to 10), window (0 to 1) or "
+            f"accuracy (0 to 90 deg), with a count of at most {_MOST}"
         )
-        fix = "for example, give --vary clearance_factor=1.005:1.04:8"
-        raise QuestionError(Problem(f"'{text}' is not a sweep of clearance factors", why, fix, "--vary"))
+        fix = f"for example, give {'clearance_factor=1.005:1.04:8' if option == '--vary' else '0.02:0.3:6'}"
+        raise QuestionError(Problem(f"'{text}' is not a sweep of values", why, fix, option))
     return [float(each) for each in np.linspace(low, high, count)]
 
 

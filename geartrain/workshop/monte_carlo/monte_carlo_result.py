@@ -96,6 +96,10 @@ class MonteCarloResult(Tabular, Pictured, Result):
             "The errors of teeth are independent of each other, and so are the errors of wheels. A wheel has the same "
             "errors in all its pairs. Each trial cuts all wheels anew."
         )
+        if stepped := [wheel.name for wheel in plan.wheels if "stepping" in wheel.errors]:
+            yield f"Exception: dividers set off each tooth of {', '.join(stepped)} from the last; their errors add up."
+        if measured := [wheel.name for wheel in plan.wheels if wheel.tables]:
+            yield f"Exception: {', '.join(measured)} has its measured teeth in every trial."
         yield (
             "Friction keeps the driven wheel in contact. In a jam, teeth block it on both sides at once. In a clash, a "
             "tooth enters the mesh against a tip; turning the driven wheel by hand within its backlash may free it."

@@ -89,7 +89,7 @@ def run(
     """
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.cutting.declared_errors import read_error_overrides
-    from geartrain.workshop.monte_carlo.clearance_study import read_clearances
+    from geartrain.workshop.monte_carlo.clearance_study import read_sweep
     from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult, study_trials, with_jamming_map
     from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
@@ -104,7 +104,7 @@ def run(
         if picture not in PICTURES:
             raise option_error("--picture", f"'{picture}' is not a kind of picture", suggest(picture, PICTURES))
     check_distinct_outputs(to, drawing)
-    sweep = read_clearances(vary) if vary else []
+    sweep = read_sweep(vary) if vary else []
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
     options = RunOptions(workers, resume)
     if to.path is None and to.suffix in SUFFIXES:

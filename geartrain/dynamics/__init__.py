@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.power_flow import find_power_flow as find_power_flow
     from geartrain.dynamics.torques.torque_results import Torques as Torques
     from geartrain.dynamics.torques.torque_results import TorqueVerdict as TorqueVerdict
-    from geartrain.dynamics.train_mechanics import TrainMechanics as TrainMechanics
     from geartrain.dynamics.turn.torque_cycle import TorqueCycle as TorqueCycle
 
 __getattr__, __all__ = public_names(
@@ -42,7 +41,6 @@ __getattr__, __all__ = public_names(
         "motion.run_statistics": "RunningStatistics",
         "torques.power_flow": "PowerFlow PowerNode find_power_flow",
         "torques.torque_results": "TorqueVerdict Torques",
-        "train_mechanics": "TrainMechanics",
         "turn.torque_cycle": "TorqueCycle",
     },
 )

@@ -31,12 +31,7 @@ DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
 @final
 @dataclass(frozen=True, eq=False)
 class TrainMechanics(Shown):
-    """Tooth- and load-dependent analysis of a train: driver of each pair, transmission functions and load cases.
-
-    See Also
-    --------
-    geartrain.GearTrain.mechanics : property that returns it
-    """
+    """Tooth- and load-dependent analysis of a train: driver of each pair, transmission functions and load cases."""
 
     kinematics: TrainKinematics
     """Kinematics of the same train, without teeth and loads."""
@@ -109,13 +104,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def teeth(self) -> tuple[GearMesh, ...]:
-        """All gear pairs that declare a tooth form, with computed tooth geometry and the first wheel as driver.
-
-        Raises
-        ------
-        GearTrainError
-            If the teeth of a pair cannot be computed. The error lists all such pairs.
-        """
+        """All gear pairs that declare a tooth form, with computed tooth geometry and the first wheel as driver."""
         if not self.undriven:
             return ()
         from geartrain.dynamics.gear_meshes import all_meshes
@@ -154,10 +143,7 @@ class TrainMechanics(Shown):
     def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
         """Return the gear pairs with a declared tooth form, with their drivers in one state.
 
-        Parameters
-        ----------
-        state : str, optional
-            Name of a declared state. None is allowed only for a train without states.
+        state   name of a declared state. None is allowed only for a train without states.
         """
         if not self.teeth:
             return ()
@@ -196,12 +182,8 @@ class TrainMechanics(Shown):
 
         The driver is declared, or follows from the direction of power relative to the pair's carrier.
 
-        Parameters
-        ----------
-        state : str, optional
-            Name of a declared state. None is allowed only for a train without states.
-        without : sequence of str
-            Names of pairs to omit.
+        state     name of a declared state. None is allowed only for a train without states.
+        without   names of pairs to omit
         """
         from geartrain.dynamics.torques.drivers import find_drivers
 
@@ -216,10 +198,7 @@ class TrainMechanics(Shown):
         """Return the load case of one state with its speeds and teeth; None if its speeds are neither determined nor
         free.
 
-        Parameters
-        ----------
-        state : str, optional
-            Name of a declared state. None is allowed only for a train without states.
+        state   name of a declared state. None is allowed only for a train without states.
         """
         case = self.kinematics.case(state)
         if case.state not in self._settings:
@@ -230,10 +209,7 @@ class TrainMechanics(Shown):
         """Return the load case with the given prescriptions, which may differ from the declared ones; None if its
         speeds are neither determined nor free.
 
-        Parameters
-        ----------
-        case : StateCase
-            Prescriptions, with locks given joint by joint, as in `TrainKinematics.cases`.
+        case   prescriptions, with locks given joint by joint, as in `TrainKinematics.cases`
         """
         from geartrain.dynamics.torques.load_case import LoadCase, speed_forms
 

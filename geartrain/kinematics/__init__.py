@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
-    from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
     from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
     from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
 
@@ -53,7 +52,6 @@ __getattr__, __all__ = public_names(
         "phasing.mesh_phasing": "MeshPhasing",
         "speeds.float_speeds": "FloatSpeeds",
         "speeds.mobility": "Mobility",
-        "train_kinematics": "TrainKinematics",
         "willis_matrix": "WillisMatrix",
         "willis_system": "WillisSystem",
     },

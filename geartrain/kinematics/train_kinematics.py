@@ -107,12 +107,7 @@ Method = Literal["auto", "exact", "sparse", "floats"]
 @final
 @dataclass(frozen=True, eq=False)
 class TrainKinematics(Shown):
-    """Kinematic analysis of a declared train, which does not depend on tooth forms.
-
-    See Also
-    --------
-    geartrain.GearTrain.kinematics : property that returns it
-    """
+    """Kinematic analysis of a declared train, which does not depend on tooth forms."""
 
     declaration: Train
     """Declaration of the train."""
@@ -139,15 +134,7 @@ class TrainKinematics(Shown):
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
         """Return all circuits except the circuits of the given pairs.
 
-        Parameters
-        ----------
-        names : sequence of str
-            Names of the omitted pairs.
-
-        Raises
-        ------
-        QuestionError
-            If a pair is not declared.
+        names   names of the omitted pairs
         """
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
@@ -175,10 +162,7 @@ class TrainKinematics(Shown):
         """Return True if all axes between two links are parallel, so that their relative speed is the speed of a
         rotation.
 
-        Parameters
-        ----------
-        of, base : str
-            Two links; the order does not matter.
+        of, base   two links; the order does not matter
         """
         # without sums all axes between links and the frame are parallel, so that no path is examined
         return not self.joint_sums or self._axes.is_rotation(of, base)
@@ -201,15 +185,7 @@ class TrainKinematics(Shown):
     def case(self, state: str | None = None) -> StateCase:
         """Return the inputs, brakes and locks of one state.
 
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only for a train without states.
-
-        Raises
-        ------
-        DeclarationError
-            If speeds cannot be calculated in the state.
+        state   a declared state; None only for a train without states
         """
         case = self.cases[self.declaration.single_state(state)]
         if case.problems:
@@ -254,10 +230,7 @@ class TrainKinematics(Shown):
     def solution(self, case: StateCase) -> Solution:
         """Return exact speeds and the verdict of one state, without a limit on the computing time.
 
-        Parameters
-        ----------
-        case : StateCase
-            One of `cases`.
+        case   one of `cases`
         """
         return solve(self.whole, case, self.signs, None)
 
@@ -265,34 +238,23 @@ class TrainKinematics(Shown):
         """Return the Willis equations of one state as a linear system with labelled rows and columns (docs/theory.md,
         6).
 
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only for a train without states.
+        state   a declared state; None only for a train without states
         """
         return self.case_equations(self.case(state))
 
     def case_equations(self, case: StateCase) -> WillisSystem:
         """Return the Willis equations with the given prescriptions, which may differ from the declared ones.
 
-        Parameters
-        ----------
-        case : StateCase
-            Prescriptions, with locks given joint by joint, as in `cases`.
+        case   prescriptions, with locks given joint by joint, as in `cases`
         """
         return self._system(self.whole, case)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Return speeds and evaluated outputs in one state; see `GearTrain.solve`.
 
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only for a train without states.
-        output : str, optional
-            An output or a link; only the circuits that can affect it are solved.
-        method : {"auto", "exact", "sparse"}
-            Method of solution.
+        state    a declared state; None only for a train without states
+        output   an output or a link; only the circuits that can affect it are solved
+        method   method of solution
         """
         wanted, part, case = None, self.whole, self.cases[self.declaration.single_state(state)]
         if output is not None:
@@ -320,10 +282,7 @@ class TrainKinematics(Shown):
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
         """Yield the effect of one tooth fewer or more of each uncertain wheel on each output.
 
-        Parameters
-        ----------
-        answer : Answer
-            Result of `solve`.
+        answer   result of `solve`
         """
         case = self.case(answer.state)
 
@@ -339,17 +298,8 @@ class TrainKinematics(Shown):
     ) -> FloatSpeeds:
         """Return float64 speeds by sparse LU with error estimates; several input speeds share one factorisation.
 
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only for a train without states.
-        inputs : mapping of str to sequence of float, optional
-            Input link -> speeds, one for each case, instead of the declared speeds [unit of the train].
-
-        Returns
-        -------
-        FloatSpeeds
-            Speeds and error estimates as arrays with axes (link, case), and condition numbers.
+        state    a declared state; None only for a train without states
+        inputs   input link -> speeds, one for each case, instead of the declared speeds [unit of the train]
         """
         from geartrain.kinematics.speeds import solve_floats
 
@@ -362,17 +312,8 @@ class TrainKinematics(Shown):
         """Return the prescriptions of a state with a single output, the link whose speed is the output, and the link
         relative to which it is measured.
 
-        Parameters
-        ----------
-        case : StateCase
-            One of `cases`.
-        output : str
-            Name of an output or a link.
-
-        Raises
-        ------
-        QuestionError
-            If the output is not declared.
+        case     one of `cases`
+        output   name of an output or a link
         """
         train = self.declaration
         declared = case.outputs.get(output)
@@ -393,12 +334,8 @@ class TrainKinematics(Shown):
         """Return for each output the link whose speed the output reports, and the link relative to which this speed is
         measured.
 
-        Parameters
-        ----------
-        state : str or None
-            A declared state; None only for a train without states.
-        names : sequence of str
-            Outputs or links; by default all outputs, or all links of a train without outputs.
+        state   a declared state; None only for a train without states
+        names   outputs or links; by default all outputs, or all links of a train without outputs
         """
         case = self.case(state)
         chosen = names or tuple(case.outputs) or tuple(self.declaration.links)

@@ -12,7 +12,6 @@ import csv
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from math import atan2, cos, pi, remainder, sin
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -232,15 +231,6 @@ class MeasuredTeeth(Declared):
             why = f"an eccentricity and a standard deviation are estimated from at least {FEWEST_ANGLES} teeth"
             raise bad("measured", f"only {count} angles were measured", "measure more teeth", why)
         return self
-
-    def deviations(self, count: int) -> dict[int, float]:
-        """Return the measured angles minus those of an even division [rad], with circular mean 0, by tooth index.
-
-        They are positive for a tooth that is behind its nominal position.
-        """
-        given = {at: each.si - 2 * pi * at / count for at, each in enumerate(self.angles or ()) if each is not None}
-        mean = atan2(sum(map(sin, given.values())), sum(map(cos, given.values())))
-        return {at: remainder(each - mean, 2 * pi) for at, each in given.items()}
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:

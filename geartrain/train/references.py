@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import combinations, pairwise
-from math import hypot, pi
+from math import hypot, pi, remainder
 from typing import Any
 
 from geartrain.errors import Loc, Problem, dotted, suggest
@@ -355,8 +355,10 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
             fix += ", or give the number of `missing` teeth after the last angle" if name == "angles" else ""
             yield Problem(what, why, fix, train.place(*loc, name))
             return
-    for (one, before), (two, after) in pairwise(measured.deviations(count).items()):
-        if not abs(after - before) < (two - one) * 2 * pi / count:
+    given = [(at, each.si) for at, each in enumerate(measured.angles or ()) if each is not None]
+    for (one, before), (two, after) in pairwise(given):
+        even = (two - one) * 2 * pi / count
+        if not abs(remainder(after - before - even, 2 * pi)) < even:
             what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' does not follow that of tooth {one + 1}"
             why = f"angles increase from tooth to tooth, by about {360 / count:.5g} deg"
             fix = "list the teeth in the order of rotation, and measure angles against the direction of rotation"
@@ -577,7 +579,7 @@ def _one_way(train: Train) -> Iterator[Problem]:
                 why = "`free` disables one-way clutches, and other clutches are open unless they are engaged"
                 yield Problem(f"'{clutch}' is not a one-way clutch", why, "omit it from `free`", place)
             elif clutch in state.engaged:
-                why = "it is required to hold, and not in force"
+                why = "a one-way clutch cannot both hold and be disabled"
                 yield Problem(f"'{clutch}' is engaged and free", why, "remove it from `engaged` or `free`", place)
 
 

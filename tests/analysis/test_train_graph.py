@@ -18,8 +18,8 @@ import geartrain
 from geartrain import GearTrain, load
 from geartrain.analysis import build_train_graph
 from geartrain.errors import DeclarationError, QuestionError
-from geartrain.kinematics import TrainKinematics
 from geartrain.kinematics.graph import to_dot, to_graphml, to_json
+from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.lazy_graph import Lazy
 
 OF_LINKS = {"declared", "frame", "wheels", "reference", "speed"}

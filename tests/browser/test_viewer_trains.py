@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 import shipped
 from commands import call
-from viewing import ANTIKYTHERA, BLIND, LOCKED, SIMPLE, Opening, go, rgb, tab, turns, wait
+from viewing import ANTIKYTHERA, LOCKED, PLAN, SIMPLE, Opening, go, rgb, tab, turns, wait
 
 from geartrain import load
 
@@ -36,7 +36,7 @@ outputs: {"b": {note: "<script>alert(5)</script>"}}
 
 
 def test_links_lead_only_to_the_web(show: Opening) -> None:
-    shown = show(text=LOCKED)
+    shown = show(text=LOCKED, **PLAN)
     tab(shown, "About")
     links = shown.run("[...document.querySelectorAll('.page a')].map((each) => each.href)")
     assert links == ["https://example.org/a"]
@@ -47,7 +47,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> None:
-    shown = show(SIMPLE, before=BLIND)
+    shown = show(SIMPLE, **PLAN)
     assert "has no 3D graphics" in shown.page.locator(".nothing").inner_text()
     places = """Object.fromEntries([...document.querySelectorAll('.plan .wheel')].map((wheel) => {
       const [x, y] = /M([^L]+)L/.exec(wheel.querySelector('.spoke').getAttribute('d'))[1].split(' ').map(Number);
@@ -77,7 +77,7 @@ def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> No
 
 
 def test_without_webgl_the_plan_is_saved_as_a_drawing_that_needs_no_style_sheet(show: Opening, tmp_path: Path) -> None:
-    shown = show(SIMPLE, before=BLIND)
+    shown = show(SIMPLE, **PLAN)
     with shown.page.expect_download() as download:
         shown.page.get_by_role("button", name="Save picture").click()
     assert download.value.suggested_filename == f"{SIMPLE}.svg"
@@ -130,7 +130,7 @@ def test_states_are_chosen_and_stand_beside_each_other(show: Opening) -> None:
 
 
 def test_two_trains_turn_in_step_and_their_difference_is_exact(show: Opening) -> None:
-    shown = show("price-1974", ANTIKYTHERA, compare=True)
+    shown = show("price-1974", ANTIKYTHERA, compare=True, **PLAN)
     solved = [shipped.train(name).solve() for name in ("price-1974", ANTIKYTHERA)]
     tab(shown, "Readings")
     shown.page.get_by_label("one unit of the input forward").click(click_count=2)

@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from geartrain.scene import Scene
 
 SIMPLE, ANTIKYTHERA = "planetary-24-18-60", "freeth-2008"
-GALLERY = ("worm", "longcase-clock", "zf-8hp70", "south-pointing-chariot")  # trains in the gallery of tests
+GALLERY = ("worm", "longcase-clock", "south-pointing-chariot")  # trains in the gallery of tests
 DESK: dict[str, Any] = {"viewport": {"width": 1000, "height": 620}}
 MOVING: dict[str, Any] = {"reduced_motion": "no-preference"}  # window of a test of motion
-BLIND = "HTMLCanvasElement.prototype.getContext = () => null"  # no WebGL
-PLAN: dict[str, Any] = {"before": BLIND}  # window of a test of readings: no train is drawn in three dimensions
+# window without WebGL, for tests of readings: no train is drawn in three dimensions
+PLAN: dict[str, Any] = {"before": "HTMLCanvasElement.prototype.getContext = () => null"}
 
 LOCKED = """
 name: locked

@@ -558,6 +558,26 @@ def test_one_pair_of_teeth_presses_as_statics_of_its_contact_says(
     assert loaded == pytest.approx(hypot(*force), rel=2e-8), name
 
 
+@pytest.mark.parametrize("along", [-2.0, -0.7, 0.7, 2.0])
+def test_a_ring_and_its_wheel_press_as_statics_of_their_contact_says(along: float) -> None:
+    """Involutes 24 in a ring of 60, module 2, at a distance from the pitch point along the line of action [mm]."""
+    text = PAIR.format(form="{form: involute, addendum: [0.62, 0.55]}", z=(24, 60), mu=0.1, distance=-36, load=1000)
+    train = geartrain.load(text.replace("v: 60", "v: {teeth: 60, internal: true}").replace("b: 1000", "b: -1000"))
+    balance = find_turn_balance(train.mechanics.load_case(), find_motion_problem(train.mechanics, None), None)
+    assert not isinstance(balance, TorqueVerdict)
+    found = balance.at(np.array([(-pi / 48 + along / _BASE) / (2 * pi)]))
+    # the wheel turns about the origin and pushes the ring upwards and outwards, to the right
+    normal = np.array([sin(radians(20)), cos(radians(20))])
+    point = np.array([24, 0]) + along * normal
+    arms = point, point + np.array([36, 0])
+    slides = np.array([-arms[0][1], arms[0][0]]) - 24 / 60 * np.array([-arms[1][1], arms[1][0]])
+    force = normal + 0.1 * slides / np.hypot(*slides)
+    first, second = (arm[0] * force[1] - arm[1] * force[0] for arm in arms)
+    assert 1e3 * found.torque[0, 0] == pytest.approx(1000 * first / second, rel=1e-9)
+    loaded = found.losses[-1, 0] / abs(found.slipping[-1, 0]) / friction_circle(1e-9, 1e-3)
+    assert loaded == pytest.approx(1000 * np.hypot(*force) / second, rel=1e-7)
+
+
 def test_a_locked_bearing_locks_at_every_position() -> None:
     radius = 21 * hypot(1, MU) / MU
     assert arm("[0, 1, 0]", radius=radius).torques(turns=1, samples=10).verdict.kind == "self-locking"

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import call
+from models import torque_figures
 
 from geartrain import DeclarationError, GearTrainError, load
-from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.teeth.couplings.step_transmission import GenevaTransmission, StepTransmission
 
 PAIR = """
@@ -285,7 +285,5 @@ def test_a_wheel_of_two_teeth_is_a_finger_only_for_a_large_mate(tmp_path: Path) 
 
 def test_the_lock_keeps_the_driven_link_from_driving() -> None:
     train = load(pair("kind: geneva, slots: 4", "loads: {w: 0.3 N m}\n"))
-    assert [way.torques.verdict.kind for way in drive_both_ways(train.mechanics, None)] == [
-        "incomplete",
-        "self-locking",
-    ]
+    drives = torque_figures(train).drives
+    assert [each.way.torques.verdict.kind for each in drives] == ["incomplete", "self-locking"]

@@ -5,10 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from pennestri import TABLES_1_TO_3, TURNING_PAIRS
+from pennestri import TABLES_1_TO_3
 
 from geartrain import GearTrain, load
-from geartrain.kinematics.graph import adjacency_labels
 
 # exact, from the circuits of Tables 1 to 3 by hand; the paper prints four decimals
 SPEEDS = {
@@ -62,17 +61,6 @@ def test_nineteen_turning_pairs_less_eighteen_gear_pairs_leave_one_degree_of_fre
     assert mobility.by_count == 19 - 18 == mobility.by_rank == 1
     assert mobility.redundant == 0
     assert mobility.loops == ()
-
-
-def test_adjacency_matrix_is_in_the_style_of_table_7(train: GearTrain) -> None:
-    expected = [["" for _ in range(20)] for _ in range(20)]
-    pairs = {pair: f"R({axis})" for pair, axis in TURNING_PAIRS.items()}
-    for line in TABLES_1_TO_3.strip().splitlines():
-        name, i, j, *_ = line.split()
-        pairs[int(i), int(j)] = name
-    for (i, j), text in pairs.items():
-        expected[i - 1][j - 1] = expected[j - 1][i - 1] = text
-    assert adjacency_labels(train.declaration) == expected
 
 
 def test_fifteen_teeth_on_link_18_do_not_give_the_printed_speeds() -> None:

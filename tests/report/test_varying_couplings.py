@@ -1,12 +1,13 @@
-"""Sections of the report on couplings with variable ratio and on fusees, and the remark of `solve`."""
+"""Sections on couplings with variable ratio and on fusees, and remarks of `solve` on swings and floats."""
 
 from __future__ import annotations
 
 from math import degrees
 
 import pytest
+from studies.train_families import grid
 
-from geartrain import load
+from geartrain import GearTrain, load
 from geartrain.errors import GearTrainError
 from geartrain.report import collect_report
 from geartrain.report.formula_report import collect_formulas, describe_formulas
@@ -79,3 +80,14 @@ def test_the_equation_clock_is_right_over_a_year() -> None:
     found = train.motion(outputs=["solar"]).run(turns=8765.81, samples=2001).statistics[0]
     assert -degrees(found.minimum) / 6 == pytest.approx(14.28, abs=0.005)
     assert degrees(found.most) / 6 == pytest.approx(16.47, abs=0.005)
+
+
+def test_an_answer_says_why_floats_were_chosen_and_how_to_get_fractions() -> None:
+    train = GearTrain.declare(grid(3000))
+    answer = train.solve()
+    estimate = max(answer.accuracy[link].estimate for link in answer.speeds)
+    assert 0 < estimate < 1e-10
+    assert "Solved in floats: the system is coupled too densely" in str(answer)
+    assert f"The estimated error of every speed is at most {estimate:.1e}." in str(answer)
+    assert "`geartrain solve FILE --method exact`" in str(answer)
+    assert "Solved in floats" not in str(GearTrain.declare(grid(100)).solve(method="floats"))

@@ -1,22 +1,28 @@
-"""Motion of a scene's bodies and pointers, compared with the motion of the train."""
+"""Motion in a scene: data of a page, poses of slides and sliders, belts and elliptical wheels."""
 
 from __future__ import annotations
 
+import json
+import struct
 from base64 import b64decode
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import chain
-from math import floor, pi
+from math import cos, dist, floor, pi, sin, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
 import shipped
+from commands import call
 
 import geartrain
 from geartrain import GearTrain
+from geartrain.drawing.projection import part_points
 from geartrain.scene import Scene, make_scene
+from geartrain.scene.coupling_shapes import belt_outlines
 from geartrain.scene.pose import body_errors, scene_pose
 from geartrain.scene.train_scene import Pointer
 
@@ -203,3 +209,98 @@ def test_tables_are_written_as_little_endian_numbers_row_by_row() -> None:
     for table, data in zip(scene.movement.transmissions, scene.to_dict()["movement"]["transmissions"], strict=True):
         assert (np.frombuffer(b64decode(data["breaks"]), "<f8") == table.breaks).all()
         assert (np.frombuffer(b64decode(data["coefficients"]), "<f8") == table.coefficients.ravel()).all()
+
+
+def body(scene: Scene, link: str) -> int:
+    return next(at for at, each in enumerate(scene.bodies) if each.id == link)
+
+
+def test_a_carriage_takes_its_pinion_along_which_turns_by_the_rack() -> None:
+    scene = make_scene(shipped.train("lathe-thread"))
+    carriage, pinion = body(scene, "carriage"), body(scene, "pinion")
+    # 1.25 mm a turn towards the headstock; the pinion of 24 pi mm rolls back by that travel
+    pose = scene_pose(scene, Fraction(48))
+    assert pose.moved[carriage] == pytest.approx([0, 0, -60])
+    assert pose.turned[carriage] == pytest.approx(np.eye(3))
+    axis = np.array(scene.bodies[pinion].point)
+    assert pose.point(pinion, axis) == pytest.approx(axis + np.array([0, 0, -60]))
+    turn = 2 * pi * 60 / (24 * pi)
+    assert pose.way(pinion, [1, 0, 0]) == pytest.approx([cos(turn), sin(turn), 0], abs=1e-9)
+    assert scene.bodies[carriage].shown == "-5/4 mm"
+    assert scene.bodies[pinion].shown == "5/(96 π)"
+    assert scene.bodies[pinion].base == body(scene, "bed")
+
+
+def test_a_slider_is_where_the_transmission_function_puts_it_at_every_angle() -> None:
+    train = geartrain.load("""
+links: {frame: {}, crank: {}, s: {}}
+revolutes: {A: [frame, crank]}
+slides: {R: [frame, s]}
+couplings: [{kind: crank_slider, turns: crank, slides: s, radius: 20 mm, rod: 60 mm}]
+inputs: {crank: 1}
+""")
+    scene = make_scene(train)
+    places = [scene_pose(scene, Fraction(at, 12)).moved[body(scene, "s")][0] for at in range(13)]
+    S = [2 * pi * at / 12 for at in range(13)]
+    expected = np.array([20 * cos(each) + sqrt(60**2 - (20 * sin(each)) ** 2) for each in S])
+    # travel counts from the outer dead centre
+    assert np.array(places) == pytest.approx(expected - 80, abs=1e-6)
+
+
+def test_a_screw_that_rises_with_its_ram_is_carried_without_turning_more() -> None:
+    scene = make_scene(shipped.train("screw-jack"))
+    pose = scene_pose(scene, Fraction(5, 4))
+    for link in ("ram", "screw"):
+        assert pose.moved[body(scene, link)][2] == pytest.approx(10)
+    assert pose.way(body(scene, "screw"), [1, 0, 0]) == pytest.approx([0, 1, 0], abs=1e-12)
+
+
+def test_a_slide_is_translated_in_the_animation_of_a_file(tmp_path: Path) -> None:
+    call("export", "lathe-thread", "-o", str(tmp_path / "lathe.glb"), "--turns", "8")
+    data = (tmp_path / "lathe.glb").read_bytes()
+    (size,) = struct.unpack_from("<I", data, 12)
+    content = json.loads(data[20 : 20 + size])
+    (animation,) = content["animations"]
+    ways = {content["nodes"][each["target"]["node"]]["name"]: each for each in animation["channels"]}
+    assert {name: each["target"]["path"] for name, each in ways.items()} == {
+        **dict.fromkeys(("spindle", "idler", "leadscrew", "pinion", "handwheel"), "rotation"),
+        "carriage": "translation",
+    }
+    output = content["accessors"][animation["samplers"][ways["carriage"]["sampler"]]["output"]]
+    view = content["bufferViews"][output["bufferView"]]
+    start = 28 + size + view.get("byteOffset", 0) + output.get("byteOffset", 0)
+    keys = np.frombuffer(data, "<f4", 3 * output["count"], start).reshape(-1, 3)
+    assert keys[-1] - keys[0] == pytest.approx([0, 0, -10], abs=1e-4)
+
+
+@pytest.mark.parametrize(("sense", "length"), [(1, 597.13104546), (-1, 616.04460768)])
+def test_the_parts_of_a_belt_have_the_length_of_an_open_or_a_crossed_belt(sense: int, length: float) -> None:
+    arcs_and_bars = list(belt_outlines([(0, 0), (200, 0)], [25, 37.5], [1, sense], 2.0))
+    total = 0.0
+    for outline in arcs_and_bars:
+        half = len(outline) // 2
+        if len(outline) == 4:
+            start, end = (np.mean(outline[at : at + 2], axis=0) for at in (0, 2))
+            total += dist(start, end)
+        else:
+            middle = (np.array(outline[:half]) + np.array(outline[half:])[::-1]) / 2
+            total += float(np.hypot(*np.diff(middle, axis=0).T).sum())
+    # arcs are drawn by chords of at most 5 degrees, which are shorter by up to 0.03 %
+    assert total == pytest.approx(length, rel=5e-4)
+
+
+@pytest.mark.parametrize("turns", [Fraction(0), Fraction(1, 7), Fraction(2, 5), Fraction(5, 6)])
+def test_elliptical_wheels_touch_on_the_line_of_centres(turns: Fraction) -> None:
+    scene = make_scene(shipped.train("elliptical-gears"))
+    pose = scene_pose(scene, turns)
+    coupling = [part for part in scene.shapes if part.kind == "wheel"][:2]
+    centres = [np.array(part.place)[:2] for part in coupling]
+    between = centres[1] - centres[0]
+    reach = 0.0
+    for part, centre, way in zip(coupling, centres, (between, -between), strict=True):
+        points = pose.point(part.body, part_points(part))[:, :2] - centre
+        angle = np.arctan2(points[:, 1], points[:, 0]) - np.arctan2(way[1], way[0])
+        order = np.argsort((angle + np.pi) % (2 * np.pi))
+        angle = ((angle + np.pi) % (2 * np.pi) - np.pi)[order]
+        reach += float(np.interp(0, angle, np.hypot(*points[order].T), period=2 * np.pi))
+    assert reach == pytest.approx(float(np.hypot(*between)), rel=2e-4)

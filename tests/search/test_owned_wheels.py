@@ -8,11 +8,11 @@ from importlib.resources import files
 from itertools import product
 
 import pytest
+import yaml
 
-from geartrain import load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.search import read_counts, search_train
-from geartrain.train import Train
+from geartrain.train import Train, declare
 
 TWO_STAGES = """
 name: owned
@@ -25,7 +25,7 @@ outputs: {{d: {{targets: [{{speed: {speed}, tolerance: 0}}]}}}}
 
 
 def two_stages(of: str, speed: str) -> Train:
-    return load(TWO_STAGES.format(of=f"{{teeth: {{search: {{of: {of}}}}}}}", speed=speed)).declaration
+    return declare(yaml.safe_load(TWO_STAGES.format(of=f"{{teeth: {{search: {{of: {of}}}}}}}", speed=speed)))
 
 
 def found(train: Train) -> list[tuple[int, ...]]:
@@ -68,10 +68,10 @@ gears: [s ~ p, p ~ r]
 inputs: {s: 1}
 outputs: {c: {targets: [{speed: 2/7, tolerance: 20 %}]}}
 """
-    (part,) = search_train(load(text).declaration, best=10).parts
+    (part,) = search_train(declare(yaml.safe_load(text)), best=10).parts
     assert [dict(each.teeth) for each in part.solutions] == [{"s": 24, "p": 18}]
     # s = 20 and p = 20 also fit, with a fourth wheel of 20 teeth
-    (part,) = search_train(load(text.replace("20: 3", "20: 4")).declaration, best=10).parts
+    (part,) = search_train(declare(yaml.safe_load(text.replace("20: 3", "20: 4"))), best=10).parts
     assert {"s": 20, "p": 20} in [dict(each.teeth) for each in part.solutions]
 
 

@@ -335,11 +335,17 @@ def test_drawn_wheels_are_stepped() -> None:
     assert np.sqrt(np.mean(gap**2)) == pytest.approx(0.1 * sqrt(11 / 12), rel=0.04)
 
 
-def jams(sets: Sequence[str], trials: int) -> int:
-    train = load("extends: moon-triangular\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\n")
-    marks, _ = judge_trial_pairs(
-        draw_trial_wheels(find_trial_plan(train, read_error_overrides(sets)), RandomStreams(1, 0), trials)
-    )
+def stepped(train: GearTrain, off: float) -> list[str]:
+    """Errors of steps for which the teeth of every wheel deviate by a standard deviation [deg]."""
+    counts = {name: wheel.count or 0 for name, (_, wheel) in train.declaration.wheels.items()}
+    plan = find_trial_plan(train, read_error_overrides(["pitch_deviation=0.1 deg"]))
+    scale = {each.name: sqrt((counts[each.name] ** 2 - 1) / (12 * counts[each.name])) for each in plan.wheels}
+    return ["pitch_deviation=0 deg", *(f"{name}.stepping={off / each} deg" for name, each in scale.items())]
+
+
+def jams(train: GearTrain, sets: Sequence[str], trials: int) -> int:
+    plan = find_trial_plan(train, read_error_overrides(sets))
+    marks, _ = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), trials))
     return int(np.any(marks & JAM, axis=1).sum())
 
 
@@ -347,15 +353,16 @@ def test_stepped_wheels_jam_far_less_often_than_wheels_with_independent_deviatio
     """Teeth as far off, 0.15 or 0.3 deg: what jams is the difference of neighbours. Tables of such wheels jammed in 67
     of 80 and in 0 of 20 draws each, at 0.6 deg in 20 of 20.
     """
-    counts = {name: wheel.count or 0 for name, (_, wheel) in load("moon-triangular").declaration.wheels.items()}
+    train = load("extends: moon-triangular\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\n")
+    assert 60 <= jams(train, ["pitch_deviation=0.15 deg"], 80) <= 76
+    assert [jams(train, stepped(train, off), 20) for off in (0.15, 0.3, 0.6)] == [0, 0, 20]
 
-    def stepped(off: float) -> list[str]:
-        return [f"{name}.stepping={off / sqrt((z * z - 1) / (12 * z))} deg" for name, z in counts.items()]
 
-    assert 60 <= jams(["pitch_deviation=0.15 deg"], 80) <= 76
-    assert jams(stepped(0.15), 20) == 0
-    assert jams(stepped(0.3), 20) == 0
-    assert jams(stepped(0.6), 20) == 20
+@pytest.mark.slow
+def test_the_antikythera_mechanism_jams_with_independent_deviations_and_not_with_stepped_ones() -> None:
+    train = load("freeth-2021-cut")
+    assert jams(train, ["eccentricity=0 %", "pitch_deviation=0.1 deg"], 16) == 16
+    assert jams(train, ["eccentricity=0 %", *stepped(train, 0.1)], 16) == 0
 
 
 def test_a_fixed_error_of_the_steps_is_refused() -> None:

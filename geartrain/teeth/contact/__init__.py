@@ -6,7 +6,6 @@ requires. This provides an independent check of teeth that are derived in other 
 worn, misplaced or displaced teeth.
 
 gear_outline              curves, teeth made of them, a wheel
-flank_table               flanks as polynomial pieces of increasing radius
 first_touch               first point of the driver's side to touch (false position on each smooth segment)
 outline_contact           driven angle, backlash and teeth in contact at given angles: `contact`, `solve`
 transmission_fit          the periodic transmission function as polynomials (Chebyshev nodes): `tabulate`

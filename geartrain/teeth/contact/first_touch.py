@@ -21,7 +21,7 @@ from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
-    from geartrain.teeth.contact.flank_table import FlankTable
+    from geartrain.teeth.contact.gear_outline import FlankTable
 
 _ASIDE = 1e-5  # fraction of a segment: offset at which a slope is evaluated if it is undefined at the end
 _FINE = 1e-14  # of u: at a maximum of G only the speed depends on u to first order

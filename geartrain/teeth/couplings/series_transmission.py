@@ -77,7 +77,15 @@ class SeriesTransmission(LosslessTransmission):
     def speed_slope(self, S: ArrayLike) -> Floats:
         """Return the derivative of the speed ratio.
 
-        S   driver angles [rad], any shape
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Derivative by the angle of the driver [1/rad], shape of S.
         """
         x, half = self._argument(S)
         size = self.factor * self.order**2 * self.rho * self.rest * (1 + self.rho)

@@ -200,12 +200,12 @@ def estimate_wheel(
 
 def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
     """Return the estimates from the angles declared for a wheel, by the law that von Neumann's ratio indicates."""
-    behind, error = measured.deviations(count), 0.0 if measured.error is None else measured.error.si
-    return _estimate(np.array(list(behind)), np.array(list(behind.values())), count, error, None)
+    angles = [None if each is None else each.si for each in measured.angles or ()]
+    return estimate_wheel(angles, count, 0.0 if measured.error is None else measured.error.si)
 
 
 def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLaw | None) -> WheelEstimate:
-    """Return the estimates from the angles of measured teeth minus those of an even division [rad]."""
+    """Return the estimates from the angles `off` of measured teeth minus those of an even division [rad]."""
     from scipy.special import chdtri, fdtrc, fdtri, ncfdtrinc, stdtrit
 
     gamma, n, freedom = 2 * pi * numbers / z, len(numbers), len(numbers) - 3

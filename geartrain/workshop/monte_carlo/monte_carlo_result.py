@@ -97,7 +97,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
             "errors in all its pairs. Each trial cuts all wheels anew."
         )
         if stepped := [wheel.name for wheel in plan.wheels if "stepping" in wheel.errors]:
-            yield f"Exception: errors of {', '.join(stepped)} add up from tooth to tooth (division by stepping)."
+            yield f"Exception: dividers set off each tooth of {', '.join(stepped)} from the last; their errors add up."
         if measured := [wheel.name for wheel in plan.wheels if wheel.tables]:
             yield f"Exception: {', '.join(measured)} has its measured teeth in every trial."
         yield (

@@ -127,7 +127,7 @@ DeclaredEpoch = Annotated[Epoch, short_for("date")]
 """Epoch, or its date as a single string."""
 
 
-# ------------------------------------------------------------------------------------------------- friction that applies
+# ------------------------------------------------------------------------------------------------ friction that applies
 
 
 @dataclass(frozen=True, slots=True)

@@ -560,9 +560,7 @@ class StateCase(Shown):
     exact: bool = True
     """False if radians were converted to turns, or turns to radians, which is done with 50 digits."""
     drive: Drive | None = None
-    """Drive in this state: the drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is
-    declared.
-    """
+    """Drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is declared."""
     rate: Quantity | None = None
     """Speed of the input in real time, from the drive or the train's `rate`; None if it is not given."""
     expect: ExpectedVerdict = "determined"

@@ -218,17 +218,13 @@ def draw_steps(rows: Mapping[str, Any]) -> None:
         places = {key: step(curve) for key, curve in row["curves"].items()}
         marks = {mark: place for mark, key in keys.items() if (place := places.get(key)) is not None}
         ends = places["declared 0.3"] or ACCURACIES[0], places["declared 0.7"] or ACCURACIES[-1]
-        shown.append(Row(name.split(",")[0], marks, [ends]))
+        shown.append(Row(name, marks, [ends]))
     label = "accuracy at which half of the trains turn (deg)\nline: clearance at 0.3 to 0.7 of the window"
     draw("steps", style.interval_chart({label: shown}, looks))
 
 
 def draw_torques(rows: Mapping[str, Any]) -> None:
-    shown = [
-        Row(n.split(",")[0], {"m": t[1]}, [(t[0], t[2])], [f"{t[1]:.3g}"])
-        for n, row in rows.items()
-        if (t := row["torque"])
-    ]
+    shown = [Row(n, {"m": t[1]}, [(t[0], t[2])], [f"{t[1]:.3g}"]) for n, row in rows.items() if (t := row["torque"])]
     draw(
         "torques",
         style.interval_chart({"crank torque (N mm): median and 90 %": shown}, {"m": DOT}, ("median",), log=True),
@@ -310,8 +306,8 @@ def main() -> None:
     if given.measure:
         measure(given.trials)
     data = json.loads(DATA.read_text(encoding="utf-8"))
-    rows = trains(data)
-    draw_curves(next(row for name, row in rows.items() if MOON in name)["curves"])
+    rows = {name.split(",")[0]: row for name, row in trains(data).items()}
+    draw_curves(rows[MOON]["curves"])
     draw_steps(rows)
     draw_torques(rows)
     WRITTEN.write_text(page(data), encoding="utf-8")

@@ -28,8 +28,8 @@ from geartrain.numerics import ProbabilityEstimate
 from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan
 
 WRITTEN, TEMPLATE = DOCS / "study.md", Path(__file__).with_name("study.md")
-HANDLE, MOST = 30, 300
-"""Radius of the handle [mm], and largest torque of the hand [N mm]."""
+HANDLE, MOST, ENOUGH = 30, 300, 64
+"""Radius of the handle [mm], largest torque of the hand [N mm], and trials from which figures are not preliminary."""
 DATA = DOCS / "data" / "study.json"
 MOON, REFERENCE = "moon-triangular", "freeth-2021"
 ACCURACIES = (0.02, 0.05, 0.1, 0.15, 0.2, 0.3)
@@ -246,7 +246,7 @@ def angle(value: float | None) -> str:
 def half(curve: list[list[int]]) -> str:
     """Accuracy at which half of the trains turn, as text [deg]."""
     place = step(curve)
-    outside = f"< {ACCURACIES[0]}" if curve[0][0] * 2 >= curve[0][1] else f"> {ACCURACIES[-1]}"
+    outside = f"below {ACCURACIES[0]}" if curve[0][0] * 2 >= curve[0][1] else f"over {ACCURACIES[-1]}"
     return outside if place is None else f"{place:.2g}"
 
 
@@ -306,8 +306,8 @@ def main() -> None:
     if given.measure:
         measure(given.trials)
     data = json.loads(DATA.read_text(encoding="utf-8"))
-    rows = trains(data)
-    draw_curves(next(row for name, row in rows.items() if MOON in name)["curves"])
+    rows = {name.split(",")[0]: row for name, row in trains(data).items()}
+    draw_curves(rows[MOON]["curves"])
     draw_steps(rows)
     draw_torques(rows)
     WRITTEN.write_text(page(data), encoding="utf-8")
@@ -316,7 +316,7 @@ def main() -> None:
 def numbers(data: Mapping[str, Any], rows: Mapping[str, Any]) -> dict[str, str]:
     """Numbers of the text."""
     moon, whole = (next(row for name, row in rows.items() if stem in name) for stem in (MOON, REFERENCE))
-    steps = sorted((row["curves"]["declared 0.5"] for row in rows.values()), key=lambda each: step(each) or each[-1][0])
+    steps = sorted((row["curves"]["declared 0.5"] for row in rows.values()), key=lambda each: step(each) or 1.0)
     coarse = data["change none"]
     found = {key: angle(value) for key, value in data["claims"].items() if not isinstance(value, list)}
     found |= {key: percent(value) for key, value in data["claims"].items() if isinstance(value, list)}
@@ -334,6 +334,7 @@ def numbers(data: Mapping[str, Any], rows: Mapping[str, Any]) -> dict[str, str]:
         "plain_median": f"{coarse['torque'][1]:.3g}",
         "pivot_median": f"{data['change pivots, friction 0.1 to 0.2']['torque'][1]:.3g}",
         "trials": str(data["trials"]),
+        "preliminary": "" if data["trials"] >= ENOUGH else " (preliminary: the intervals are wide)",
         "trains": str(sum(name.count(",") + 1 for name in rows)),
         "step_first": half(steps[0]),
         "step_last": half(steps[-1]),

@@ -18,6 +18,7 @@ import make_images
 import make_outputs
 import make_palette
 import make_sources
+import make_study
 
 DOCS = Path(__file__).resolve().parents[1]
 
@@ -42,6 +43,7 @@ def main() -> None:
         make_palette,
         make_outputs,
         make_sources,
+        make_study,
     )
     for maker in makers:
         maker.main()

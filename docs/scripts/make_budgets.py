@@ -10,29 +10,25 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from make_outputs import refresh
-from studies.page import with_numbers
 
 import geartrain
 from geartrain import GearTrain
 from geartrain.drawing import render
 from geartrain.errors import GearTrainError
-from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
+from geartrain.workshop import BudgetQuestion, TrainBudget, find_budget
 from geartrain.workshop.budget.budget_bars import budget_figure
 
 DOCS = Path(__file__).resolve().parents[1]
 PAGE, PICTURE = DOCS / "budgets.md", DOCS / "images" / "budget.svg"
 TRAINS = DOCS.parent / "trains"
 FORM = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}"
-PITCH_TRUE = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5, radii: pitch_true}"
 FRICTION = "friction: 0.2"
 DRAG = "1 N mm"
 """Friction torque of the bearing of a pointer."""
 CUTTING = "cutting: {pitch_deviation: {normal: 0.1 deg}}"
 REQUESTED = BudgetQuestion(samples=10_000, clearances=(0.3, 0.5, 0.7))
 REFERENCE = "freeth-2021"
-"""The train of the example, the picture and the table of published statements."""
-UNIFORM = "al-biruni-box-of-the-moon"
-"""A train whose Moon moves uniformly, so that its theory error is the whole equation of centre."""
+"""The train of the example and the picture."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +48,7 @@ def main() -> None:
     PICTURE.write_bytes(render(budget_figure(reference), ".svg"))
     example = assumed(REFERENCE, [FORM, FRICTION, f"links: {{moon: {{bearing: {DRAG}}}}}", CUTTING]).strip()
     head = HEAD.replace("ASSUMED", example)
-    parts = (head, *table(list(rows.values())), with_numbers(PUBLISHED, {}) + "\n", *published(rows), REST)
+    parts = (head, *table(list(rows.values())), REST)
     PAGE.write_text("\n".join(parts), encoding="utf-8")
     refresh(PAGE)
 
@@ -136,44 +132,6 @@ def table(rows: list[TrainRow]) -> list[str]:
 def degrees(value: float) -> str:
     """Three digits without an exponent."""
     return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
-
-
-def published(rows: dict[str, TrainRow]) -> list[str]:
-    """Return the table of published statements, with the figures of the reference train."""
-    budget = rows[REFERENCE].budget
-    text = f"extends: {REFERENCE}\nname: {REFERENCE}-pitch-true\n{PITCH_TRUE}\n"
-    true = find_budget(geartrain.load(text), BudgetQuestion(outputs=("moon",), samples=REQUESTED.samples))
-    jams = [case.events["jam"].value for case in budget.jams]
-    lines = ["| statement | result |", "|---|---|"]
-    figures = {
-        "moon": budget["moon"],
-        "saros": budget["saros"],
-        "mars": budget["mars"],
-        "true": true["moon"],
-        "uniform": rows[UNIFORM].budget["moon"],
-    }
-    sizes = {
-        f"{name}_{cause.name.replace(' ', '_')}": size(pointer, cause.name)
-        for name, pointer in figures.items()
-        for cause in pointer.causes
-    }
-    low, high = f"{100 * min(jams):.0f}", f"{100 * max(jams):.0f}"
-    sizes["jams"] = low if low == high else f"{low} to {high}"
-    return [*lines, *(f"| {statement} | {here.format(**sizes)} |" for statement, here in STATEMENTS), ""]
-
-
-def size(pointer: PointerBudget, cause: str) -> str:
-    """`6.1 deg (0.46 d)`."""
-    found = pointer[cause]  # type: ignore[index]
-    if found.degrees is None:
-        return "not known"
-    days = "" if found.days is None else f" ({digits(found.days)} d)"
-    return f"{digits(found.degrees)} deg{days}"
-
-
-def digits(value: float) -> str:
-    """Two digits, including a trailing 0."""
-    return f"{value:#.2g}".removesuffix(".") if value < 100 else f"{value:.0f}"
 
 
 HEAD = """# Budgets of the pointers
@@ -265,42 +223,9 @@ some of its other data are assumed. "None" means that triangular teeth cannot be
 these tooth counts cannot turn.
 """
 
-PUBLISHED = """## Published statements
+REST = """[Could it have worked?](study.md) compares statements of the literature with these causes.
 
-Several publications assess the accuracy of the Antikythera mechanism. The results in the table are for `freeth-2021`
-with the teeth assumed above. The original depths, radii and clearances of the teeth in mesh have not survived, and
-other assumptions give other results.
-"""
-
-STATEMENTS = (
-    (
-        '"The triangular shape of the teeth alone produces negligible errors" (Szigety and Arenas 2025, abstract)',
-        "Correct for slow pointers: Saros {saros_teeth}. Incorrect for the Moon: {moon_teeth}, or {true_teeth}"
-        " with pitch-true radii, whereas the theory error is {moon_theory}",
-    ),
-    (
-        '"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement" (same'
-        " abstract)",
-        "Confirmed: at least one pair jams in {jams} % of the trials. Only a few pairs of very unequal wheels jam",
-    ),
-    (
-        '"Significant mechanical inaccuracies" besides the errors of theory (Freeth and Jones 2012, second-hand)',
-        "Correct for the Moon: teeth {moon_teeth}, cutting {moon_cutting}. Incorrect for Mars: {mars_teeth} and"
-        " {mars_cutting}, whereas the theory error is nearly 38 deg",
-    ),
-    (
-        'Inaccuracies "would have cancelled out many of the subtle anomalies" (Wikipedia 2017, second-hand)',
-        "Incorrect for the Moon's anomaly ({uniform_theory} peak to peak), which remains visible. Correct for finer"
-        " details, such as the difference of {moon_theory} between this anomaly and that of the true Moon",
-    ),
-    (
-        "The indicated Moon could be wrong by 20 degrees (Edmunds and Freeth 2011, second-hand)",
-        "Confirmed for pitch deviations of 0.3 deg ([cut by hand](cut-by-hand.md)), and for deviations of any size if"
-        " the crank is turned back (lost motion {moon_lost_motion})",
-    ),
-)
-
-REST = """In most rows of the [table of trains](#largest-error-of-each-train), the largest cause is lost motion. To
+In most rows of the [table of trains](#largest-error-of-each-train), the largest cause is lost motion. To
 avoid lost motion, always turn the crank forward.
 
 ## Assumptions

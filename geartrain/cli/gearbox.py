@@ -22,7 +22,7 @@ def run(
         typer.Option(
             "--gears",
             min=0,
-            help="Search for sequences of forward gears, in order of ratio, with this number of gears.",
+            help="Search for sequences of this number of forward gears, in order of ratio.",
         ),
     ] = 0,
     steps: Annotated[

@@ -70,7 +70,7 @@ def run(
     ] = "pitch",
     minimum: Annotated[int, typer.Option("--min-teeth", help="With --graph: tooth count of the smallest gear.")] = 12,
     radius: Annotated[
-        str, typer.Option("--radius", help="Radius of the sphere, or pitch radius of one kind of gear, such as 5=1.25.")
+        str, typer.Option("--radius", help="Radius of the sphere, or KIND=RADIUS: pitch radius of one kind of gear.")
     ] = "1",
     suggest: Annotated[
         int,

@@ -308,8 +308,8 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw a link's name where it hides the smallest inked area; of equal positions, on the side with the fewest
-    edges.
+    """Draw a link's name at the position that covers the smallest inked area; ties are broken in favour of the side
+    with the fewest edges.
     """
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):

@@ -122,7 +122,7 @@ class ClutchActions(TypedDict, total=False):
     """Keys that the JSON output has only for a train with one-way clutches."""
 
     one_way: Sequence[OneWayAction]
-    """One-way clutches in force: each holds or overruns."""
+    """Active one-way clutches: each holds or overruns."""
     notes: Sequence[str]
     """Notes on the one-way clutches, such as what happens if the output drives."""
 
@@ -215,7 +215,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     expected: str = "determined"
     """Kind of verdict that the state or the train declares as `expect`; by default `determined`."""
     one_way: tuple[OneWayAction, ...] = ()
-    """One-way clutches in force in the state: each holds or overruns."""
+    """Active one-way clutches in the state: each holds or overruns."""
     notes: tuple[str, ...] = ()
     """Notes on the one-way clutches, such as what happens if the output drives."""
     _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)

@@ -389,7 +389,7 @@ class Quantity:
     """
 
     value: Fraction
-    """Number in the written unit, exact."""
+    """Exact value, in the unit as written."""
     unit: str | None
     """Unit as written; None for a number without a unit."""
     text: str

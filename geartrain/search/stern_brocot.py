@@ -165,7 +165,8 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
             raise RangeError(
                 Problem(
                     f"more than {_MOST_LISTED} fractions approximate this ratio",
-                    f"the run of the tree from {run.at(1)} to {run.at(run.length)} has {run.length} fractions",
+                    f"the branch of the Stern-Brocot tree from {run.at(1)} to {run.at(run.length)} has {run.length} "
+                    "fractions",
                     "reduce the bound, or list only the convergents",
                 )
             )

@@ -128,7 +128,9 @@ Clearance = Annotated[
 Shift = Annotated[
     int,
     typer.Option(
-        "--centre-tolerance", min=0, help="Maximum difference between coaxial centre distances, in half modules."
+        "--centre-tolerance",
+        min=0,
+        help="Maximum difference between the centre distances of coaxial pairs, in half modules.",
     ),
 ]
 Hunting = Annotated[bool, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")]

@@ -100,7 +100,7 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None, because involute teeth run at any centre distance; `pair` uses the declared distance."""
+        """Return None: involute teeth keep their ratio at any centre distance, so no distance is wrong."""
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:

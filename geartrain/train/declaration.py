@@ -127,7 +127,7 @@ DeclaredEpoch = Annotated[Epoch, short_for("date")]
 """Epoch, or its date as a single string."""
 
 
-# ---------------------------------------------------------------------------------------------------- friction in force
+# ------------------------------------------------------------------------------------------------ friction that applies
 
 
 @dataclass(frozen=True, slots=True)
@@ -385,7 +385,7 @@ class Train(Declared):
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
     def one_way_clutches(self, state: str | None) -> tuple[str, ...]:
-        """Return the names of the one-way clutches that are in force in one state.
+        """Return the names of the one-way clutches that are active in one state.
 
         Parameters
         ----------

@@ -579,7 +579,7 @@ def _one_way(train: Train) -> Iterator[Problem]:
                 why = "`free` disables one-way clutches, and other clutches are open unless they are engaged"
                 yield Problem(f"'{clutch}' is not a one-way clutch", why, "omit it from `free`", place)
             elif clutch in state.engaged:
-                why = "it is required to hold, and not in force"
+                why = "a one-way clutch cannot both hold and be disabled"
                 yield Problem(f"'{clutch}' is engaged and free", why, "remove it from `engaged` or `free`", place)
 
 

@@ -190,7 +190,7 @@ class Drive(Declared):
     --------
     Train : its field `drive`
     State : may have its own drive
-    StateCase : drive in force in one state
+    StateCase : drive in one state
 
     Examples
     --------
@@ -373,7 +373,7 @@ def _read_sense(raw: object) -> object:
 class Clutch(Declared):
     """Brake (`fixes`) or clutch (`locks`); exactly one of the two keys is required.
 
-    With `one_way` it is an overrunning clutch, freewheel or ratchet, which is in force in every state: it holds, or it
+    With `one_way` it is an overrunning clutch, freewheel or ratchet, which is active in every state: it holds, or it
     overruns in the given sense, depending on speeds and torques.
     """
 
@@ -411,7 +411,7 @@ class State(Declared):
     See Also
     --------
     Train : its field `states`, by name
-    StateCase : prescriptions in force in one state
+    StateCase : prescriptions in one state
     """
 
     engaged: tuple[Id, ...] = Field(
@@ -560,9 +560,7 @@ class StateCase(Shown):
     exact: bool = True
     """False if radians were converted to turns, or turns to radians, which is done with 50 digits."""
     drive: Drive | None = None
-    """Drive in force: the drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is
-    declared.
-    """
+    """Drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is declared."""
     rate: Quantity | None = None
     """Speed of the input in real time, from the drive or the train's `rate`; None if it is not given."""
     expect: ExpectedVerdict = "determined"
@@ -580,7 +578,7 @@ class StateCase(Shown):
     only by one-way clutches of one sense.
     """
     one_way: tuple[OneWayAction, ...] = ()
-    """One-way clutches in force, in the order of declaration."""
+    """Active one-way clutches, in the order of declaration."""
     notes: tuple[str, ...] = ()
     """Notes on the one-way clutches, such as what happens if the output drives."""
     stepped: SteppedLink | None = None

@@ -166,7 +166,7 @@ def test_only_what_is_shown_holds_a_drawing_context(show: Opening) -> None:
     wait(shown, f"{live} <= 2")
     assert shown.run("geartrain.stages.filter(Boolean).length") == 2
     assert shown.page.locator(".view:visible canvas").count() == 2
-    assert shown.errors == []
+    assert shown.errors == shown.requests == []
 
 
 # --- two at once ---

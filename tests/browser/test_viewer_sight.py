@@ -56,7 +56,7 @@ def test_pillars_before_wheels_hide_next_to_nothing_of_them(show: Opening, name:
         assert blue(shown, towards, None) > 0.93 * whole, towards
 
 
-@pytest.mark.parametrize("name", ["bevel-differential", "pennestri-2002", "huygens-planetarium-1682"])
+@pytest.mark.parametrize("name", ["bevel-differential", "huygens-planetarium-1682"])
 def test_no_plate_hides_a_wheel(show: Opening, name: str) -> None:
     """The pinion of a differential, and a wheel of a planetarium, were behind an opaque plate."""
     shown = show(name)
@@ -105,17 +105,14 @@ def test_others_open_slantwise_from_the_front(show: Opening, name: str) -> None:
     assert shown.run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
 
 
-@pytest.mark.parametrize(("name", "times"), [("strain-wave", 1.35), ("zf-9hp48", 1.1)])
-def test_a_train_is_looked_into_from_behind_where_its_wheels_are_seen_better(
-    show: Opening, name: str, times: float
-) -> None:
+def test_a_train_is_looked_into_from_behind_where_its_wheels_are_seen_better(show: Opening) -> None:
     """The camera looked into the cup of a strain wave gear, whose teeth are at its far end."""
-    shown = show(name)
+    shown = show("strain-wave")
     wheels = range(shown.run("geartrain.scenes[0].wheels.length"))
     behind, before = (
         sum(blue(shown, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels) for towards in (None, INTO)
     )
-    assert behind > times * before
+    assert behind > 1.35 * before
 
 
 def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on_one_line(show: Opening) -> None:

@@ -28,6 +28,7 @@ MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--of"
 SIZED_TRAIN = ("optimise", "moon-triangular", "--of", "moon", "--objective", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
 ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--of", "moon", "--cutting", "pitch_deviation=2 %")
+CURVE = ("feasibility", *ERRORS[1:], "--accuracy", "0.1:0.2:2")
 IN_TIME = ("--rate", "1", "--turns", "2", "--skip", "0", "--steps", "100", "--no-fast")
 BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--of", "moon")
 
@@ -54,6 +55,8 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("dynamics", "--plot"): (("dynamics", "{heavy}", *IN_TIME), (".svg",)),
     ("montecarlo", "-o"): (ERRORS, (".md", ".json", ".csv", ".parquet")),
     ("montecarlo", "--plot"): (ERRORS, (".svg",)),
+    ("feasibility", "-o"): (CURVE, (".md", ".html", ".json")),
+    ("feasibility", "--plot"): (CURVE, (".svg",)),
     ("budget", "-o"): (BUDGET, (".md", ".json")),
     ("budget", "--plot"): (BUDGET, (".svg",)),
     ("sphere", "-o"): (("sphere", "cube"), (".md", ".json")),

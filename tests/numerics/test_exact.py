@@ -15,6 +15,7 @@ from scipy.optimize import linprog
 
 from geartrain.numerics import decimal
 from geartrain.numerics.elimination import TooDenseError, eliminate, feasible
+from geartrain.numerics.exact import log10
 
 SAMPLE = few_or_many(30, 60)  # systems of each law; `--slow` draws new ones, and twice as many
 coefficients = st.fractions(min_value=-5, max_value=5, max_denominator=4)
@@ -90,6 +91,14 @@ def test_decimal_is_what_the_standard_library_rounds_to(top: int, bottom: int, s
 
 def test_decimal_rounds_up_through_a_power_of_ten() -> None:
     assert Decimal(decimal(Fraction(10**400) - 1, 5)) == Decimal("1e400")
+
+
+@given(st.integers(1, 10**300), st.integers(1, 10**300))
+def test_log10_works_for_numbers_of_any_size(top: int, bottom: int) -> None:
+    value = Fraction(top, bottom)
+    assert log10(value * 10**400) - log10(value) == pytest.approx(400)
+    assert log10(-value) == log10(value)
+    assert log10(1 / value) == pytest.approx(-log10(value))
 
 
 @given(st.lists(st.lists(st.integers(-3, 3), min_size=4, max_size=4), min_size=1, max_size=7))

@@ -6,16 +6,19 @@ import json
 import math
 import multiprocessing
 import os
+import random
 import resource
 import signal
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import closing, contextmanager
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 import pytest
@@ -32,11 +35,14 @@ from clusters import (
     small_cluster,
     until,
 )
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from places import TESTS
 
 from geartrain.errors import GearTrainError, MissingExtraError, QuestionError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.numerics.work import cores
+from geartrain.numerics.work.worker_pool import WorkerPool
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -198,6 +204,74 @@ def test_a_cluster_gives_up_a_task_that_kills_its_workers(cluster: Any, dask: Ex
         cluster.scheduler.allowed_failures = before
     assert 2 <= sum(n == 5 for n, _ in begun(tmp_path)) <= 4
     assert list(run(mixed, range(3), dask)) == list(run(mixed, range(3)))
+
+
+@settings(max_examples=30)
+@given(
+    width=st.integers(1, 4),
+    deadly=st.dictionaries(st.integers(0, 39), st.sampled_from([1, 1, 1, 99]), max_size=6),
+    seed=st.integers(0, 999),
+)
+def test_only_a_task_that_kills_is_blamed_and_one_accident_is_forgiven(
+    width: int, deadly: dict[int, int], seed: int
+) -> None:
+    killers = {task for task, times in deadly.items() if times == 99}
+    with closing(Mortal(width, dict(deadly), seed)) as crew:
+        results = run(abs, range(40), crew)
+        if killers:
+            with pytest.raises(GearTrainError, match="kills its worker") as caught:
+                list(results)
+            assert int(caught.value.problems[0].what.split()[1]) in killers
+        else:
+            assert list(results) == list(range(40))
+        assert crew.most <= 4 * width
+
+
+class Mortal(WorkerPool):
+    """A pool in this process: tasks end in any order; those that are deadly so many times take all others along."""
+
+    def __init__(self, width: int, deadly: dict[int, int], seed: int) -> None:
+        self._width, self.deadly, self.draw = width, deadly, random.Random(seed)
+        self.waiting: list[tuple[Future[Any], Any, Any]] = []
+        self.died: Counter[int] = Counter()
+        self.most = 0
+        self.lock, self.thread = Lock(), ThreadPoolExecutor(1)
+
+    @property
+    def width(self) -> int:
+        return self._width
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        with self.lock:
+            self.waiting.append((future, fn, args))
+            self.most = max(self.most, len(self.waiting))
+            if any(self.died[task] >= 2 for _, _, (_, task) in self.waiting):
+                assert len(self.waiting) == 1, "a suspect runs alone"
+        self.thread.submit(self.step)
+        return future
+
+    def step(self) -> None:
+        with self.lock:
+            ended = self.waiting.pop(self.draw.randrange(len(self.waiting))) if self.waiting else None
+            if ended is None:
+                return
+            future, fn, args = ended
+            gone = []
+            if self.deadly.get(args[1], 0):
+                self.deadly[args[1]] -= 1
+                gone, self.waiting = [ended, *self.waiting], []
+                self.died.update(task for _, _, (_, task) in gone)
+        for each, _, _ in gone:
+            each.set_exception(BrokenExecutor("killed"))
+        if not gone:
+            future.set_result(fn(*args))
+
+    def close(self) -> None:
+        self.thread.shutdown()
+
+    def dismiss(self) -> None:
+        self.close()
 
 
 def test_a_pool_that_stays_broken_is_said() -> None:

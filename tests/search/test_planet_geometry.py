@@ -18,9 +18,6 @@ from geartrain import load
 from geartrain.errors import QuestionError
 from geartrain.kinematics.buildability.pitch_distances import tip_margin
 
-Data = dict[str, Any]
-
-
 # ---------------------------------------------------------------------------------------------------------------- ties
 
 

@@ -196,7 +196,7 @@ def test_a_slot_is_as_wide_as_its_pin_or_wider() -> None:
 def test_editors_are_told_of_every_key() -> None:
     parts = json.loads(call("inspect", "schema").stdout)["$defs"]
     assert {"drag", "inertia", "mass", "bearing"} <= set(parts["Link"]["anyOf"][1]["properties"])
-    assert {"sliding", "static", "deviation"} == set(parts["CoulombFriction"]["anyOf"][1]["properties"])
+    assert {"sliding", "static", "deviation", "range"} == set(parts["CoulombFriction"]["anyOf"][1]["properties"])
     assert {"rate", "torque", "weight", "drum", "falls", "drop", "spring", "hand"} == set(parts["Drive"]["properties"])
 
 

@@ -462,4 +462,4 @@ def test_motion_and_trials_report_the_measured_teeth(tmp_path: Path) -> None:
     text = call("montecarlo", file, "--trials", "8", "--cutting", "w.stepping=0.1 deg").stdout
     text = " ".join(text.split())
     assert "Exception: p has its measured teeth in every trial." in text
-    assert "errors of w add up from tooth to tooth" in text
+    assert "dividers set off each tooth of w from the last" in text

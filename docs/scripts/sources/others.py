@@ -191,6 +191,7 @@ def rows() -> Iterator[Row]:
 SOURCE = Source(
     "Other publications",
     "Shipped trains not based on the four sources above are based on the publications in these tables",
-    "`geartrain report TRAIN` lists the errata of a train with their reasons.",
+    "`geartrain report TRAIN` lists the errata of a train with their reasons. Statements on whether the Antikythera "
+    "mechanism worked are tested in [could it have worked?](study.md).",
     tuple(rows()),
 )

@@ -120,7 +120,8 @@ def _frame(sheet: Page, script: str, turns: Iterator[int]) -> None:
 @contextmanager
 def shown(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
     """A window, and the addresses that it asks for."""
-    sheet = browser.new_page(viewport=SIZE)  # type: ignore[arg-type]
+    # a page in motion would be drawn between the frames that are measured
+    sheet = browser.new_page(viewport=SIZE, reduced_motion="reduce")  # type: ignore[arg-type]
     requested: list[str] = []
     sheet.on("request", lambda request: requested.append(request.url.partition("#")[0]))
     yield sheet, requested

@@ -10,7 +10,7 @@ docs/torques.md, equations (26) to (28).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -188,11 +188,6 @@ class BearingLoads:
         carried = {link: part.mass for link, part in links if any(self._inside(each, link) for each in self.links)}
         return {link: None if mass is None else mass.si for link, mass in carried.items()}
 
-    @property
-    def weighs(self) -> bool:
-        """True if a weight presses on one of these bearings."""
-        return any(self.masses.values())
-
     @cached_property
     def _weights(self) -> Floats:
         """Weight on each bearing [N], shape (bearings, 3, 1)."""
@@ -202,11 +197,10 @@ class BearingLoads:
             found[row, :, 0] = np.array(self._down or (0.0,) * 3) * GRAVITY * mass * _share(own, other, None)
         return found
 
-    @cached_property
-    def _axes(self) -> Floats:
-        """Direction of the axis of each bearing, shape (bearings, 3, 1)."""
-        tree, axes = self.setting.tree, self.setting.train.axes
-        ways = [axes.get(tree.axis(self.links[number]) or "", Axis()).way for number, _, _ in self._supports]
+    def _ways(self, links: Iterable[str]) -> Floats:
+        """Return the reference directions of the axes of links, shape (links, 3, 1)."""
+        labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
+        ways = [scaled(self.setting.train.axes.get(label, Axis()).way, axes.sign(label)) for label in labels]
         return np.array(ways).reshape(-1, 3, 1)
 
     # --------------------------------------------------------------------------------------------------------- friction
@@ -226,17 +220,15 @@ class BearingLoads:
         if angles is not None:
             vectors = self._turned(vectors, angles)
         total = np.einsum("bf,fdn->bdn", self._shares, vectors) + self._weights
-        total = total - self._axes * (total * self._axes).sum(axis=1, keepdims=True)
+        ways = self._ways(self.links[number] for number, _, _ in self._supports)
+        total = total - ways * (total * ways).sum(axis=1, keepdims=True)
         found = np.zeros((len(self.links), reactions.shape[1]))
         np.add.at(found, [number for number, _, _ in self._supports], np.sqrt((total**2).sum(axis=1)))
         return found
 
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
         """Return forces rotated about the axes of their carriers by Rodrigues' formula, shape (forces, 3, n)."""
-        tree, axes = self.setting.tree, self.setting.train.axes
-        labels = [tree.axis(force.carrier) or "" for force in self.forces]
-        ways = [scaled(axes.get(label, Axis()).way, self.setting.axes.sign(label)) for label in labels]
-        way = np.array(ways).reshape(-1, 3, 1)
+        way = self._ways(force.carrier for force in self.forces)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
         found: Floats = (vectors - inside) * np.cos(turn) + np.cross(way, vectors, axis=1) * np.sin(turn) + inside

@@ -256,9 +256,7 @@ class LoadCase:
 
     def friction_senses(self, link: str, carrier: str | None = None) -> Iterator[tuple[str, int]]:
         """Yield the torque on a link, and on the link that carries it unless that is the frame, of a unit friction
-        torque in the bearing between them, each about its own axis.
-
-        Friction has the sign opposed to the relative speed (Coulomb friction).
+        torque in the bearing between them, opposed to the relative speed, each about its own axis.
         """
         carrier = self.tree.borne_by(link) if carrier is None else carrier
         relative = self.relative(link, carrier) or Fraction(0)

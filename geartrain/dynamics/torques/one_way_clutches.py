@@ -74,9 +74,9 @@ def decide_case(train: Train, state: str | None) -> StateCase:
 def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
     """Return True if linear forms can all be positive for the same values of the unknowns.
 
-    column   column that no form uses
+    column   unused column for a new unknown t
 
-    The forms are made homogeneous: with a factor t >= 1 of the constants, positive values can be scaled to 1 or more.
+    The constants are multiplied by t >= 1, so that any positive solution can be scaled until all forms are at least 1.
     """
     scaled: list[LinearForm] = [{column: Fraction(1), PRESCRIBED: Fraction(-1)}]
     for form in forms:

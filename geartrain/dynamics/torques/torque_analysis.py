@@ -80,8 +80,8 @@ class LoadedBalance:
     @property
     def has_friction(self) -> bool:
         """True if both a load and friction of bearings act that is not proportional to it."""
-        weighs = self.bearing_loads is not None and self.bearing_loads.weighs
-        return any(self.loads.values()) and (weighs or any(self.bearing_friction.values()))
+        masses = {} if self.bearing_loads is None else self.bearing_loads.masses
+        return any(self.loads.values()) and any((*masses.values(), *self.bearing_friction.values()))
 
     def sorted_flows(self, balance: TorqueBalance) -> tuple[list[FlowPattern], bool]:
         """Return the patterns of power flow of a balance, and True if all patterns were tried.

@@ -90,9 +90,7 @@ class BearingTorque(Result):
     loss: Fraction
     """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
     load: float | None = None
-    """Load on the bearing, or the sum of the loads on its two bearings [N]; None if its friction does not depend on
-    the load.
-    """
+    """Load on the bearing, or on two bearings the sum [N]; None if the friction does not depend on the load."""
 
 
 @dataclass(frozen=True)

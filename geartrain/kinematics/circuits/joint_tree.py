@@ -711,8 +711,8 @@ def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterato
     for link in sums.intersection(case.inputs):
         yield Problem(
             f"the input '{link}' does not turn about a single axis",
-            "the axes between it and the frame are not parallel, and the sum of its joint speeds is not a rotation",
-            "drive a link whose axes up to the frame are parallel",
+            "the joints between it and the frame have axes that are not parallel, so its axis of rotation moves",
+            "drive a link whose joints up to the frame have parallel axes",
             train.place(*case.loc, link),
         )
 

@@ -244,8 +244,8 @@ def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
 
 
 def _search_smaller_sets(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
-    """Return the smallest set of meshes that frees the train, by exhaustive search over sets of increasing size; else
-    `kept`.
+    """Return the smallest set of meshes that frees the train, by exhaustive search over the given sizes in increasing
+    order; `kept` if no such set frees it.
     """
     for size in sizes:
         for some in combinations(gears, size):

@@ -490,8 +490,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Phase error of every pair if the last assembled pair of each loop has the whole phase error of the loop
-        [pitch].
+        """Phase error of every pair, if the pair assembled last in each loop takes up the entire phase error of the
+        loop [pitch].
         """
         return self._errors(self.problem.tree_angles)
 

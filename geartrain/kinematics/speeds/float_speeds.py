@@ -278,8 +278,8 @@ def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limi
 
 def _out_of_range(label: str) -> Problem:
     return Problem(
-        f"a speed is outside the range of float64 near '{label}'",
-        "speeds and ratios in floats must be between 1e-120 and 1e120, so that their errors can be computed",
+        f"a speed near '{label}' is too small or too large for floating-point numbers",
+        "speeds and ratios must be between 1e-120 and 1e120, so that their rounding errors can be bounded",
         "use the exact method",
     )
 

@@ -308,9 +308,7 @@ class EpicyclicSet(CountSizes, Result):
     ratio: Fraction
     """Input speed divided by output speed, exact; negative if they have opposite senses."""
     error: Fraction
-    """Relative error: absolute value of the ratio, as defined by `ratio_is`, divided by the requested ratio, minus 1;
-    exact.
-    """
+    """Exact relative error |r| / q - 1 of the ratio r, as defined by `ratio_is`, from the requested ratio q."""
     planets: int
     """Requested number of planets."""
     places: int

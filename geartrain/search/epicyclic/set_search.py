@@ -514,7 +514,8 @@ def _relative(member: CentralWheel | None, columns: Columns) -> tuple[Ints | int
 def places(kind: EpicyclicKind, columns: Columns) -> Ints:
     """Return the number of equally spaced positions at which identical planets can be assembled, for each set.
 
-    n equal planets, equally spaced, can be assembled exactly if n divides this number; 0 permits any position.
+    n equal planets can be equally spaced if and only if n divides this number; if it is 0, every position is possible.
+    z is a tooth count, P that of the planet step in mesh, and f the speed of a central wheel relative to the carrier.
 
     Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
     teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n

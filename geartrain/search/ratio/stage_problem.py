@@ -47,8 +47,8 @@ class StageConstraints(Result):
     hunting: bool = False
     """Requirement that the two counts of every stage are coprime, so that every tooth meets every tooth of its mate."""
     reverted: bool = False
-    """Requirement that all stages have the same centre distance at the same module: equal sums of their counts, with
-    the difference instead of the sum for a stage with a ring.
+    """True to require the same centre distance for all stages of one module. The sums of the two tooth counts, for a
+    stage with a ring their differences, are then equal.
     """
     different: bool = False
     """Requirement that all counts are distinct."""

@@ -65,7 +65,10 @@ class CountTokens:
         return tuple(-at - 1 for at in range(first, first + wheels))
 
     def kinds(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, AddedKind]:
-        """Return the kind of each added wheel of a train with tokens, with the limits below `maximum` set by rings."""
+        """Return the kind of each added wheel, by the number of the token that replaces its tooth count in the train.
+
+        maximum   maximum tooth count; a wheel inside a ring gets a lower limit if the ring has fewer teeth
+        """
         most: dict[int, int] = {}
         for pair in _meshes(arbor):
             for ring, inside in (pair, pair[::-1]):

@@ -61,17 +61,13 @@ class ToothForces:
             return
         loads = [float(each) * _MM * self.swings.get(circuit.id, 1.0) for each in torque.torques[:2]]
         if self._is_parallel(circuit):
-            found = self._both(
-                loads,
-                [self._rolling_radius(circuit, at) for at in (0, 1)],
-                [-1.0 if wheel.internal else 1.0 for wheel in wheels],
-            )
+            cosines = [-1.0 if wheel.internal else 1.0 for wheel in wheels]
+            found = self._both(loads, [self._rolling_radius(circuit, at) for at in (0, 1)], cosines)
             parts = [(radius, self._parallel(circuit, at, push)) for at, (radius, push) in enumerate(found)]
         elif (crossing := _shaft_angle(self.setting, circuit)) is not None:
             middles = [self._middle(circuit, at, crossing) for at in (0, 1)]
-            found = self._both(
-                loads, [middle.radius(1) for middle in middles], [cos(middle.cone(1)) for middle in middles]
-            )
+            cosines = [cos(middle.cone(1)) for middle in middles]
+            found = self._both(loads, [middle.radius(1) for middle in middles], cosines)
             parts = [
                 (radius, bevel_force(push, middles[at].cone(1), self._angle(circuit), wheels[at].facing))
                 for at, (radius, push) in enumerate(found)

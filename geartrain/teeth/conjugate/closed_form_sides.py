@@ -173,8 +173,8 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     if (at_pitch > 0) == (at_most > 0):
         raise RangeError(
             Problem(
-                f"the contact of these pins does not reach the tip radius {tip:.6g} modules of the mate",
-                "the pins pass the far side of the lantern first",
+                f"the path of contact does not reach the tip radius of the mate, {tip:.6g} modules",
+                "the pins are at the far side of the lantern before that",
                 "give the mate a shorter addendum",
             )
         )

@@ -224,7 +224,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def distance(self) -> float:
-        """Distance between the axes [m, or in the unit of plain radii]."""
+        """Distance between the axes [m, or in the unit of radii that are declared without a unit]."""
         from geartrain.teeth.couplings.pitch_curves import mate_distance
 
         return mate_distance(self._values, float(-self.mean))

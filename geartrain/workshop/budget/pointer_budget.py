@@ -123,7 +123,7 @@ class PointerBudget(Result):
     degrees_per_day: float | None
     """Magnitude of the mean speed [deg/d]; None if the train's unit is not a time."""
     causes: tuple[BudgetCause, ...]
-    """All five causes, in the order of `CAUSES`."""
+    """Contributions of the five causes of error, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
     """Drift relative to each target. The cause "ratio" is the magnitude of the first drift over the span."""
     pairs: Mapping[str, float] | None = None

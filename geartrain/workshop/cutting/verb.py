@@ -6,7 +6,7 @@ from geartrain.cli.common import File, Force, Json, Out, give, sink
 
 
 def run(file: File, json: Json = False, out: Out = None, force: Force = False) -> None:
-    """Estimate the eccentricities and the pitch deviations of wheels whose teeth have measured angles.
+    """Estimate the eccentricities and pitch deviations of wheels from measured angles of their teeth.
 
     Example: `geartrain inspect wheels measured-wheel`.
     """

@@ -91,7 +91,7 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def stiff(self) -> Bools:
-        """Mask of the trials in which the hand or friction stops the train, shape (trials,)."""
+        """Mask of the trials in which friction locks the train or the crank torque exceeds its limit, (trials,)."""
         if self.torque is None:
             return np.zeros(self.trials.done, dtype=bool)
         return (

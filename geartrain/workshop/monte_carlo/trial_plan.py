@@ -114,7 +114,9 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
+        """Return the pair with another clearance: a clearance factor (1 or more), or its relative position between the
+        limits of the factor (below 1).
+        """
 
     def jamming_bound(self, sigma: float) -> float:
         """Return an upper bound of the jam probability; NaN if unknown.
@@ -191,7 +193,7 @@ class TriangularTrialPair(TrialPair):
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window."""
+        """Return the pair with another clearance factor, or relative position between the limits of the factor."""
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window

@@ -300,7 +300,7 @@ class _Unit:
         return {link: float(torque) for link, torque in computed.items() if link not in apart} | declared
 
     def running(self, at: int) -> list[Model]:
-        """Return the data of one load case: the gear in force, speeds [1/min], and torques [N m]."""
+        """Return the data of one load case: the engaged gear, speeds [1/min], and torques [N m]."""
         case, found = self.cases[at], []
         answer = self.work.train.solve(case.state, method="exact")
         # speeds that are not per time are taken as turns per minute

@@ -60,8 +60,8 @@ def run(
         typer.Option(
             "--free",
             help="Parameter to vary, as NAME or NAME=LOW:HIGH. Names: radii (ratio of radii divided by ratio of tooth "
-            "counts), window (clearance factor between its lower limit, 0, and its upper limit, 1), half_angle (half "
-            "the angle of a tooth). May be repeated; default: radii.",
+            "counts), window (position of the clearance factor between its limits: 0 = lower, 1 = upper), half_angle "
+            "(half the angle between the flanks of a tooth). May be repeated; default: radii.",
         ),
     ] = None,
     within: Annotated[

@@ -138,7 +138,7 @@ class _Motion:
         return senses[0], senses[1], senses[2]
 
     def _mesh_constraint(self, circuit: Circuit, turned: TurnedPair, angles: Floats) -> tuple[_Constraint, float]:
-        """Return the constraint of a mesh at a pose, and the angle of its second wheel beyond its backlash [rad]."""
+        """Return the constraint of a mesh at a pose, and how far the second wheel exceeds the backlash [rad]."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
         senses = self._axis_senses(circuit)

@@ -175,7 +175,9 @@ def run(
     profile: Annotated[
         Path | None,
         _outline(
-            "--profile", metavar="FILE", help="Write the outline of a whole wheel to scale, as .svg, .dxf or .csv."
+            "--profile",
+            metavar="FILE",
+            help="Write the outline of a whole wheel to scale, as .svg, .dxf or .csv, without compensation of a kerf.",
         ),
     ] = None,
     wheel: Annotated[int, _outline("--wheel", min=1, max=2, help="Number of the wheel to write, 1 or 2.")] = 1,

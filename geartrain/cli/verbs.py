@@ -209,6 +209,8 @@ def usage_problem(error: Any) -> Problem:
         known = [each for one in context.command.params for each in one.opts if each.startswith("--")]
         close = nearest_names(name.lstrip("-"), [each.lstrip("-") for each in known])
         fix = f"did you mean --{' or --'.join(close)}?" if close else see
+        if any("-p" in one.opts for one in context.command.params):
+            fix += f"; parameters of the tooth form are given as -p {name.lstrip('-')}=VALUE"
         return Problem("unknown option", "", fix, name)
     if extra := re.fullmatch(r"Got unexpected extra argument\S* \((.*)\)", what):
         return Problem("unexpected argument", "", see, extra[1])

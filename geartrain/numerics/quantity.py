@@ -131,7 +131,7 @@ SPELT = {
 
 def bad(kind: str, what: str, fix: str, why: str = "") -> PydanticCustomError:
     """Return a validation error for a declaration, with its cause and its fix."""
-    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix, "why": why})
+    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix} | ({"why": why} if why else {}))
 
 
 def check_range(part: str, value: Any, ends: tuple[Any, Any] | None) -> None:

@@ -418,7 +418,7 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
             name,
             result.speed,
             result.tolerance,
-            _errors(answer, result.of) + _pi(answer, name) + ("" if result.holds else "  FAILS"),
+            _errors(answer, result.of) + _pi(answer, name) + ("" if result.holds else f"  {_fault(result)}"),
         )
         for name, result in answer.outputs.items()
     ]

@@ -172,6 +172,8 @@ def _suggested_unit(train: Train, per: str) -> str:
     if name in ("rpm", "turn/s", "deg/s", "rad/s"):
         link = next(iter(train.inputs), "sun")
         return f"omit `unit`, and write inputs with their unit: `inputs: {{{link}: 30 {name}}}`"
+    if name in ("y", "yr", "year", "years"):
+        return "years have several lengths: write `unit: {per: year_tropical_J2000}`, `year_julian` or `365.25 d`"
     otherwise = f"for example, write `unit: {{per: {number.strip() or 1} h}}`; units: {units_of('time or length')}"
     return otherwise if number.strip() else suggest(name, period_table(), otherwise=otherwise, wide=True)
 

@@ -118,11 +118,11 @@ error: my.yaml:3: `links.a` is not a mapping of keys to values
 # no input: |inputs: {a: 1}\n||
 my: free: 1 degree of freedom and no input: speeds of a, b are undetermined; prescribe an input, such as a (my.yaml:1)
   frame                     0  0
-  b              undetermined  -  FAILS
+  b              undetermined  -  FAILS: -1/3 is expected
 
 # an input too many: |{a: 1}|{a: 1, b: 2}|
 my: contradictory: a = 1, b = 2 contradict each other: 1 a + 3 b must be 0 and is 7 (my.yaml:7)
-  b          undetermined  -  FAILS
+  b          undetermined  -  FAILS: -1/3 is expected
 
 # an output of an unknown link: |outputs: {b:|outputs: {hour:|
 error: my.yaml:8: no link 'hour'

@@ -40,7 +40,8 @@ def _sections(found: FeasibilityResult) -> Iterator[Section]:
 
 
 def _outcomes(found: FeasibilityResult) -> Section:
-    text = f"The train turns in {share_text(found.outcomes['turns'])} of the trials, given: {found.conditions}."
+    wheels = " with perfect wheels" if found.perfect else ""
+    text = f"The train{wheels} turns in {share_text(found.outcomes['turns'])} of the trials, given: {found.conditions}."
     rows = [(name, share_text(found.outcomes[name]), _causes(found, name)) for name in OUTCOMES]
     rows.append(("- rough running", share_text(found.rough), "tips clash, of the trials that turn"))
     rows.append(("- loss of contact", share_text(found.loose), "of the trials that turn"))

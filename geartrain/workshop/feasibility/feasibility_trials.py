@@ -224,9 +224,16 @@ class FeasibilityResult(Pictured, Result):
             yield f"spreads drawn once per {'part' if self.plan.per_part else 'workshop'}"
 
     @property
+    def perfect(self) -> bool:
+        """True if no wheel has a cutting error, so that the cutting of all trials is the same."""
+        return all(wheel.true for wheel in self.plan.cutting.wheels)
+
+    @property
     def neglected(self) -> tuple[str, ...]:
         """Outcomes that are not examined, because their data are not declared."""
         found = []
+        if self.perfect:
+            found.append("cutting errors: declare `cutting: {pitch_deviation: {normal: 0.1 deg}}`, or give --cutting")
         if self.torque is None:
             found.append("crank torque and stresses: declare `loads` or `bearing` friction with a unit")
         elif not self.plan.parts:

@@ -156,6 +156,23 @@ def test_a_wheel_read_back_has_the_printed_tips_its_teeth_and_their_thickness(
         assert thick * z == pytest.approx(pi * MODULE / 2 - BACKLASH / 2, abs=5e-4)
 
 
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
+def test_chords_stay_within_the_tolerance_where_an_epicycloid_leaves_the_pitch_circle(
+    tolerance: float, tmp_path: File
+) -> None:
+    """A radial flank and an epicycloid of the mate's half pitch radius, with infinite curvature where they meet."""
+    asked = (60, 8, "--module", "1mm", "-p", "backlash=0.1", "--blank", f"tolerance={tolerance}mm")
+    for gear, R, rho in ((1, 30.0, 2.0), (2, 4.0, 15.0)):
+        outer = shapely.Polygon(written("cycloidal", gear, tmp_path / "w.csv", *asked)[0]).exterior
+        turn = np.linspace(0, 0.3, 400) ** 2
+        curve = (R + rho) * np.exp(1j * turn * rho / R) - rho * np.exp(1j * turn * (1 + rho / R))
+        half = (pi - 0.1) / (4 * R)  # a tooth is half the backlash narrower than half a pitch
+        radial = np.linspace(0.995, 1.0, 100) * R * np.exp(1j * half)
+        flank = np.concatenate((radial, curve.conj() * np.exp(1j * half)))
+        off = outer.distance(shapely.points(flank.real, flank.imag))
+        assert off.max() < tolerance
+
+
 def _solid(teeth: Points, radius: float, cuts: Points) -> bool:
     """True if a tooth lies between the first two crossings."""
     middle = (cuts[0] + cuts[1]) / 2

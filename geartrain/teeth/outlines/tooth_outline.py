@@ -255,7 +255,18 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
     # 20 % more points than estimated, for curvature that varies within a piece
     count = max(_FEWEST, ceil(1.2 * cost[-1])) + 1
     found = np.interp(np.linspace(0, cost[-1], count), cost, X)
-    return _with_inflections(found, X[_inflections(path, gear, X)])
+    return _with_vertices(found, np.append(X[_inflections(path, gear, X)], _corner(path, gear, found, tolerance)))
+
+
+def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list[float]:
+    """Return the pitch point as a further sample if the chord across it would cut a corner there.
+
+    The curvature of a cycloid is infinite at the pitch point, so that the estimate of the deviation fails there.
+    """
+    if not X.min() < 0 < X.max():
+        return []
+    first, last, corner = path.flank(gear, np.array([X[X < 0].max(), X[X > 0].min(), 0.0])) @ np.array([1, 1j])
+    return [0.0] if abs(_cross(last - first, corner - first)) > tolerance / 2 * abs(last - first) else []
 
 
 def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
@@ -269,7 +280,7 @@ def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
     return np.asarray(bending[:-1][turns] + 1)
 
 
-def _with_inflections(found: Floats, bends: Floats) -> Floats:
+def _with_vertices(found: Floats, bends: Floats) -> Floats:
     if not bends.size:
         return np.asarray(found)
     near = _NEAR * abs(found[-1] - found[0])

@@ -28,7 +28,7 @@ from geartrain.numerics import ProbabilityEstimate
 from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan
 
 WRITTEN, TEMPLATE = DOCS / "study.md", Path(__file__).with_name("study.md")
-HANDLE, MOST, ENOUGH = 30, 300, 64
+HANDLE, MOST, ENOUGH = 30, 300, 48
 """Radius of the handle [mm], largest torque of the hand [N mm], and trials from which figures are not preliminary."""
 DATA = DOCS / "data" / "study.json"
 MOON, REFERENCE = "moon-triangular", "freeth-2021"

@@ -73,7 +73,7 @@ def test_the_navigation_lists_every_page_once() -> None:
 
 
 def test_notebooks_are_kept_without_outputs_and_shown_with_them(site: Path, sheet: tuple[Page, list[str]]) -> None:
-    assert {path.stem for path in NOTEBOOKS} == {"historian", "engineer", "maker"}
+    assert {path.stem for path in NOTEBOOKS} == {"historian", "engineer", "maker", "study"}
     for path in NOTEBOOKS:
         cells = [cell for cell in json.loads(path.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
         assert not any(cell["outputs"] for cell in cells)

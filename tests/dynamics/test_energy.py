@@ -42,7 +42,10 @@ def bearings_of(train: GearTrain, found: Torques) -> dict[str, list[tuple[str, F
         while carrier in train.declaration.sliding:  # a slide passes torques on to what bears it
             carrier = train.kinematics.tree.parent[carrier][0]
         relative = along[link] - along[carrier]
-        torque = -part.bearing.sliding.base * ((relative > 0) - (relative < 0))
+        size = part.bearing.sliding.base
+        if part.bearing.coefficient is not None:  # tests/dynamics/test_loaded_bearings.py computes it from the forces
+            size = abs(next(each.torque for each in found.bearings if each.link == link))
+        torque = -size * ((relative > 0) - (relative < 0))
         own, other = train.kinematics.signs.get(link, 1), train.kinematics.signs.get(carrier, 1)
         taken[link] = [(link, own * torque), (carrier, -other * torque)]
     return taken

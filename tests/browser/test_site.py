@@ -80,7 +80,7 @@ def test_notebooks_are_kept_without_outputs_and_shown_with_them(site: Path, shee
         page, _ = sheet
         page.goto((site / "notebooks" / f"{path.stem}.html").as_uri())
         pictures = page.locator("article img")
-        assert pictures.count() == sum(cell["source"][-1].count(".draw(") for cell in cells)
+        assert pictures.count() == sum(len(re.findall(r"\.(?:draw|plot)\(", cell["source"][-1])) for cell in cells)
         sizes = page.evaluate("[...document.querySelectorAll('article img')].map((each) => each.naturalWidth)")
         assert all(width > 100 for width in sizes), "each is drawn"
     page.goto((site / "notebooks" / "engineer.html").as_uri())

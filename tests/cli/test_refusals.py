@@ -195,6 +195,7 @@ mesh 48 96 --form triangular -p window=0.5 --friction dokos --vary window=0.1:0.
 mesh 48 96 --form triangular -p window=0.5 --friction dokos --objective loss | error: --friction: | needs a coefficient of friction
 
 # mesh
+mesh 60 8 --backlash 0.1mm | given as -p backlash=VALUE
 mesh --compare 24 36 --form involut | --form | did you mean 'involute'
 mesh --compare 24 36 --form rubber | --form | give one or more of: involute
 mesh --compare 24 36 --form '' | --form | give one or more of

@@ -227,6 +227,7 @@ REFUSED = {
     "inputs: {a: 1}\n%s": [
         ("crank: c", "no link 'c'"),
         ("unit: {per: 7 furlongs}", "is not a unit"),
+        ("unit: {per: 1 year}", "write `unit: {per: year_tropical_J2000}`"),
         ("unit: {per: 7}", "is not a unit"),
         ("unit: {per: month_synodic_j2000}", "did you mean 'month_synodic_J2000'"),
         ("unit: {per: 18 ft}\noutputs: {b: {targets: [{period: 3 d}]}}", "the train's unit is not a time"),

@@ -191,6 +191,27 @@ def test_without_spreads_every_trial_has_the_deterministic_outcome(hand: int, st
     assert found.crank_torque[5.0].value == found.crank_torque[95.0].value == pytest.approx(20e-3)
 
 
+def test_jams_that_the_torque_of_the_hand_cannot_break_are_not_counted_as_unbroken() -> None:
+    """The planet jams in the fixed ring, which cannot be held."""
+    text = """
+extends: planetary-24-18-60
+links:
+  sun: {wheels: {s: {module: 1 mm}}}
+  planet: {wheels: {p: {module: 1 mm}}}
+  frame: {wheels: {ring: {module: 1 mm}}}
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+thickness: 2 mm
+material: sheet
+materials: {sheet: {youngs_modulus: 105 GPa, strength: 140 MPa}}
+loads: {carrier: -10 N mm}
+drive: {hand: {torque: 150 N mm}}
+"""
+    found = run_feasibility(plan_of(text, "pitch_deviation=1 deg"), 32)
+    assert [*found.causes["jams"]] == ["p~ring"]
+    assert found.forced is not None
+    assert found.forced["torque"].of == found.forced["wedge"].of == 0
+
+
 def test_outcomes_sum_to_one_and_what_is_not_declared_is_named() -> None:
     found = run_feasibility(plan_of(MOON + RANGE, "pitch_deviation=0.12 deg", outputs=("moon",)), 40)
     assert sum(each.count for each in found.outcomes.values()) == 40

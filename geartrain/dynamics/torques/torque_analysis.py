@@ -580,14 +580,6 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
-    if (
-        balance.senses
-        and not find_flow_patterns(balance)[0]
-        and (any_way := find_flow_patterns(replace(balance, senses={}))[0])
-    ):
-        names = _overrunning(setting, any_way[0])
-        text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
-        return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
     question = LoadedBalance(
         balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open, constant
     )
@@ -598,8 +590,12 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
         loads = BearingLoads(setting, bearings)
         question = replace(question, bearing_loads=loads)
     question, flows, complete = question.solve()
-    if loads is not None and not flows and find_flow_patterns(balance)[0]:
+    if not flows and loads is not None and find_flow_patterns(balance)[0]:
         return Torques(state, _locked_bearings(question), unknown.links)
+    if not flows and balance.senses and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
+        names = _overrunning(setting, any_way[0])
+        text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
+        return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
     neglected: tuple[NeglectedEffect, ...] = ()

@@ -6,7 +6,7 @@ flank of the driven tooth k + 1. Each tooth pair by itself would give the driven
 docs/cut-by-hand.md. The foremost tooth pair drives, and its distance from the nearest pair on the other side is the
 backlash.
 
-Teeth are numbered as they pass the line of centres while the wheel turns forward, like those of `CutWheel`. Lengths are
+Teeth are numbered as they pass the line of centres while the wheel turns forward, as in `CutWheel`. Lengths are
 in modules; for bevel gears they are angles (rad) on the unit sphere.
 """
 

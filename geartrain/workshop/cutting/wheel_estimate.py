@@ -6,8 +6,8 @@ teeth about a centre at the distance e from the axis, in the direction psi, have
     y = c + atan2(E sin(psi - gamma), 1 + E cos(psi - gamma)),      y = c + A cos gamma + B sin gamma + delta,
 
 where E = e / R, and R is the radius of the measured points. The second is its first order: E = hypot(A, B) and
-psi = atan2(A, -B). A and B are estimated by least squares. The deviations delta are independent, or those of teeth
-that dividers set off from one another (`closed_steps`).
+psi = atan2(A, -B). A and B are estimated by least squares. The deviations delta are independent, or follow from
+division by stepping (`closed_steps`).
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class WheelEstimate(Result):
     numbers: Ints
     """Indices of the measured teeth, from 0."""
     law: DeviationLaw
-    """Assumed deviations of the teeth: independent, or those of dividers that set off each tooth from the last."""
+    """Assumed deviations of the teeth: independent, or from division by stepping."""
     coefficients: Floats
     """Mean angle c and coefficients A and B of the first harmonic [rad]."""
     covariance: Floats
@@ -205,7 +205,7 @@ def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
 
 
 def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLaw | None) -> WheelEstimate:
-    """Return the estimates from the angles `off` of measured teeth minus those of an even division [rad]."""
+    """Return the estimates from the deviations `off` of measured teeth from an even division [rad]."""
     from scipy.special import chdtri, fdtrc, fdtri, ncfdtrinc, stdtrit
 
     gamma, n, freedom = 2 * pi * numbers / z, len(numbers), len(numbers) - 3

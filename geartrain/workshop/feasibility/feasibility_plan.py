@@ -233,12 +233,10 @@ def _lossless(declared: Train) -> Train:
     def without(part: object, *keys: str) -> object:
         return part.model_copy(update={key: None for key in keys if key in type(part).model_fields})  # type: ignore[attr-defined]
 
-    parts = {name: [without(each, "friction", "efficiency") for each in getattr(declared, name)] for name in _LOSSY}
+    lossy = ("gears", "couplings")
+    parts = {name: [without(each, "friction", "efficiency") for each in getattr(declared, name)] for name in lossy}
     links = {name: without(link, "bearing") for name, link in declared.links.items()}
     return declared.model_copy(update={"friction": None, **parts, "links": links})
-
-
-_LOSSY = ("gears", "couplings")
 
 
 def find_feasibility_plan(

@@ -1,6 +1,6 @@
 """Trials of feasibility: one trial has one cutting of all wheels, one friction, one strength of each metal, one hand.
 
-The cutting and the pointer errors are those of the Monte Carlo trials of the same seed.
+Cutting and pointer errors are equal to those of `run_trials` with the same seed.
 """
 
 from __future__ import annotations
@@ -94,9 +94,7 @@ class FeasibilityResult(Pictured, Result):
         """Mask of the trials in which friction locks the train or the crank torque exceeds its limit, (trials,)."""
         if self.torque is None:
             return np.zeros(self.trials.done, dtype=bool)
-        return (
-            self.torque > (inf if self.hand is None else self.hand) if self.hand is not None else np.isinf(self.torque)
-        )
+        return np.isinf(self.torque) if self.hand is None else self.torque > self.hand
 
     @cached_property
     def excess(self) -> Floats:
@@ -141,21 +139,26 @@ class FeasibilityResult(Pictured, Result):
     def forced(self) -> Mapping[str, ProbabilityEstimate] | None:
         """Probability that the hand breaks a tooth, in the trials in which the train jams; None without strengths or a
         hand. `torque` is a lower bound from the torque of the hand; `wedge` includes the squeezed flanks of the pair.
+
+        Jams of pairs that the crank does not press, or whose driven wheel is fixed, are not counted.
         """
         if self.hand is None or not self.plan.parts:
             return None
-        broken = {name: np.zeros(self.trials.done, dtype=bool) for name in ("torque", "wedge")}
+        known, *none = np.zeros((3, self.trials.done), dtype=bool)
+        broken = dict(zip(("torque", "wedge"), none, strict=True))
         for pair, jams in zip(self.plan.cutting.pairs, self._marked(JAM).T, strict=True):
             held = self.plan.held(pair.name) if jams.any() else {}
             if not held:
                 continue
+            known |= jams
             # the flanks have equal ratios and the mean efficiency of the pair
             gains = [wedge_torque(1.0, (1.0, each), (1.0, each)) for each in self.efficiency[pair.name].tolist()]
             torques = {name: each * self.hand for name, each in held.items()}
             wedge = {**torques, pair.name: torques[pair.name] * np.maximum(gains, 1.0)}
             for name, each in (("torque", torques), ("wedge", wedge)):
                 broken[name] |= jams & (self._excess(each) > 1).any(axis=1)
-        return {name: _estimate(each, self.outcome == OUTCOMES.index("jams")) for name, each in broken.items()}
+        forced = known & (self.outcome == OUTCOMES.index("jams"))
+        return {name: _estimate(each, forced) for name, each in broken.items()}
 
     @cached_property
     def causes(self) -> Mapping[str, Mapping[str, ProbabilityEstimate]]:

@@ -22,11 +22,6 @@ export class Palette {
     this.stale = true;
   }
 
-  /** True if one of the slots is partly transparent. */
-  hasGhosts(slots) {
-    return slots.some((slot) => this.looks[slot].shown && this.looks[slot].opacity < 1);
-  }
-
   /** Writes two texels for each slot: colour and opacity (0 if hidden), then gloss and whether it is cut open. */
   refresh() {
     const height = Math.max(1, Math.ceil((2 * this.looks.length) / WIDTH));

@@ -251,7 +251,7 @@ export class Stage {
 
   /** The camera position, as near as the extent allows, in the current direction or another one. */
   framed(towards = this.camera.position.clone().sub(this.controls.target).normalize()) {
-    return { towards, ...frame(this.world.outline(), towards, ...this.slopes) };
+    return { towards, ...frame(this.world.outline(this.from === "free" ? towards : null), towards, ...this.slopes) };
   }
 
   /** Upward direction, and tangents of half the field of view, horizontally and vertically, reduced by a margin. */

@@ -131,7 +131,8 @@ def commands() -> None:
         copyfile(f"{folder}/clock/assembly/07.svg", IMAGES / "assembly.svg")
         (Path(folder) / "metonic.yaml").write_text(file_of("which-counts", "metonic.yaml"), encoding="utf-8")
         found = f"{folder}/found"
-        subprocess.run([*command, "reconstruct", f"{folder}/metonic.yaml", "--to", found], check=True, capture_output=True)
+        search = [*command, "reconstruct", f"{folder}/metonic.yaml", "--to", found]
+        subprocess.run(search, check=True, capture_output=True)
         kind = ["--kind", "graph", "--force", "-o", str(IMAGES / "reconstructed.svg")]
         subprocess.run([*command, "draw", f"{found}/rank-0001.yaml", *kind], check=True, stdout=subprocess.DEVNULL)
         (Path(folder) / "slips.yaml").write_text(file_of("buildability", "slips.yaml"), encoding="utf-8")

@@ -37,9 +37,11 @@ FRAME = """((turn) => {
   context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
 })"""
 INSTANCED = "((turn) => instanced.frame(turn / 50))"
-# those of the parts that it shows, each counted once, although a part that is cut open is drawn twice
-TRIANGLES = """globalThis["geartrain"].stages[0].world.castings.flatMap(({ meshes }) => meshes)
-  .reduce((sum, { visible, geometry }) => sum + (visible ? geometry.drawRange.count / 3 : 0), 0)"""
+# triangles of one frame as three.js counts them; those of parts that are cut open are drawn twice, from both sides
+TRIANGLES = """(([stage]) => {
+  stage.render();
+  return stage.renderer.info.render.triangles;
+})(globalThis["geartrain"].stages)"""
 CANVAS = """(({ clientWidth: width, clientHeight: height }) => [width, height])(
   globalThis["geartrain"].stages[0].canvas)"""
 

@@ -45,8 +45,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity as Quantity
     from geartrain.numerics.work.journal import Journal as Journal
     from geartrain.numerics.work.task_runner import Execution as Execution
+    from geartrain.numerics.work.task_runner import open_executor as open_executor
     from geartrain.numerics.work.task_runner import run as run
-    from geartrain.numerics.work.worker_pool import open_executor as open_executor
 
 __getattr__, __all__ = public_names(
     __name__,
@@ -55,7 +55,7 @@ __getattr__, __all__ = public_names(
         "exact": "decimal",
         "labelled_array": "LabelledArray",
         "quantity": "Figure Quantity",
-        "work.worker_pool": "open_executor",
+        "work.executors": "open_executor",
         "work.journal": "Journal",
         "work.task_runner": "Execution run",
     },

@@ -55,8 +55,7 @@ __getattr__, __all__ = public_names(
         "exact": "decimal",
         "labelled_array": "LabelledArray",
         "quantity": "Figure Quantity",
-        "work.executors": "open_executor",
         "work.journal": "Journal",
-        "work.task_runner": "Execution run",
+        "work.task_runner": "Execution open_executor run",
     },
 )

@@ -255,7 +255,7 @@ class _Traces:
 def _draw_labels(
     axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], traces: _Traces, room: LabelSpace
 ) -> None:
-    """Draw every edge's label on the edge, close to its middle, where it hides the minimum amount of other edges.
+    """Draw every edge's label on the edge, close to its middle, where it hides the smallest inked area of other edges.
 
     Labels with the fewest unobstructed positions are placed first. A label is placed next to its edge only if no
     position on the edge is free.
@@ -272,8 +272,8 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return the positions of a label along its edge, from the middle outwards, with the inked area of other edges that
-    each would hide.
+    """Return the positions of a label along its edge, from the middle outwards, each with the inked area of other edges
+    that it would hide.
     """
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):

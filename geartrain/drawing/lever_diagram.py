@@ -59,7 +59,7 @@ _LONG = 11  # letters of the longest fraction that is not written as a decimal
 
 
 def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a figure with a panel for each epicyclic set and each state: sets in rows, states below each other.
+    """Return a figure with a panel for each epicyclic set in each state; the panels of one state form rows.
 
     state   state to be drawn; by default all states
 
@@ -237,7 +237,7 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
 
 
 def _speed_text(value: Fraction | None) -> str:
-    """Return a short fraction as a fraction, a long fraction as a decimal, and None as a question mark."""
+    """Format a short fraction as a fraction, a long fraction as a decimal number, and None as a question mark."""
     if value is None:
         return "?"
     return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

@@ -53,7 +53,7 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """Scene in a pose as a reader sees it; `screen` (3, 3) has rows right, up and towards the reader."""
+    """Scene in a pose as a reader sees it; the rows of `screen` (3, 3) point right, up and towards the reader."""
 
     scene: Scene
     pose: ScenePose
@@ -85,7 +85,7 @@ class ProjectedScene:
         """Return the tooth outline of a wheel (points, 3), multiplied by `scale` and moved by `height` [mm] along its
         axis, with the rotation of its helix.
 
-        For a lantern pinion, or a wheel whose teeth are too many to be visible, the result is the tip circle.
+        For a lantern pinion, or a wheel with too many teeth to be visible, the result is the tip circle.
 
         chord   maximum distance [mm] of omitted points from the outline
         """
@@ -156,7 +156,9 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return height along the axis [mm] and scale of a wheel's ends, the large end of a bevel wheel first."""
+        """Return the height along the axis [mm] and the scale of each end of a wheel; the large end of a bevel wheel is
+        first.
+        """
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
             return (half, 1.0), (-half, 1.0)
@@ -165,14 +167,18 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """Return a scene after `turns` of its driving link: from the front if most wheels face it, otherwise obliquely."""
+    """Return a scene after `turns` of its driving link, seen from the front if most wheels face the front, otherwise
+    obliquely.
+    """
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
     return front if front.flat else ProjectedScene(scene, posed, screen_of(np.array(_OBLIQUE)))
 
 
 def screen_of(view: Floats) -> Floats:
-    """Return rows right, up and towards the reader (3, 3), from the direction `view` towards the reader."""
+    """Return the matrix (3, 3) whose rows point right, up and towards the reader; `view` is the direction towards the
+    reader.
+    """
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
@@ -432,8 +438,9 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw a train from its left side, as high as the plan, with its layers side by side and the reader on the
-    right."""
+    """Draw a train as seen from its left side, at the height of the plan, with its layers side by side and the reader
+    of the plan on the right.
+    """
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: -float(projected.seen(projected.centre(each))[0])):

@@ -88,7 +88,7 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Return band, with its turning distances from source and target, and the top of its lane [in]."""
+    """Band that leads power back, with its turning distances from source and target, and the top of its lane [in]."""
 
     piece: BandSegment
     right: float
@@ -148,8 +148,8 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return abscissae of column centres [in] with space for names and return bands, at least over the width `minimum`
-    [in].
+    """Return the abscissae of the column centres [in], with space for names and return bands; the width is at least
+    `minimum` [in].
     """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
@@ -316,8 +316,8 @@ def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float
 
 
 def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the cost of crossings near some columns: the product of the widths of both bands plus a constant, per
-    crossing.
+    """Return the cost of crossings within a range of columns; a crossing costs the product of the widths of both bands
+    plus a constant.
     """
     total = 0.0
     for at in columns:
@@ -389,7 +389,7 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set both ends of bands in place, in the order of the spots at their other ends, return bands uppermost."""
+    """Set both ends of bands in place, in the order of the spots at their other ends, with return bands uppermost."""
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))

@@ -58,7 +58,8 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
-    """Plot flanks, path of contact and losses of a pair, or else its transmission function and efficiency.
+    """Plot flanks, path of contact and losses of a pair, or its transmission function and efficiency if it has no path
+    of contact.
 
     alpha1   angle of the driving tooth from the line of centres [rad], at which triangular teeth are drawn in contact
     """
@@ -261,7 +262,7 @@ def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
     """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at speed ratio
     tau.
 
-    It is bounded where an axis of the plot exceeds the real path; a sign in `signs` is -1 for a ring.
+    The denominator is bounded below, for speed ratios far from the real path; a sign in `signs` is -1 for a ring.
     """
     first, second = signs
     return tau / np.maximum(first + second * tau, 0.1)

@@ -180,8 +180,8 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
     """Return the error of an output in seconds per day and seconds per year, and the days after which it is a day off.
 
-    The first two are "" unless the output has a hand of a clock or a target of about a day, the third is "" for shorter
-    targets.
+    The first two strings are "" unless the output has a clock hand or a target of about a day; the third is "" for
+    shorter targets.
     """
     if declared.unit_days is None or target.days_per_century is None:
         return "", "", ""
@@ -193,7 +193,7 @@ def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) ->
 
 
 def _targets(declared: Train, answer: Answer) -> Iterator[Section]:
-    """Yield a section on the errors of outputs against their targets; nothing if no output has a target."""
+    """Yield a section on the errors of outputs against their targets; yield nothing if no output has a target."""
     targets = [
         (
             name,
@@ -455,7 +455,9 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def clutch_lines(answer: Answer) -> Iterator[str]:
-    """Yield a line for each one-way clutch of a state, which holds or overruns, and the notes on them."""
+    """Yield a line on each one-way clutch of a state, which reports whether it holds or overruns, and notes on the
+    clutches.
+    """
     yield from (each.text(answer.unit) for each in answer.one_way)
     yield from answer.notes
 
@@ -478,7 +480,9 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Return the reason why a system was solved in floats, the estimated error, and how to get exact fractions."""
+    """Return the reason why a system was solved in floating-point arithmetic, the estimated error, and how to get exact
+    fractions.
+    """
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
     return (
@@ -506,7 +510,7 @@ def _pi(answer: Answer, name: str) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return the condition number, estimated error and true error of a speed solved in floats, as a string; "" for an
+    """Return the condition number, estimated error and true error of a floating-point speed as a string; "" for an
     exact speed.
     """
     accuracy = answer.accuracy.get(link)

@@ -307,7 +307,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" without such pairs."""
+    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" if there are no such pairs."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -423,7 +423,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
-    """Yield a section on the couplings that move in steps; nothing if there are none."""
+    """Yield a section on the couplings that move in steps; yield nothing if there are none."""
     rows = []
     for source in motion._forward.used:
         transmission = source.transmission

@@ -114,7 +114,7 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _neglected(train: GearTrain) -> Iterator[str]:
-    """Yield the effects that computed torques neglect, for each loaded state; nothing if teeth cannot turn."""
+    """Yield the effects that computed torques neglect, for each loaded state; yield nothing if teeth cannot turn."""
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:

@@ -313,7 +313,7 @@ def _held(found: Torques, amounts: _Amounts) -> Iterator[Table]:
 
 
 def uncounted_words(found: Torques) -> str:
-    """Return the effects that an efficiency neglects, as a suffix to its value; "" if none."""
+    """Return the effects that an efficiency neglects, as a suffix to its value; "" if there are none."""
     uncounted = ", ".join(map(str, found.uncounted))
     return f" without {uncounted}" if uncounted else ", mean over a turn" if found.neglected else ""
 
@@ -513,7 +513,9 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return a table of energies over a run with their shares of all energy put in, without rounding errors."""
+    """Return a table of energies over a run with their shares of the energy input; amounts as small as rounding errors
+    are omitted.
+    """
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()

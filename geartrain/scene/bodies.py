@@ -42,11 +42,11 @@ class BentWheel:
     axis: str
     """Label of the axis of the wave generator."""
     offset: Vector
-    """Vector from the generator's axis to the wheel's declared axis [mm], which gives amplitude and direction of the
-    wave.
+    """Vector from the generator's axis to the wheel's declared axis [mm], which gives the amplitude and the direction
+    of the wave.
     """
     lobes: int
-    """Number of lobes of the wave: the tooth count of the ring minus that of the flexible wheel."""
+    """Number of lobes of the wave: the tooth count of the ring minus the tooth count of the flexible wheel."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
@@ -405,7 +405,9 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """Return -1 if the declared axis of a wheel is opposite to the reference direction of its parallel axes, else 1."""
+    """Return -1 if the declared axis of a wheel is opposite to the reference direction of its parallel axes, otherwise
+    1.
+    """
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
@@ -426,7 +428,7 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of input power lost at each wheel, half the loss of its pairs; empty if unknown."""
+    """Return the fraction of the input power that is lost at each wheel, half the loss of its pairs; empty if unknown."""
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

@@ -78,8 +78,8 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link divided by that of the driving link; None if undetermined or if no link is
-        driven.
+        """Return the exact speed of a link divided by the speed of the driving link; None if it is not determined or if
+        no link is driven.
         """
         found = self.speed(link)
         if found is None or self.driving_link is None:
@@ -103,7 +103,7 @@ class SceneContext:
         return " mm" if link in self.train.kinematics.tree.lines else ""
 
     def sense(self, link: str) -> int:
-        """Return -1 if a link's axis is opposite to the reference direction of its parallel axes, else 1."""
+        """Return -1 if a link's axis is opposite to the reference direction of its parallel axes, otherwise 1."""
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:

@@ -119,8 +119,8 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: its own number, or that of the numbered division line before the
-        cell.
+        """Return the number by which a cell is read: its own number, or the number of the numbered division line before
+        the cell.
         """
         if not self.counted:
             return cell
@@ -180,7 +180,9 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the numerals with their division lines, as declared, or up to twelve from 0 on a circle without names."""
+    """Return the declared numerals with their division lines, or up to twelve numerals from 0 on a circle without
+    names.
+    """
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:

@@ -46,7 +46,9 @@ def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weigh
 
 
 def fusee_radii(stage: SceneContext) -> tuple[float, ...]:
-    """Return radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
+    """Return radii of the fusee of the drive at equal angles from its start to its end [mm]; empty if there is no
+    fusee.
+    """
     spring = stage.case.drive.spring if stage.case.drive is not None else None
     chained = None if spring is None else spring.chained
     if chained is None:
@@ -89,7 +91,7 @@ def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
 
 
 def _road_wheel(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield a spoked wheel outside of the train on its axle, with its hub and the axle."""
+    """Yield a spoked road wheel outside the train, its hub and its axle."""
     point, axis = _origin(stage, link), stage.reference(_axis(stage, link))
     own = [place for place in stage.layout.wheels.values() if place.axis == _axis(stage, link) and place.link == link]
     mine = sum(dot(minus(place.centre, point), axis) for place in own)

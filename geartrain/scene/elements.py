@@ -99,7 +99,7 @@ class SceneBody(Shown):
     direction: Vector
     """Unit vector along the link's axis, in the reference direction of all axes that are parallel to it."""
     sense: int
-    """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; else 1."""
+    """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; otherwise 1."""
     speed: str | None
     """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined. For
     a link that slides, one turn corresponds to a travel of 1 mm.
@@ -136,7 +136,7 @@ class ToothProfile(Shown):
     """
 
     form: str
-    """Tooth form: triangular, involute, cycloidal, ...
+    """Tooth form, such as triangular, involute or cycloidal.
 
     It is `standard` if no form is declared, and `likeness` for nominal teeth of a wheel without a flat outline.
     """

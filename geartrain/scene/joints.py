@@ -201,7 +201,7 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset [mm]: as declared, or scaled to axes that are `apart` [mm], or in default
+    """Return the pin radius and the offset [mm], as declared, scaled to axes that are `apart` [mm], or in default
     proportions.
     """
     if declared.pin_radius is not None and declared.offset is not None:

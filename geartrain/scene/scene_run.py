@@ -107,7 +107,7 @@ class SceneRun(Result):
     torque: float
     """Mean torque at the link where power enters [N m]."""
     complete: bool
-    """True if the simulation ran to its end, False if it was stopped before."""
+    """True if the simulation ran to its end, False if it was stopped earlier."""
     links: Sequence[LinkCourse]
     """Angles of the links, in the order of the scene's bodies."""
     contacts: Sequence[SceneContact]
@@ -280,8 +280,8 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the point where pallets touch a link's largest wheel, without mates if possible [mm]; the origin without
-    wheels.
+    """Return the point where pallets touch the largest wheel of a link, preferably one without mates [mm]; the origin
+    if the link has no wheels.
     """
     if not wheels:
         return (0.0, 0.0, 0.0)

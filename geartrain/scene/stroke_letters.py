@@ -53,8 +53,8 @@ HANDS: Mapping[str, HandOutline] = {name: _hand(*drawn) for name, drawn in _HAND
 def hand_with_ball(reach: float, ball: float) -> HandOutline:
     """Return the outline of an arm with a round end.
 
-    reach   distance of the far side of the end from the axis, and `ball`, its radius, relative to the radius of the
-            scale
+    reach   distance of the far side of the round end from the axis; `ball` is the radius of the end, and both are
+            relative to the radius of the scale
     """
     arm, radius = 0.12 * ball / reach, ball / reach
     steps = [pi * at / 12 for at in range(1, 13)]

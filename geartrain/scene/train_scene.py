@@ -73,8 +73,8 @@ class DialFace(Shown):
     title: str = ""
     """Caption: the dial's name, followed in brackets by its outputs if dials on several axes share the name."""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
-    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
-    radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
+    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in units of 1/4,000
+    of the radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
     relative to the centre, each further point to the previous point.
     """
 
@@ -86,7 +86,7 @@ class PointerTarget(Shown):
     label: str
     """Name of the target speed."""
     speed: str
-    """Speed relative to the driving link, exact. A target without a sense of rotation takes the sense of the output."""
+    """Exact speed relative to the driving link. A target without a sense of rotation takes the sense of the output."""
     source: str = ""
     """Key of the source of the target; empty if no source is declared."""
 
@@ -110,7 +110,7 @@ class SceneEpoch(Shown):
     """Date that corresponds to a number of turns of the driving link, and the duration of one turn."""
 
     julian_day: str
-    """Julian day of the date, exact [d]."""
+    """Exact Julian day of the date [d]."""
     turns: str
     """Exact number of turns of the driving link at that date."""
     days: str
@@ -127,7 +127,7 @@ class SceneEpoch(Shown):
     """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
     """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body -> longitude,
-    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty without settings.
+    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty if there are no settings.
     """
 
 
@@ -183,11 +183,11 @@ class Pointer(Shown):
     reach: float = 0.0
     """Length of the hand relative to the radius of the scale; 0 for a pointer without a dial."""
     outline: Sequence[tuple[float, float]] = ()
-    """Outline relative to the hand's length: distances from the axis and half widths; empty without a dial."""
+    """Outline relative to the hand's length: distances from the axis and half widths; empty if there is no dial."""
     hand: str = "needle"
     """Declared shape of the hand."""
     ball: float = 0.0
-    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 without a sphere."""
+    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 if the hand has no sphere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,8 +220,8 @@ class Scene(Shown):
     drive: Literal["hand", "motor", "spring", "weight"]
     """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
     fusee: Sequence[float]
-    """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty without a
-    fusee."""
+    """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty if there is none.
+    """
     up: Vector
     """Upward unit vector of the picture: y, or the direction towards an observer who looks from above."""
     step: str
@@ -255,11 +255,12 @@ class Scene(Shown):
     back: Movement | None = None
     """Deviations of angles with the driving link reversed, on the coast flanks; None if equal to `movement`."""
     unit_days: str | None = None
-    """Length of the unit in days, exact, if the unit is a time; otherwise None."""
+    """Exact length of the unit in days if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order of declaration."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
+    """Declared date, expressed in turns of the driving link; None if a date, time unit or driving link is missing, or
+    for a run.
     """
     tour: Sequence[TourStop] = ()
     """Declared tour of the train."""

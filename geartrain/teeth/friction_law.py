@@ -140,7 +140,7 @@ class StribeckFriction(FrictionLaw):
     def coefficient(self, speed: Floats) -> Floats:
         """Return the coefficient of friction at sliding speeds v [m/s], docs/shapes.md (16).
 
-        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, viscous in s/m.
+        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, where viscous is in s/m.
         """
         import numpy as np
 

@@ -105,7 +105,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Working pitch radius of the first wheel of the pair [m]; None without declared lengths."""
+        """Working pitch radius of the first wheel of the pair [m]; None if no lengths are declared."""
         module, size = self.wheels.module, self.own_size
         stretch = 1.0 if size is None else size.stretch
         return None if module is None else module * self.wheels.counts[0] / 2 * stretch
@@ -295,7 +295,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact of displaced flanks with the actual driver; None for tooth forms that have no such
+        """Model of the contact of displaced flanks while the actual driver drives; None for tooth forms without such a
         model.
         """
         return None

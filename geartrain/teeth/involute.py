@@ -100,7 +100,7 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None: involute teeth keep their ratio at any centre distance, so no distance is wrong."""
+        """Return None: no declared centre distance is wrong, because involute teeth keep their ratio at any distance."""
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:

@@ -71,7 +71,7 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None. Raises `RangeError` if a centre distance other than the design distance is declared."""
+        """Return None, or raise `RangeError` if a centre distance other than the design distance is declared."""
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(

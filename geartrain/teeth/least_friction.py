@@ -27,8 +27,8 @@ _MAXIMUM_ANGLE, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of minimum friction loss: a constant pressure angle near the pitch point, and the minimum contact speed
-    further out.
+    """Teeth of minimum friction loss: the pressure angle is constant near the pitch point, and the contact speed is the
+    permitted minimum further out.
 
     `margin` is the minimum speed of the contact along the dedendum divided by the pitch-line speed. `literal` selects
     the extremal printed in the source instead: its pressure angles exceed 45 deg, it does not include the pitch point,

@@ -75,7 +75,9 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding of the teeth of a pair at driver angles: arrays with one row for each contact, NaN without contact."""
+    """Sliding of the teeth of a pair at driver angles: arrays with one row for each contact, NaN where there is no
+    contact.
+    """
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""
@@ -85,7 +87,8 @@ class ContactRubbing(NamedTuple):
     """Change of the output power of a contact per unit friction coefficient, divided by the power without friction."""
 
     def efficiency(self, friction: float | Floats) -> Floats:
-        """Return the efficiency at each driver angle; NaN without contact, or if friction locks one of the contacts.
+        """Return the efficiency at each driver angle; NaN if there is no contact, or if friction locks one of the
+        contacts.
 
         Contacts at the same time share the driver's torque equally. A contact with the coefficient f transmits the
         fraction (1 + f out) / (1 + f into) of its power.
@@ -242,8 +245,8 @@ class TransmissionFunction(Shown, ABC):
         return float((weights * speed).sum() / (weights * (speed / efficiency)).sum())
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, from 1001 samples of each smooth interval, or from the quadrature nodes if
-        evaluation is slow; NaN if friction locks the pair.
+        """Return the minimum efficiency, computed from 1001 samples of each smooth interval, or from the quadrature
+        nodes if evaluation is slow; NaN if friction locks the pair.
         """
         if self.locks:
             return nan
@@ -398,8 +401,8 @@ class TransmissionFunction(Shown, ABC):
         return self
 
     def mirrored(self) -> TransmissionFunction:
-        """Return the transmission function of a coupling whose driver's mean motion is against the declared sense of
-        its angle; by default this function itself.
+        """Return the transmission function for a driver whose mean motion is opposite to the positive sense of its
+        angle; by default this function itself.
 
         Its error at S is minus the error of this function at -S. Override it in functions whose error is not odd.
         """

@@ -152,7 +152,7 @@ class CouplingTie:
     encloses: bool
     """True if a pin's circle encloses the slot's axis, so that the two axes are close together."""
     wish: float | None = None
-    """Preferred distance [mm] if nothing determines the distance; None without a preference."""
+    """Preferred distance [mm] if nothing determines the distance; None if there is no preference."""
 
     @property
     def axis_pair(self) -> tuple[str, str]:
@@ -188,7 +188,7 @@ class DeclaredGeometry:
     dial_ends: Mapping[str, DialEnds]
     """Link -> ends of its arbor that extend to a dial."""
     driven: str | None
-    """Axis of the first input, which is at the origin if no position is declared; None without inputs."""
+    """Axis of the first input, which is at the origin if no position is declared; None if there is no input."""
     discs: Mapping[str, float]
     """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
     belts: tuple[Mapping[str, float], ...] = ()
@@ -323,8 +323,8 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return by pair the declared centre distance divided by that of touching pitch circles; ratios of 1 are
-    omitted.
+    """Return the declared centre distance of each pair divided by the distance at which pitch circles touch; ratios of
+    1 are omitted.
     """
     try:
         sizes = find_sizes(train.meshes)
@@ -393,7 +393,8 @@ def _contact(
 def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:
     """Return `worm_sense` of a worm gear pair (1 or -1) from the signs of its equation.
 
-    It cannot be derived from circumferential velocities: those of worm and wheel are not parallel at the pitch point.
+    It cannot be derived from circumferential velocities: the velocities of worm and wheel are not parallel at the pitch
+    point.
     """
     flip = 1
     for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
@@ -407,7 +408,7 @@ _BELT = 1.25  # distance of pulleys divided by the largest diameter
 
 
 def _preferred_distance(coupling: Coupling) -> float | None:
-    """Return the distance of the axes of a coupling [mm] if no positions are declared; None without a preference."""
+    """Return the distance of the axes of a coupling [mm] if no positions are declared; None if there is no preference."""
     around = getattr(coupling, "around", None)
     if isinstance(around, Mapping):
         return _BELT * float(max(millimetres(diameter) for diameter in around.values()))

@@ -118,8 +118,8 @@ class _BlockBuilder:
     """Builder of the blocks of one group of parallel axes.
 
     crossing   pairs with one wheel on an axis of the group, from the side of this wheel
-    met        crossing axis -> point in plan from which its height is counted: its given point, or that of its first
-               pair
+    met        crossing axis -> point in plan from which its height is counted: its given point, or the point of its
+               first pair
     number     numbers of stacks, in the order of their first use
     """
 
@@ -186,7 +186,7 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan, relative to that at its reference point [mm]."""
+        """Return the height of a crossing axis at a point in plan, relative to its height at its reference point [mm]."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)

@@ -232,7 +232,8 @@ class PlanOrder:
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Return bounds from the shortest paths to placed axes over axes that are not placed yet.
+        """Return bounds on the distances of an axis from placed axes, given by the shortest paths over axes that are
+        not placed yet.
 
         The ends of a chain of bars are at most the length of the chain apart, and at least its longest bar minus the
         rest.
@@ -424,8 +425,8 @@ class _BeamSearch:
         return []
 
     def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return the point of an axis in a group of planets that is placed as the first equal group, rotated about the
-        axis of the carrier; empty for other axes.
+        """Return the point of an axis in a group of planets that is placed like the first equal group, but rotated
+        about the axis of the carrier; empty for other axes.
         """
         first, turn = self.order.rotated.get(step.axis, (None, 0.0))
         placed = set(step.placed.tolist())

@@ -196,8 +196,8 @@ def align_meshes(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the angles at which wheels mesh, and phase errors.
 
-    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors [pitches] are those
-    of pairs that close a loop and do not mesh.
+    The angles give the first tooth of each wheel (rad, from 0 to a pitch). The phase errors [pitches] are given for
+    pairs that close a loop and do not mesh.
     """
     sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1
     angle: dict[tuple[str, str], float] = {}  # angle of the pitch point of a pair about the axis of its wheel

@@ -2,8 +2,8 @@
 
 Wheels that mesh share a module, so each cluster of meshing wheels has one module. Two pairs between the same two axes
 force the ratio of the modules of their clusters. These ratios are stored in a weighted union-find structure as exact
-fractions. The scale of a group of clusters is a declared module, else a least squares fit of declared distances, else
-the median of all known modules.
+fractions. The scale of a group of clusters is a declared module; if there is none, a least squares fit of declared
+distances, or the median of all known modules.
 
 Free modules are changed until every closed chain of axes can close. A chain closes if none of its distances is longer
 than the sum of the rest (polygon inequality). Relaxation: each distance that is longer than the shortest path between
@@ -158,7 +158,7 @@ class _ModuleSearch:
     cluster   number of the cluster of each wheel
     between   gear pairs with parallel axes and worm gear pairs, by their axes
     own       declared modules by wheel
-    given     declared module by cluster: that of its first wheel with a declared module
+    given     declared module by cluster: the module of its first wheel with a declared module
     """
 
     def __init__(self, geometry: DeclaredGeometry) -> None:
@@ -250,7 +250,9 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes [mm] from their declared points, or from a pin's declared offset, or None."""
+        """Return the distance of two axes [mm] from their declared points or from a pin's declared offset; None if
+        neither is declared.
+        """
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -350,8 +352,7 @@ def opposite(v: Vector) -> Vector:
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
     """Return the unit vector from a worm's axis to its wheel's axis.
 
-    If no positions are declared, it is the cross product of the direction of the wheel's axis and that of the worm's
-    axis.
+    If no positions are declared, it is the cross product of the directions of the wheel's axis and the worm's axis.
     """
     worm, wheel = (geometry.lines[axis] for axis in contact.axes)
     way = unit(cross(wheel.direction, worm.direction))
@@ -386,7 +387,7 @@ class WheelSize:
 
     @property
     def foot(self) -> float:
-        """Distance of the middle of the wheel above the middle of a wheel in the lowest of its slots [mm]."""
+        """Height of the middle of the wheel above the middle of the lowest slot that it occupies [mm]."""
         return (self.thickness - self.plain) / 2
 
 

@@ -63,8 +63,8 @@ class StackProblem:
 
 
 class _OrderSearch:
-    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and equal keys
-    are one level.
+    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and stacks with
+    equal keys share a level.
 
     clash     stacks that must not share a level, by stack
     carried   stacks of each arbor, and of the wheel that carries its axis

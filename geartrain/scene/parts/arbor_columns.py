@@ -82,8 +82,8 @@ class AxisColumn:
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other; None if all links can be nested."""
     on: str = ""
-    """Axis of the stud on whose end this stud is turned, otherwise empty; `topped` marks the lower one of two such
-    studs.
+    """Axis of the stud from whose end this stud projects, in one piece with it; otherwise empty. `topped` marks the
+    lower one of two such studs.
     """
     topped: bool = False
 
@@ -183,8 +183,8 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return the pieces from the innermost outwards, and two links of which neither fits into the other, or
-        None.
+        """Return the pieces from the innermost outwards, and two links of which neither fits into the other; None if
+        all links fit.
         """
         if not self._fixed_discs:
             return self._turning_order
@@ -286,7 +286,9 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core [mm], as given, or such that every pipe fits into its smallest wheel."""
+        """Return the diameter of the core [mm]: the given diameter, or a diameter such that every pipe fits into its
+        smallest wheel.
+        """
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]

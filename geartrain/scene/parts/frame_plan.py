@@ -1,7 +1,7 @@
 """Plan of plates, pillars, arbors, pipes and studs of a train, with their positions in the stack.
 
 The two plates of the frame, and the plates of carriers, are tried in every gap between levels. For each axis the best
-bearing is selected, and the obstacles are counted. Of the positions with the fewest obstacles, the position with the
+bearing is selected, and the obstacles are counted. Among the positions with the fewest obstacles, the position with the
 lowest cost of studs and of arbors that pass through a plate is selected.
 
 Plates of shafts are arms, which bypass obstacles, and flanges for clutches. Heights of wheels as laid out become
@@ -199,8 +199,7 @@ class FramePlan:
 
     @cached_property
     def choice(self) -> PlateChoice:
-        """Positions of the plates with the fewest obstacles, and of equal positions the one with the lowest cost of
-        studs.
+        """Positions of the plates with the fewest obstacles; ties are broken in favour of the lowest cost of studs.
 
         If the arbor of a link cannot be nested and extends to a dial, the link gets an arm, connected to it by a bar,
         provided that this leaves fewer obstacles.

@@ -221,8 +221,8 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes, except that of the hub, in a wheel or plate that carries axes: for studs, posts, pins and
-        eccentrics.
+        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate that carries axes; the hole of the
+        hub is not included.
         """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
@@ -324,7 +324,7 @@ class FramePlates:
 
 
 def _box(points: Sequence[Point]) -> list[Point]:
-    """Return the corners of the upright rectangle around points: clocks have rectangular plates."""
+    """Return the corners of the upright bounding rectangle of points, because clocks have rectangular plates."""
     (left, right), (low, high) = ((min(values), max(values)) for values in zip(*points, strict=True))
     return [(left, low), (right, low), (right, high), (left, high)]
 

@@ -353,7 +353,7 @@ _BESIDE = 1.0  # mm of clearance between the central hole of a wheel and an arbo
 
 
 def find_eccentrics(stack: FrameStack) -> Iterator[Eccentric]:
-    """Yield the eccentrics of a stack; those of the same name are numbered from the second.
+    """Yield the eccentrics of a stack; eccentrics of the same name are numbered from the second one.
 
     A wheel whose carried axis is close to the axis of its carrier turns on an eccentric of the carrier. If the carrier
     represents parallel cranks, each crank has an eccentric.

@@ -178,7 +178,7 @@ class Barrel:
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters; None without a declared weight or drum, or for lack of
+    """Return the barrel of the link at which power enters; None if no weight or drum is declared, or if there is no
     space.
     """
     drive = plan.stack.train.declaration.drive

@@ -137,7 +137,7 @@ def rod_name(column: AxisColumn, member: ColumnMember) -> str:
 
 
 def without(bands: Sequence[Band], member: ColumnMember, cut: frozenset[str]) -> list[Band]:
-    """Return bands without the heights of the pinions that are cut from the same piece."""
+    """Return the bands of a turned part, interrupted at the pinions that are cut from the same piece."""
     found = list(bands)
     for disc in member.discs:
         if disc.name in cut:

@@ -4,8 +4,8 @@ A bracket is a plate perpendicular to an arbor and to the plates of the frame, w
 
 A cage holds axes of a carrier that are inclined to the carrier's axis, such as the axes of the pinions of a
 differential. An eye bears the outer end of the pinion's arbor. A post extends from the eye along the carrier's axis, to
-a wheel of the carrier of sufficient radius, else to an arm beyond all wheels that extends inwards to the carrier's
-axis. If a plate of the frame is before the wheel, the arm is beside the pinion.
+a wheel of the carrier of sufficient radius, otherwise to an arm beyond all wheels that extends inwards to the carrier's
+axis. If a plate of the frame is in front of the wheel, the arm is beside the pinion.
 
 The pendulum of an escapement and the driving weight hang on a train in true size.
 """
@@ -64,7 +64,7 @@ class HangingParts:
     barrel: Barrel | None
 
     def found(self) -> tuple[SceneHanger, ...]:
-        """Return the pendulum, then the line and the weight, as far as they are declared; empty without a dial."""
+        """Return the pendulum, the line and the weight that are declared; empty if the train has no dial."""
         return () if self.front is None else tuple(each for each in (self.pendulum, *self._weight()) if each)
 
     @property
@@ -74,8 +74,8 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face of the train, and downward direction; None without
-        such a dial.
+        """Direction towards the reader of the first dial on a face of the train, and downward direction; None if there
+        is no such dial.
         """
         normal = self.plan.stack.normal
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
@@ -105,7 +105,7 @@ class HangingParts:
 
     @property
     def _side(self) -> float:
-        """1 if the normal points away from the reader, so that the space behind the frame is above it; else -1."""
+        """1 if the normal points away from the reader, so that the space behind the frame is above it; otherwise -1."""
         assert self.front is not None
         return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
 
@@ -237,7 +237,9 @@ def _brackets(
 def _best_plate(
     plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
 ) -> tuple[int, float, str]:
-    """Return the number of wheels before the best plate for a bracket, the distance of the plate [mm], and its side."""
+    """Return the number of wheels in front of the best plate for a bracket, the distance of the plate [mm], and its
+    side.
+    """
     place, stack = _middle(plan, body, face, way), plan.stack
     height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
 
@@ -263,7 +265,7 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor, on the plate with fewer wheels before it, or the nearer one."""
+    """Return the bracket at one end of an arbor, on the plate with fewer wheels in front of it, or on the nearer plate."""
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND

@@ -122,8 +122,8 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return the declared rectangle, or a single dial's disc if it contains all feet, else the convex curve around
-        all dials and feet.
+        """Return the declared rectangle, or a single dial's disc if it contains all feet, otherwise the convex curve
+        around all dials and feet.
         """
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if self.corners:
@@ -197,7 +197,7 @@ def _plate(
 
 
 def _corners(sheet: FacePlate | None, right: Point, up: Point) -> tuple[Point, ...]:
-    """Return the corners of a declared plate, in the coordinates of the stack [mm]; empty without a declaration."""
+    """Return the corners of a declared plate, in the coordinates of the stack [mm]; empty if no plate is declared."""
     if sheet is None:
         return ()
     wide, high = float(millimetres(sheet.width)) / 2, float(millimetres(sheet.height)) / 2

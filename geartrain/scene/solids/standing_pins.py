@@ -314,8 +314,8 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost bar position with enough clearance to wheel and arm, or else the position with the most
-    clearance.
+    """Return the outermost bar position with enough clearance to wheel and arm; if there is none, the position with the
+    most clearance.
     """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]

@@ -38,7 +38,7 @@ _NEXT = [1, 2, 0]
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
     """Return points (n, 2) of a polygon with holes, and triangles (m, 3) of their indices, counter-clockwise.
 
-    The points are those of the polygon and then those of its holes. Polygons (k, 2) may have either orientation. They
+    The points of the polygon are followed by the points of its holes. Polygons (k, 2) may have either orientation. They
     must not intersect themselves or each other.
     """
     parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
@@ -106,7 +106,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Corners of a polygon, of which those `left` are not cut off yet; a cut changes two neighbours."""
+    """Corners of a polygon; corners in `left` are not cut off yet, and a cut changes two neighbours."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -128,7 +128,9 @@ class _Corners:
                 return at
 
     def _empty(self, at: int) -> bool:
-        """Return True if no other point is in the triangle of a convex corner; otherwise, note one as its blocker."""
+        """Return True if no other point is in the triangle of a convex corner; otherwise, record one such point as its
+        blocker.
+        """
         own = self.corners[[self.before[at], at, self.after[at]]]
         (ax, ay), (x, y) = own.T[..., None], self.corners.T
         side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)

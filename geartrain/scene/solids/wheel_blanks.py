@@ -48,7 +48,7 @@ def spoke_windows(
 
     root     root radius [mm]; `bore` is the diameter of the hole for the arbor [mm]
     spokes   number of spokes, 3 or more; fewer give no windows
-    corner   radius of inner corners [mm], at least that of the tool; by default half a module
+    corner   radius of inner corners [mm], at least the radius of the tool; by default half a module
     """
     if spokes < 3:
         return ()

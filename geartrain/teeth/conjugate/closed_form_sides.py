@@ -86,9 +86,9 @@ def circle_reach(R: float, rho: float, tip: float) -> float:
 def cone_reach(R: float, rho: float, tip: float) -> float:
     """Return the distance d [rad] from the pitch point at which the addendum of a cycloidal bevel gear ends.
 
-    `R` is the half-angle of its pitch cone, `rho` that of the rolling cone and `tip` that of the tip cone [rad].
-    The pressure angle psi at the distance d follows from sin psi = tan(d/2)/tan rho, and cos tip = cos d cos R -
-    sin d sin psi sin R. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
+    `R`, `rho` and `tip` are the half-angles of its pitch cone, the rolling cone and its tip cone [rad]. The pressure
+    angle psi at the distance d follows from sin psi = tan(d/2)/tan rho, and cos tip = cos d cos R - sin d sin psi sin
+    R. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
     """
     # d from v by an arc tangent, since an arc cosine of 1 - v would lose half the digits near the pitch point
     v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
@@ -240,7 +240,7 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
 
 def flank_start(R: float, A: float, B: float, mate: float) -> float:
     """Return the arc X of the first contact on the part of the mate's flank that the pins do not cut away; -inf if they
-    cut nothing.
+    cut nothing away.
 
     R, A and B are pitch radius, distance from the axle and radius of the pins [module]. `mate` is the pitch radius
     of the mate, negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank extends
@@ -270,8 +270,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None
-    without such a cusp.
+    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None if
+    there is no such cusp.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe

@@ -206,7 +206,7 @@ class ConjugateFigures(PairFigures):
     helix_angle: float | None = None
     """Helix angle of helical wheels [rad]; None for straight teeth."""
     overlap_ratio: float | None = None
-    """Overlap ratio of helical teeth; None for straight teeth or without a face width."""
+    """Overlap ratio of helical teeth; None for straight teeth, or if no face width is declared."""
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:

@@ -80,8 +80,8 @@ class PathLosses(Result):
     square root of the maximum of `PathContact.H`. It is infinite if the pressure angle is 0 at a contact.
     """
     off_pitch: float
-    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0
-    without such contacts.
+    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0 if
+    there are no such contacts.
     """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force."""
@@ -259,8 +259,8 @@ def maximum(
     low: float = -inf,
     high: float = inf,
 ) -> float:
-    """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to
-    `high`; -inf without contact.
+    """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to `high`;
+    -inf if there are none.
 
     Each piece of the path is scanned on a grid, and the bracket of its maximum is then refined.
     """

@@ -123,8 +123,9 @@ class PitchSurfaces:
     def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
         """Return radii and azimuths [rad] of points of the fixed frame about the axle of a gear.
 
-        The azimuth is counted from the pitch point and is positive in the direction of increasing X. Cylinders: points
-        (..., 2), the radius in modules. Cones: points (..., 3) on the unit sphere, the radius in rad.
+        The azimuth is counted from the pitch point and is positive in the direction of increasing X. For cylinders,
+        points have the shape (..., 2) and the radius is in modules. For cones, points have the shape (..., 3) on the
+        unit sphere and the radius is in rad.
         """
         x = points[..., 0]
         if not self.bevel:
@@ -162,7 +163,8 @@ class PitchSurfaces:
     def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
         """Return points rotated about an axle by `angle` [rad], by Rodrigues' formula.
 
-        The axis has the polar angle `R` from the pitch point; spur: the axle is at height R above the pitch point.
+        The axis has the polar angle `R` from the pitch point; for spur gears, it is at the height `R` above the pitch
+        point.
         """
         cosine, sine = np.cos(angle), np.sin(angle)
         if not self.bevel:

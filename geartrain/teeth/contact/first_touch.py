@@ -84,8 +84,8 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return two signs: of the direction towards the second axle, and of the component along it of the radius about
-        the first axle.
+        """Return the sign of the direction towards the second axle, and the sign of the component of the first radius
+        in this direction.
         """
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 

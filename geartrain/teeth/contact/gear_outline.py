@@ -154,7 +154,7 @@ class ToothFlanks(Shown):
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """Flank that leads when the wheel turns forward; its azimuths are larger than those of the other flank."""
+    """Flank that leads when the wheel turns forward; it has larger azimuths than the other flank."""
     behind: tuple[OutlineCurve, ...]
     """Flank that trails when the wheel turns forward."""
 

@@ -196,13 +196,13 @@ class FlankContact(Shown):
     angle: Floats
     """Angle of the driven wheel in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN without contact."""
+    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where there is no contact."""
     pair: Indices
-    """Number of the driver's tooth that is in contact; 0 without contact. Teeth are counted forward from tooth 0,
-    beyond z after a revolution.
+    """Number of the driver's tooth that is in contact; 0 where there is no contact. Teeth are counted forward from
+    tooth 0, beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 without contact."""
+    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 where there is no contact."""
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
@@ -212,7 +212,8 @@ class FlankContact(Shown):
     sharing: Indices
     """Number of tooth pairs whose gap is within the tolerance."""
     curves: Indices
-    """Numbers of the curves in contact on both outlines, counted through all teeth; -1 without contact. Shape (2, ...).
+    """Numbers of the curves in contact on both outlines, counted through all teeth, shape (2, ...); -1 where there is
+    no contact.
     """
 
     def to_dict(self) -> dict[str, Any]:
@@ -317,7 +318,7 @@ def contact(
     first, second, distance, phi1, within
         As in `solve`.
     side : {"front", "back"}
-        Flank that pushes the driven wheel, or flank that prevents it from running ahead.
+        Flank that pushes the driven wheel ("front"), or flank that prevents it from running ahead ("back").
 
     Returns
     -------

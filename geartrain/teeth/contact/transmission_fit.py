@@ -74,7 +74,9 @@ class PiecewiseTransmission:
     """Estimated error of the speed ratio: twice the maximum difference found between interpolation nodes."""
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
+        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN where there is no
+        contact.
+        """
         return self.errors(phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
@@ -318,7 +320,7 @@ class _Fitter:
 
 
 def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Return the intervals divided at their kinks, or bisected without kinks, and the previous error of each."""
+    """Return the intervals divided at their kinks, or bisected if they have none, and the previous error of each."""
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
         within = inner[(inner > low) & (inner < high)]

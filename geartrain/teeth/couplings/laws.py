@@ -161,7 +161,7 @@ class EllipticalPair(_LobedPair):
 
     @property
     def _root(self) -> float:
-        """The square root in `distance`."""
+        """Square root that occurs in the formula of `distance`."""
         e, m = float(self.eccentricity.value), self.lobes[0] / self.lobes[1]
         return sqrt(1 - (1 - e**2) * (1 - 1 / m**2))
 
@@ -172,7 +172,9 @@ class EllipticalPair(_LobedPair):
 
     @property
     def transmission(self) -> SeriesTransmission:
-        """Transmission function, with rho = e (m + 1)/(m s + 1): mean ratio m without sign, and s the root of C."""
+        """Transmission function with rho = e (m + 1)/(m s + 1), where e is the eccentricity, m the mean ratio without
+        sign, and s the square root in `distance`.
+        """
         from geartrain.teeth.couplings.series_transmission import SeriesTransmission
 
         m = self.lobes[0] / self.lobes[1]
@@ -224,7 +226,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def distance(self) -> float:
-        """Distance between the axes [m, or in the unit of radii that are declared without a unit]."""
+        """Distance between the axes [m], or in the unit of the radii if these are declared without a unit."""
         from geartrain.teeth.couplings.pitch_curves import mate_distance
 
         return mate_distance(self._values, float(-self.mean))

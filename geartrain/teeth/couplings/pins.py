@@ -2,7 +2,7 @@
 
 A pin on one link slides in a slot of another link, whose axis is at the distance `offset`. In the frame of their
 carrier, the slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e. Over
-one turn of the pin the slot turns m times: m = 1 if the pin's circle encloses the slot's axis (r > e), else m = 0.
+one turn of the pin the slot turns m times: m = 1 if the pin's circle encloses the slot's axis (r > e), otherwise m = 0.
 
 Three or more pins in round holes, each wider than its pin by 2 e, keep two links parallel: m = 1 at every instant.
 """

@@ -326,7 +326,7 @@ class Triangular(ToothForm):
         direction : {1, -1}
             Direction of rotation; with -1 the coast flanks are in contact.
         pitch_distance : float, optional
-            As in `sizes` [m].
+            Same as in `sizes` [m].
         ring : {0, 1, 2}
             Number of the wheel that is a ring gear; 0 for an external pair.
 

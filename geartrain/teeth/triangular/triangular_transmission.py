@@ -120,7 +120,7 @@ class TriangularTransmission(ToothTransmission):
         Parameters
         ----------
         phase, x
-            As in `sliding`.
+            Same as in `sliding`.
         by : PairFriction or None
             Friction as a function of sliding speed; None for the constant coefficient of this function.
         """

@@ -277,7 +277,7 @@ def as_json(data: Any) -> str:
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; return an empty string if there are no rows."""
+    """Format rows with the same keys as CSV with a header; return an empty string if `rows` is empty."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

@@ -248,7 +248,7 @@ class CalloutMargin:
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Minimum and maximum ordinate of all callouts [in]; (inf, -inf) if there are no callouts."""
+        """Minimum and maximum ordinate of all callouts [in]; (inf, -inf) if the columns are empty."""
         ends = [y + way * each.height / 2 for side in (self.left, self.right) for each, y in side for way in (-1, 1)]
         return min(ends, default=inf), max(ends, default=-inf)
 

@@ -284,7 +284,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
 
 def _prefixed(maximum: float, unit: str) -> tuple[float, str]:
     """Return the factor that converts values to a unit with a decimal prefix, and this unit in parentheses; the factor
-    is 1 if there is no unit.
+    is 1 if `unit` is empty.
     """
     if not unit:
         return 1.0, ""

@@ -387,7 +387,7 @@ class _PlanSize:
     depth: float
     """Height of all layers together [mm]."""
     deep: float
-    """Width of the side view [in]; 0 if there is no side view."""
+    """Width of the side view [in]; 0 if the plan has no side view."""
 
     @classmethod
     def of(cls, projected: ProjectedScene) -> _PlanSize:

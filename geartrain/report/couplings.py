@@ -59,7 +59,7 @@ class VaryingCoupling(Result):
     at_once: bool
     """True if the driven link moves in instantaneous steps; its speed ratio is then the value between the steps."""
     formula: str
-    """Driven angle q as a function of the driver's angle S; empty if there is no closed form."""
+    """Driven angle q as a function of the driver's angle S; empty if no closed form is known."""
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:

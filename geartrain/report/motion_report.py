@@ -307,7 +307,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" if there are no such pairs."""
+    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" if all speed ratios vary."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:

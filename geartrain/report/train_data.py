@@ -132,7 +132,9 @@ class TrainReport(TrainAnswers):
     torques: tuple[TorqueFigures, ...]
     """Torques in every state with loads or bearing friction."""
     timekeeping: tuple[Timekeeping, ...]
-    """Energy, amplitude and rate of a clock in every state with a load or a drive; empty if there is no escapement."""
+    """Energy, amplitude and rate of a clock in every state with a load or a drive; empty if the train has no
+    escapement.
+    """
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]

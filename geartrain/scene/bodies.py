@@ -428,7 +428,9 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power that is lost at each wheel, half the loss of its pairs; empty if unknown."""
+    """Return the fraction of the input power that is lost at each wheel, half the loss of its pairs; empty if
+    unknown.
+    """
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

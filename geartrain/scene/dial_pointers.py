@@ -424,8 +424,8 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> SceneEpoch | None:
-    """Return the declared date in turns of the driving link, with the angles of the pointers at that date; None if
-    there is no date, time unit or driven link.
+    """Return the declared date in turns of the driving link, with the angles of the pointers at that date; None if the
+    date, the time unit or the driven link is missing.
     """
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days

@@ -127,7 +127,7 @@ class SceneEpoch(Shown):
     """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
     """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body -> longitude,
-    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty if there are no settings.
+    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty if `settings` is empty.
     """
 
 
@@ -183,7 +183,9 @@ class Pointer(Shown):
     reach: float = 0.0
     """Length of the hand relative to the radius of the scale; 0 for a pointer without a dial."""
     outline: Sequence[tuple[float, float]] = ()
-    """Outline relative to the hand's length: distances from the axis and half widths; empty if there is no dial."""
+    """Outline relative to the hand's length: distances from the axis and half widths; empty if the output has
+    no dial.
+    """
     hand: str = "needle"
     """Declared shape of the hand."""
     ball: float = 0.0

@@ -66,7 +66,7 @@ class CoulombFriction(NumberOrKeys):
     def _check_range(self) -> CoulombFriction:
         check_range("friction", self.sliding, self.range)
         if self.range is not None and self.deviation is not None:
-            fix = "omit `deviation` for a uniform, or `range` for a normal distribution"
+            fix = "omit `deviation` for a uniform distribution, or `range` for a normal distribution"
             raise bad("friction", "`range` and `deviation` are both given", fix)
         return self
 

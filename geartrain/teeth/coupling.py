@@ -177,7 +177,7 @@ class Coupling(BaseModel):
 
     @property
     def losses(self) -> Efficiencies | None:
-        """Basic efficiencies with the first and with the second end driving; None if there are no losses."""
+        """Basic efficiencies with the first and with the second end driving; None for a coupling without losses."""
         return self.efficiency
 
     @property

@@ -61,12 +61,12 @@ class MeasuredForm(Result):
 
     @property
     def pitches(self) -> tuple[float, float] | None:
-        """Arcs of approach and recess [pitch], one of which may be negative; None if there is no path of contact."""
+        """Arcs of approach and recess [pitch], one of which may be negative; None if `path` is None."""
         return None if self.path is None else self.path.pitches
 
     @property
     def pressure_angle(self) -> float | None:
-        """Pressure angle at the pitch point [rad]; None if there is no path of contact."""
+        """Pressure angle at the pitch point [rad]; None if `path` is None."""
         return None if self.path is None else float(self.path.at(0.0).psi)
 
 

@@ -242,8 +242,8 @@ class TabulatedFriction(FrictionLaw):
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
             raise bad(
                 "friction",
-                "the speeds are not in rising order from 0 or more",
-                "list the speeds in rising order, from 0 or more",
+                "the speeds are negative or not in increasing order",
+                "list speeds of 0 or more in increasing order",
             )
         return self
 

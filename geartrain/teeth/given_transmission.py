@@ -313,8 +313,8 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
 
 
 def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
-    """Return the efficiency of a transmission function given in Python, for both driving wheels; None if there are no
-    losses.
+    """Return the efficiency of a transmission function given in Python, for both driving wheels; None for a function
+    without losses.
 
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """

@@ -100,7 +100,9 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None: no declared centre distance is wrong, because involute teeth keep their ratio at any distance."""
+        """Return None: no declared centre distance is wrong, because involute teeth keep their ratio at any
+        distance.
+        """
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:

@@ -77,7 +77,7 @@ class LeastFriction(ConjugateToothForm):
             check_arcs(self.arcs)
         if (self.friction_law is None) != (self.pitch_line_speed is None):
             fix = "give both, or neither"
-            raise bad("friction_law", "friction_law and pitch_line_speed are not both given", fix)
+            raise bad("friction_law", "only one of friction_law and pitch_line_speed is given", fix)
         return self._check_literal() if self.literal else self._check_usual()
 
     def _check_usual(self) -> LeastFriction:
@@ -117,7 +117,7 @@ class LeastFriction(ConjugateToothForm):
         if not pi / 4 <= last < first < pi / 2:
             raise bad(
                 "pressure_angle",
-                "the pressure angles of the literal shape are not in falling order between 90 and 45 deg",
+                "the pressure angles of the literal shape are not in descending order between 90 and 45 deg",
                 "give two angles from 45 to 90 deg, the larger one first: the flanks have a cusp at 45 deg",
             )
         if self.arcs is not None and min(arc.value for arc in self.arcs) > 0:

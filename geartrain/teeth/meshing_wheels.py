@@ -127,7 +127,7 @@ class MeshingWheels:
 
     @property
     def note(self) -> str:
-        """Note on a contrate wheel, which is treated as a spur wheel; empty if there is no such wheel."""
+        """Note on a contrate wheel, which is treated as a spur wheel; empty if neither wheel is a contrate wheel."""
         return _CONTRATE if "contrate" in self.kinds else ""
 
 

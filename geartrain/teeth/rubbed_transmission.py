@@ -88,14 +88,16 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
-        """Return the coefficient of friction at each contact; NaN where there is no contact.
+        """Return the coefficient of friction at each contact; NaN where the teeth do not touch.
 
         S   driver angles [rad], any shape
         """
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN if there is no contact, or if friction locks the teeth."""
+        """Return the efficiency at driver angles S [rad]; NaN where the teeth do not touch, or if friction
+        locks them.
+        """
         rubbing = self.rubbing(S)
         return rubbing.efficiency(self.by(rubbing.sliding))
 

@@ -285,7 +285,9 @@ class GivenError(ToothForm):
         return any(each.unit is not None for each in self.eccentricity)
 
     def thinned(self, backlash: Quantity) -> GivenError:
-        """Return the form unchanged; its backlash is declared as an angle, so that the given backlash does not apply."""
+        """Return the form unchanged; its backlash is declared as an angle, so that the given backlash does not
+        apply.
+        """
         del backlash
         return self
 
@@ -344,8 +346,8 @@ class GivenError(ToothForm):
         return GivenTransmission(function, counts, self.driver, self.backlash.si, efficiencies, self.driver)
 
     def _efficiencies(self, counts: tuple[int, int]) -> Efficiencies | None:
-        """Return the efficiencies with the wheel `driver` and with the other wheel driving; None if there are no
-        losses.
+        """Return the efficiencies with the wheel `driver` and with the other wheel driving; None if no losses are
+        declared.
         """
         from geartrain.numerics.periodic_function import HarmonicSeries
         from geartrain.teeth.given_transmission import checked_efficiency

@@ -75,8 +75,8 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding of the teeth of a pair at driver angles: arrays with one row for each contact, NaN where there is no
-    contact.
+    """Sliding of the teeth of a pair at driver angles: arrays with one row for each contact, NaN where teeth do not
+    touch.
     """
 
     sliding: Floats
@@ -87,7 +87,7 @@ class ContactRubbing(NamedTuple):
     """Change of the output power of a contact per unit friction coefficient, divided by the power without friction."""
 
     def efficiency(self, friction: float | Floats) -> Floats:
-        """Return the efficiency at each driver angle; NaN if there is no contact, or if friction locks one of the
+        """Return the efficiency at each driver angle; NaN if the teeth do not touch, or if friction locks one of the
         contacts.
 
         Contacts at the same time share the driver's torque equally. A contact with the coefficient f transmits the

@@ -290,7 +290,7 @@ def test_speeds_that_depend_on_an_approximate_ratio_have_its_tolerance_and_a_mar
 @pytest.mark.parametrize(
     ("coupling", "said"),
     [
-        ("kind: belt, around: {a: 1}", "a belt goes around two or more pulleys"),
+        ("kind: belt, around: {a: 1}", "a belt needs at least two pulleys"),
         ("kind: belt, around: [p, {b: 1}]", "wheels and diameters are mixed"),
         ("kind: belt, around: {a: 1, b: }", "a pulley has no diameter"),
         ("kind: belt, around: {a: 1, b: 0}", "a pulley has the diameter 0"),
@@ -312,7 +312,7 @@ def test_speeds_that_depend_on_an_approximate_ratio_have_its_tolerance_and_a_mar
         ("kind: ratio, pair: [a, b], ratio: 1/0", "divides by zero"),
         ("kind: ratio, pair: [a, a], ratio: 2", "connects 'a' to itself"),
         ("kind: ratio, pair: [a, d], ratio: 2, carrier: b", "'b' is not coaxial with 'a' and 'd'"),
-        ("kind: ratio, pair: [a, d], ratio: 2, carrier: a", "'a' is the carrier and one of the pair"),
+        ("kind: ratio, pair: [a, d], ratio: 2, carrier: a", "'a' is both the carrier and one of the pair"),
         ("kind: ratio, pair: [a, d], ratio: 2, carrier: x", "no link 'x'"),
         ("kind: ratio, pair: [a, b], ratio: 2, carrier: d", "'d' is not the carrier of coupling 'a~b'"),
         ("kind: ratio, pair: [a, b], ratio: {value: 2, tolerance: 3}", "may be 0"),

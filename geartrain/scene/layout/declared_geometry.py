@@ -152,7 +152,7 @@ class CouplingTie:
     encloses: bool
     """True if a pin's circle encloses the slot's axis, so that the two axes are close together."""
     wish: float | None = None
-    """Preferred distance [mm] if nothing determines the distance; None if there is no preference."""
+    """Preferred distance [mm] if nothing determines the distance; None if any distance is suitable."""
 
     @property
     def axis_pair(self) -> tuple[str, str]:
@@ -188,7 +188,7 @@ class DeclaredGeometry:
     dial_ends: Mapping[str, DialEnds]
     """Link -> ends of its arbor that extend to a dial."""
     driven: str | None
-    """Axis of the first input, which is at the origin if no position is declared; None if there is no input."""
+    """Axis of the first input, which is at the origin if no position is declared; None if the train has no input."""
     discs: Mapping[str, float]
     """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
     belts: tuple[Mapping[str, float], ...] = ()
@@ -408,7 +408,9 @@ _BELT = 1.25  # distance of pulleys divided by the largest diameter
 
 
 def _preferred_distance(coupling: Coupling) -> float | None:
-    """Return the distance of the axes of a coupling [mm] if no positions are declared; None if there is no preference."""
+    """Return the preferred distance of the axes of a coupling [mm] if no positions are declared; None if any distance
+    is suitable.
+    """
     around = getattr(coupling, "around", None)
     if isinstance(around, Mapping):
         return _BELT * float(max(millimetres(diameter) for diameter in around.values()))

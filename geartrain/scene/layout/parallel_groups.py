@@ -186,7 +186,9 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan, relative to its height at its reference point [mm]."""
+        """Return the height of a crossing axis at a point in plan, relative to its height at its reference
+        point [mm].
+        """
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)

@@ -40,8 +40,8 @@ def pillar_places(
 ) -> list[Point]:
     """Return four, three or five positions of pillars [mm], in this order of preference.
 
-    Their polygon contains all axes and has the shortest perimeter. If there is no such polygon, the result is up to
-    five positions that are far apart.
+    Their polygon contains all axes and has the shortest perimeter. If no such polygon exists, the result is up to five
+    positions that are far apart.
 
     In each direction from the middle of the axes the candidate is the innermost position with free space outwards.
     Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
@@ -109,7 +109,9 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance of a point from circles [mm], negative inside a circle; infinite if there are none."""
+    """Return the minimum distance of a point from circles [mm], negative inside a circle; infinite if there are
+    none.
+    """
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 

@@ -74,8 +74,8 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face of the train, and downward direction; None if there
-        is no such dial.
+        """Direction towards the reader of the first dial on a face of the train, and downward direction; None if no
+        such dial exists.
         """
         normal = self.plan.stack.normal
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
@@ -265,7 +265,9 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor, on the plate with fewer wheels in front of it, or on the nearer plate."""
+    """Return the bracket at one end of an arbor, on the plate with fewer wheels in front of it, or on the
+    nearer plate.
+    """
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND

@@ -252,7 +252,7 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
                 float("nan"),
                 f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}",
                 f"they are {-gap:.4g} modules too long",
-                f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or more centre distance",
+                f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or a larger centre distance",
             )
 
 

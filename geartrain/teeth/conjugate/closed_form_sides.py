@@ -174,7 +174,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
         raise RangeError(
             Problem(
                 f"the path of contact does not reach the tip radius of the mate, {tip:.6g} modules",
-                "the pins are at the far side of the lantern before that",
+                "the pins reach the far side of the lantern before they would touch this radius",
                 "give the mate a shorter addendum",
             )
         )
@@ -270,8 +270,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None if
-    there is no such cusp.
+    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None if no
+    such cusp exists.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe

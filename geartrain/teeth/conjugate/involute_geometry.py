@@ -70,7 +70,7 @@ class InvoluteWheel:
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Return the radius up to which the rack's corner removes the involute [module]; 0 if there is no undercut, and
+        """Return the radius up to which the rack's corner removes the involute [module]; 0 if it removes nothing, and
         for ring gears.
         """
         u = self.cut - self.shift

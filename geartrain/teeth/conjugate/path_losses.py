@@ -80,8 +80,8 @@ class PathLosses(Result):
     square root of the maximum of `PathContact.H`. It is infinite if the pressure angle is 0 at a contact.
     """
     off_pitch: float
-    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0 if
-    there are no such contacts.
+    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0 if no
+    such contacts exist.
     """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force."""

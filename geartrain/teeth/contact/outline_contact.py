@@ -196,13 +196,15 @@ class FlankContact(Shown):
     angle: Floats
     """Angle of the driven wheel in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where there is no contact."""
+    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where the teeth do not
+    touch.
+    """
     pair: Indices
-    """Number of the driver's tooth that is in contact; 0 where there is no contact. Teeth are counted forward from
+    """Number of the driver's tooth that is in contact; 0 where the teeth do not touch. Teeth are counted forward from
     tooth 0, beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 where there is no contact."""
+    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do not touch."""
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
@@ -212,8 +214,8 @@ class FlankContact(Shown):
     sharing: Indices
     """Number of tooth pairs whose gap is within the tolerance."""
     curves: Indices
-    """Numbers of the curves in contact on both outlines, counted through all teeth, shape (2, ...); -1 where there is
-    no contact.
+    """Numbers of the curves in contact on both outlines, counted through all teeth, shape (2, ...); -1 where the teeth
+    do not touch.
     """
 
     def to_dict(self) -> dict[str, Any]:

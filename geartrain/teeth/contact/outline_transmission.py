@@ -111,8 +111,8 @@ class OutlineTransmission(ToothTransmission):
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN where there is no
-        contact.
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN where the teeth do not
+        touch.
         """
         return self._in_direction(self.table.error(self._forward(S)))
 
@@ -228,8 +228,8 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Return the backlash [rad of the driven wheel] at equally spaced angles of one period; NaN where there is no
-    contact.
+    """Return the backlash [rad of the driven wheel] at equally spaced angles of one period; NaN where the teeth do not
+    touch.
     """
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)

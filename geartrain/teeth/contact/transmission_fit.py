@@ -74,8 +74,8 @@ class PiecewiseTransmission:
     """Estimated error of the speed ratio: twice the maximum difference found between interpolation nodes."""
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN where there is no
-        contact.
+        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN where the teeth do
+        not touch.
         """
         return self.errors(phi1)
 

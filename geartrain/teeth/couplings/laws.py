@@ -156,7 +156,7 @@ class EllipticalPair(_LobedPair):
     def _closes(cls, eccentricity: Figure) -> Figure:
         if not 0 <= eccentricity.value < 1:
             what = f"with an eccentricity of {eccentricity.text} the pitch curve does not close"
-            raise bad("law", what, "give 0 (a circle) to below 1")
+            raise bad("law", what, "give a value from 0 (a circle) to less than 1")
         return eccentricity
 
     @property
@@ -215,7 +215,7 @@ class PitchCurvePair(_LobedPair):
     def _has_a_mate(self) -> PitchCurvePair:
         _check_points(self.radii, "radii", _FEWEST)
         if len({radius.unit is None for radius in self.radii}) > 1:
-            raise bad("law", "some radii have a unit and others do not", "give all with a unit, or all without")
+            raise bad("law", "some radii have a unit, others do not", "give all radii with a unit, or all without one")
         if min(radius.base for radius in self.radii) <= 0:
             raise bad("law", "a radius of the pitch curve is not above 0", "give radii above 0")
         try:

@@ -69,8 +69,8 @@ class _PinInSlot(PinCoupling):
             raise bad("pin", what, "give a pin_radius above 0 and an offset of 0 or more")
         # an offset of 0 needs no unit
         if offset.value and (radius.unit is None) != (offset.unit is None):
-            what = f"pin_radius {radius.text} and offset {offset.text} have a unit in one value only"
-            raise bad("pin", what, "give both with a unit, or both without")
+            what = f"only one of pin_radius {radius.text} and offset {offset.text} has a unit"
+            raise bad("pin", what, "give both with a unit, or both without one")
         # compared as exact fractions, so that equal lengths in different units are recognised
         r, e = radius.base, offset.base
         # the slot would reverse its direction at that moment

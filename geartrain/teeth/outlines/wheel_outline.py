@@ -109,7 +109,7 @@ class WheelOutline(Result):
     thickness: float
     """Thickness of a tooth along the pitch circle [mm]."""
     fillet: float
-    """Radius of the root fillet [mm]; 0 if there is no fillet."""
+    """Radius of the root fillet [mm]; 0 if the root has no fillet."""
     relief: float
     """Angle by which the root flank deviates from the tangent of the flank, for clearance to the mate's tip [rad]."""
     clearance: float
@@ -248,8 +248,8 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """Return the hole of a wheel with the root radius `root` [mm] as a list of contours, which is empty if there is no
-    bore.
+    """Return the hole of a wheel with the root radius `root` [mm] as a list of contours, which is empty if the wheel
+    has no bore.
     """
     if cut.bore is None:
         return []

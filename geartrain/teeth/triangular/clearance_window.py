@@ -164,8 +164,8 @@ class TriangularContact:
 
     @cached_property
     def overhang(self) -> str:
-        """Message about an overhanging flank that touches, or that would turn the driven wheel back; empty if there is
-        no such flank.
+        """Message about an overhanging flank that touches, or that would turn the driven wheel back; empty if no such
+        flank exists.
         """
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1

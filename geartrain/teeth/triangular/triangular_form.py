@@ -124,7 +124,7 @@ class Triangular(ToothForm):
                 raise bad("length", f"{name} {length.text} is out of range", "give a length above 0")
         if len({length.unit is None for length in given.values()}) > 1:
             what = f"{', '.join(given)} mix numbers without a unit and lengths with a unit"
-            raise bad("length", what, "give all with a unit, or all without")
+            raise bad("length", what, "give all lengths with a unit, or all without one")
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:

@@ -135,9 +135,7 @@ class Sink:
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result to standard output, or write it atomically to the file and report its name and
-        `said`.
-        """
+        """Write a complete result to standard output, or atomically to the file; then report its name and `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -234,9 +232,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if requested by option or suffix, otherwise as documents; only the requested format is
-    computed.
-    """
+    """Write a result as JSON if requested by option or suffix, otherwise as documents; compute only this format."""
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:

@@ -250,9 +250,7 @@ def two_wheels(
 
 
 BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
-"""Sizes of a wheel that its tooth form does not determine; `clearance`, `fillet` and `rim` apply only to conjugate
-teeth.
-"""
+"""Sizes of a wheel that its tooth form does not fix; `clearance`, `fillet` and `rim` are for conjugate teeth only."""
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
@@ -306,7 +304,7 @@ class PairFrictionOption:
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return the mesh with this friction. Raises `GearTrainError` if a friction law needs an unknown speed or
+        """Return the mesh with this friction; raise `GearTrainError` if a friction law needs an unknown speed or
         module.
         """
         if self.law is None:
@@ -327,7 +325,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction, or the name and parameters of a friction law. Raises `GearTrainError` if it is
+    """Parse a coefficient of friction, or a friction law with its parameters; raise `GearTrainError` if it is
     invalid.
     """
     name = text.split(",")[0].strip()

@@ -148,9 +148,7 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation in the time domain that the page shows, with the largest number of samples that a page can
-    hold.
-    """
+    """Run the simulation in the time domain that the page shows, with as many samples as a page can hold."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 

@@ -136,9 +136,7 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths (n, n) of the shortest paths between items by the Floyd-Warshall algorithm; 0 for unconnected
-    items.
-    """
+    """Return the lengths (n, n) of the shortest paths between items (Floyd-Warshall); 0 for unconnected items."""
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -232,9 +230,7 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Callouts in columns left and right of a picture, each with its ordinate, and the inner edges of the columns
-    [in].
-    """
+    """Callouts in columns left and right of a picture, each with its ordinate, and the inner edges of columns [in]."""
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -330,9 +326,7 @@ def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[floa
 
 
 def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts with their ordinates [in], as close to their anchors as their order permits (isotonic
-    regression).
-    """
+    """Return the callouts with ordinates [in] as close to their anchors as the order permits (isotonic regression)."""
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 

@@ -102,9 +102,7 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return the kinematic graph of a train, with faulty loops in red; raise `QuestionError` if it has too many
-    links.
-    """
+    """Return the kinematic graph of a train, with faulty loops in red; raise `QuestionError` for too many links."""
     declared = train.declaration
     links = list(declared.links)
     too_many(train, len(links), _MOST, "links")

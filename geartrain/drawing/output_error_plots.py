@@ -136,7 +136,7 @@ def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> F
 
 
 def _drawers(trace: _Trace) -> list[Callable[[Axes, _Trace], None]]:
-    """Return the functions that draw an output's panels. For many turns, only backward motion is drawn instead of the
+    """Return the functions that draw an output's panels; for many turns, only backward motion is shown, not the
     angle.
     """
     errors: list[Callable[[Axes, _Trace], None]] = (

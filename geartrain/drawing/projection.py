@@ -156,7 +156,7 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return the height along the axis [mm] and the scale of each end of a wheel; the large end of a bevel wheel is
+        """Return the height along the axis [mm] and the scale of each end of a wheel, the large end of a bevel wheel
         first.
         """
         half = wheel.thickness / 2
@@ -167,7 +167,7 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """Return a scene after `turns` of its driving link, seen from the front if most wheels face the front, otherwise
+    """Return a scene after `turns` of its driving link, seen from the front if most wheels face it, otherwise
     obliquely.
     """
     posed = scene_pose(scene, turns)
@@ -176,9 +176,7 @@ def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
 
 
 def screen_of(view: Floats) -> Floats:
-    """Return the matrix (3, 3) whose rows point right, up and towards the reader; `view` is the direction towards the
-    reader.
-    """
+    """Return the matrix (3, 3) with rows right, up and `view`, the direction towards the reader."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
@@ -199,7 +197,7 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield for each arm of a carrier: the index of the carrier's body, a point of its axis, and a point of the carried
+    """Yield each arm of a carrier: index of the carrier's body, a point of its axis, and a point of the carried
     axis.
     """
     scene = projected.scene

@@ -305,7 +305,7 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of a spot's neighbours on one side, weighted by band width; its own position if it has
+    """Return the mean position of a spot's neighbours on one side, weighted by band width, or its own if it has
     none.
     """
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]

@@ -545,9 +545,7 @@ class _Drawing:
             self.words.name_upright(f"{wheel} {self.train.declaration.wheels[wheel][1].count}", x, ends, color)
 
     def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """Draw a wheel as a line from its shaft to its mate, connected to an earlier line of the same wheel if there is
-        one.
-        """
+        """Draw a wheel as a line from its shaft to its mate, connected to an earlier line of the same wheel, if any."""
         draw_line(self.axes, [x, x], [foot, end], BLUE, WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)

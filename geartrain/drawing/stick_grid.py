@@ -225,9 +225,7 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column in which a mesh does not hide another mesh, and add it to `taken`; a ring takes two
-    columns.
-    """
+    """Return the first column in which a mesh hides no other mesh, and add it to `taken`; a ring takes two columns."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

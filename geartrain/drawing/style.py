@@ -134,9 +134,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield the texts of an artist; hidden axes are skipped, because their ticks would be created only for this
-    purpose.
-    """
+    """Yield the texts of an artist, without hidden axes, whose ticks would be created only for this purpose."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child

@@ -80,9 +80,7 @@ class _Painter:
             self._halo(effect)
 
     def paint_grid(self, axes: Axes) -> None:
-        """Convert the grid colour of ticks that are created later, because a file of another resolution may have more
-        ticks.
-        """
+        """Convert the grid colour of ticks that are created later; a file of another resolution may have more ticks."""
         for axis in (axes.xaxis, axes.yaxis):
             old = axis.get_tick_params().get("grid_color")
             if old is not None:

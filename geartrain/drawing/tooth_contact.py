@@ -99,7 +99,7 @@ class ToothPairPose:
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) at a radius and an angle from the line of centres [rad], positive on the entry
+        """Return points (..., 2) at a radius and an angle [rad] from the line of centres, positive at the entry
         side.
         """
         along: Floats = radius * np.cos(angle)
@@ -137,7 +137,7 @@ class ToothPairPose:
 
     @property
     def contact(self) -> Point:
-        """Contact point of the tooth pair: the tip of the driven tooth in approach, the tip of the driver's tooth in
+        """Contact point of the tooth pair: the tip of the driven tooth in approach, and of the driver's tooth in
         recess.
         """
         which = DRIVEN if self.phase == APPROACH else DRIVER

@@ -79,9 +79,7 @@ def comparison_figure(found: FormComparison) -> Figure:
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
-    """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods of the
-    pair.
-    """
+    """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods."""
     S = np.linspace(0, 2 * transmission.period, _PERIOD_SAMPLES)
     curves = (
         np.degrees(transmission.error(S)),
@@ -236,9 +234,7 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact: the speed ratio before it, when a tooth pair separates, and after it, when the next pair
-    drives.
-    """
+    """Draw each impact: the speed ratio before it, as a tooth pair separates, and after it, as the next pair drives."""
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -288,9 +284,7 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis for the instant centre: its distance from the driver's axis, divided by the centre
-    distance.
-    """
+    """Draw a second axis for the instant centre: its distance from the driver's axis divided by the axis distance."""
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -438,9 +432,7 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
-    """Yield each plotted quantity with its label; lengths are in modules, so that spur and bevel gears are
-    comparable.
-    """
+    """Yield each plotted quantity with its label; lengths in modules make spur and bevel gears comparable."""
     # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)

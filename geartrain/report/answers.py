@@ -85,7 +85,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the sections on one state: the pointers with their targets; then, as details, all outputs, targets and
+    """Yield the sections on one state: pointers with their targets; then, as details, all outputs, targets and
     speeds.
     """
     if answer.outputs:
@@ -455,9 +455,7 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def clutch_lines(answer: Answer) -> Iterator[str]:
-    """Yield a line on each one-way clutch of a state, which reports whether it holds or overruns, and notes on the
-    clutches.
-    """
+    """Yield a line on each one-way clutch of a state, which reports if it holds or overruns, and notes on clutches."""
     yield from (each.text(answer.unit) for each in answer.one_way)
     yield from answer.notes
 
@@ -470,9 +468,7 @@ def answer_text(answer: Answer) -> str:
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return a document on the outputs, targets and speeds of one state; None if the result does not refer to its
-    train.
-    """
+    """Return a document on the outputs, targets and speeds of one state; None if the result has no train."""
     if answer._declaration is None:
         return None
     train = GearTrain(answer._declaration)

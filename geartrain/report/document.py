@@ -193,9 +193,7 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address; otherwise it prints
-    `url`.
-    """
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, and otherwise prints it."""
 
     cite: str
     url: str = ""

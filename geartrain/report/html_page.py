@@ -194,9 +194,7 @@ def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
 
 
 def _policy(script: str, framed: bool) -> str:
-    """Return the content security policy of a page: it loads nothing and runs only its own script, identified by a
-    hash.
-    """
+    """Return the content security policy of a page, which loads nothing and runs only its own script (by its hash)."""
     if framed:
         return _POLICY + _INTO_FRAMES
     return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"

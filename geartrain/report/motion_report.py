@@ -179,7 +179,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state. Yield nothing if the train has neither declared tooth forms nor pins with
+    """Yield the motion in every state; yield nothing for a train without tooth forms and without pins with
     dimensions.
     """
     if not ripples(train):
@@ -249,9 +249,7 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
-    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if it has not been
-    run.
-    """
+    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if it was not run."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import MotionRun
 

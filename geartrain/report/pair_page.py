@@ -57,9 +57,7 @@ class FormedPair(Result):
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """Pair of wheels with triangular teeth outside a train, with the effects of impacts if operating conditions are
-    given.
-    """
+    """Pair of wheels with triangular teeth outside a train, with the effects of impacts under operating conditions."""
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
@@ -117,9 +115,7 @@ def describe_pair(
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
-    """Return the design of conjugate teeth; None for other tooth forms, and at a centre distance where the ratio
-    varies.
-    """
+    """Return the design of conjugate teeth; None for other tooth forms, and at a distance where the ratio varies."""
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
@@ -277,9 +273,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends of contact intervals and
-    within them.
-    """
+    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of contact intervals."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))

@@ -356,9 +356,7 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """Yield a table of the losses of each pair and bearing, with the total in the last row; impacts have separate
-    columns.
-    """
+    """Yield a table of the losses of each pair and bearing, and their total; impacts have separate columns."""
     if not flow.losses and not impact_power:
         return
     struck = {node: impact_power[node.name] for node in flow.nodes if node.kind == "pair" and node.name in impact_power}

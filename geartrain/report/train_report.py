@@ -309,9 +309,7 @@ def _circuits(train: GearTrain) -> Section:
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return a table with one column for each fundamental circuit, and rows for its links, carrier, tooth counts and
-    ratio.
-    """
+    """Return a table with one column for each fundamental circuit: its links, carrier, tooth counts and ratio."""
     from geartrain.teeth.coupling import coupling_model
 
     wheels = declared.wheels

@@ -200,7 +200,7 @@ class _Mounting:
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
     def _position(self, circuit: Circuit, at: int) -> float:
-        """Return the initial position of the first tooth of a placed wheel, counted forwards from the contact point
+        """Return the initial position of a placed wheel's first tooth, counted forwards from the contact point
         [pitches].
         """
         wheel = circuit.wheels[at]

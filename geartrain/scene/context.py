@@ -139,8 +139,8 @@ class SceneContext:
         return (0.0, 1.0 if (self.speed(drum.slides) or 0) < 0 else -1.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel
-        to it.
+        """Return the unit direction of an axis, reversed if opposite to z or to the first declared axis
+        parallel to it.
         """
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
@@ -162,8 +162,8 @@ class SceneContext:
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with their computed tooth geometry; empty if it cannot be computed (`unbuilt` gives the
-        reasons).
+        """Gear pairs with their computed tooth geometry; empty if it cannot be computed, for the reasons in
+        `unbuilt`.
         """
         return self._built[0]
 

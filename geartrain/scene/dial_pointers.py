@@ -199,7 +199,7 @@ def _is_placed(dial: Dial, axis: AxisPlace | None, right: Vector, up: Vector) ->
 
 @lru_cache(maxsize=64)
 def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """Return the engraved lines of a scale as integer steps from point to point, in units of 1/4,000 of the dial's
+    """Return the engraved lines of a scale as integer steps from point to point, in 1/4,000 parts of the dial's
     radius.
     """
     return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
@@ -316,9 +316,7 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials in the same order, with radii reduced so that they do not overlap; dials about one axis are
-    nested.
-    """
+    """Return the dials in the same order, with radii reduced to avoid overlaps; dials about one axis are nested."""
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)

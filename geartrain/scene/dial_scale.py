@@ -79,9 +79,7 @@ class DialScale:
     cell: str = _CELL
     """Name of one division, such as `cell` or `degree`."""
     names: tuple[tuple[str, Fraction, Fraction], ...] = ()
-    """Names of groups of divisions: name, number of divisions before the group, and number of divisions in the
-    group.
-    """
+    """Names of groups of divisions: name, number of divisions before the group, and number of divisions in it."""
     numerals: tuple[tuple[str, int], ...] = ()
     """Numerals at division lines, each with the number of divisions before its line."""
     glyphs: tuple[tuple[int, str], ...] = ()
@@ -95,9 +93,7 @@ class DialScale:
     inscriptions: tuple[tuple[str, str], ...] = ()
     """Pairs of a name and a different text that is engraved for it."""
     counted: int = 0
-    """Number of divisions after which declared numerals restart; 0 if no numerals are declared and cells are counted
-    from 1.
-    """
+    """Number of divisions after which declared numerals restart; 0 if cells are counted from 1 without numerals."""
 
     def radius(self, turned: float) -> float:
         """Return the relative radius of the scale after a number of turns from its inner end; `outer` for a circle."""
@@ -108,7 +104,7 @@ class DialScale:
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns; a pointer on a division line reads the cell after
+        """Return the reading of a pointer after a number of turns; on a division line it reads the cell after
         the line.
         """
         along = turned % self.turns
@@ -180,9 +176,7 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the declared numerals with their division lines, or up to twelve numerals from 0 on a circle without
-    names.
-    """
+    """Return the declared numerals with their division lines, or up to twelve from 0 on a circle without names."""
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -283,8 +277,8 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield names in the middles of their groups of divisions; if they do not fit, every second to sixth name, or
-    none.
+    """Yield names in the middles of their groups of divisions: all names, every second to sixth, or none, as
+    they fit.
     """
     radius = scale.outer - _BAND
     named = [(_engraved(scale, name), first, span) for name, first, span in scale.names if name]

@@ -46,9 +46,7 @@ def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weigh
 
 
 def fusee_radii(stage: SceneContext) -> tuple[float, ...]:
-    """Return radii of the fusee of the drive [mm] at equal angles from its start to its end; empty if the drive has no
-    fusee.
-    """
+    """Return radii of the fusee of the drive [mm] at equal angles from its start to its end; empty without a fusee."""
     spring = stage.case.drive.spring if stage.case.drive is not None else None
     chained = None if spring is None else spring.chained
     if chained is None:

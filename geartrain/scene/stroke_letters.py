@@ -143,9 +143,7 @@ _SMALL, _SIMPLE = 0.025, 6  # relative height of letters whose strokes of over s
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital of height 1 on the base line y = 0, and its width; a box for an unknown
-    character.
-    """
+    """Return the strokes of a capital of height 1 on the line y = 0, and its width; a box for an unknown character."""
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)

@@ -183,9 +183,7 @@ class Pointer(Shown):
     reach: float = 0.0
     """Length of the hand relative to the radius of the scale; 0 for a pointer without a dial."""
     outline: Sequence[tuple[float, float]] = ()
-    """Outline relative to the hand's length: distances from the axis and half widths; empty if the output has
-    no dial.
-    """
+    """Outline relative to the hand's length: distances from the axis and half widths; empty without a dial."""
     hand: str = "needle"
     """Declared shape of the hand."""
     ball: float = 0.0

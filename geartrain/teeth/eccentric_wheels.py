@@ -55,9 +55,7 @@ class EccentricWheels(NamedTuple):
         return first, -second if self.internal else second
 
     def errors_at(self, S: Floats) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at angles S of the driver [rad], by Newton's
-        method.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad], by Newton's method."""
         (r1, r2), sign = self.base, -1 if self.internal else 1
         (e1, e2), (phi1, phi2), inv0 = self.offsets, self.angles, tan(self.pressure_angle) - self.pressure_angle
         distance = sign * abs(self.counts[0] + sign * self.counts[1]) / 2

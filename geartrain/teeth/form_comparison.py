@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Names of the forms that are compared by default; a form with several variants (readings) is represented by
-one of them.
-"""
+"""Names of the forms that are compared by default, with one variant (reading) of each form."""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
@@ -186,9 +184,7 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch], regardless of its
-    addenda.
-    """
+    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch] instead of addenda."""
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 

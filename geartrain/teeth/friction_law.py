@@ -253,9 +253,7 @@ class TabulatedFriction(FrictionLaw):
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at speeds [m/s], by linear interpolation; it is constant outside the
-        table.
-        """
+        """Return the coefficient of friction at speeds [m/s], by linear interpolation, constant outside the table."""
         import numpy as np
 
         found: Floats = np.interp(

@@ -189,9 +189,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; empty by
-        default.
-        """
+        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; may be empty."""
         return {}
 
     @abstractmethod
@@ -295,9 +293,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact of displaced flanks while the actual driver drives; None for tooth forms without such a
-        model.
-        """
+        """Model of the contact of displaced flanks with the given wheel driving; None if the tooth form has none."""
         return None
 
     @abstractmethod

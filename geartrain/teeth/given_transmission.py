@@ -52,9 +52,7 @@ class TransmissionProtocol(Protocol):
     """
 
     ratio: Fraction
-    """Exact mean of the speed ratio, without sign: tooth count of the driver divided by tooth count of the driven
-    wheel.
-    """
+    """Exact mean speed ratio, without sign: tooth count of the driver divided by tooth count of the driven wheel."""
     period: float
     """Period [rad of the driver], a whole number of pitches of the driver."""
 

@@ -81,9 +81,7 @@ class MeshingWheels:
     friction: float | None = None
     """Coefficient of friction; None if no friction or a friction law is declared."""
     distance: float | None = None
-    """Half the sum, over both wheels, of transverse module times tooth number [m]; None unless both modules have a
-    unit.
-    """
+    """Half the sum, over both wheels, of transverse module times tooth number [m]; None if a module has no unit."""
     friction_law: FrictionLaw | None = None
     """Friction law declared instead of a coefficient; `friction` is then None."""
     pitch_line: float | None = None

@@ -95,9 +95,7 @@ class RubbedTransmission(TransmissionFunction):
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN where the teeth do not touch, or if friction
-        locks them.
-        """
+        """Return the efficiency at driver angles S [rad]; NaN where teeth do not touch, or if friction locks them."""
         rubbing = self.rubbing(S)
         return rubbing.efficiency(self.by(rubbing.sliding))
 

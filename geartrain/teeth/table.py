@@ -285,9 +285,7 @@ class GivenError(ToothForm):
         return any(each.unit is not None for each in self.eccentricity)
 
     def thinned(self, backlash: Quantity) -> GivenError:
-        """Return the form unchanged; its backlash is declared as an angle, so that the given backlash does not
-        apply.
-        """
+        """Return the form unchanged, because its own backlash is an angle and the given backlash does not apply."""
         del backlash
         return self
 
@@ -346,9 +344,7 @@ class GivenError(ToothForm):
         return GivenTransmission(function, counts, self.driver, self.backlash.si, efficiencies, self.driver)
 
     def _efficiencies(self, counts: tuple[int, int]) -> Efficiencies | None:
-        """Return the efficiencies with the wheel `driver` and with the other wheel driving; None if no losses are
-        declared.
-        """
+        """Return the efficiencies with the wheel `driver` and with the other wheel driving; None without losses."""
         from geartrain.numerics.periodic_function import HarmonicSeries
         from geartrain.teeth.given_transmission import checked_efficiency
 

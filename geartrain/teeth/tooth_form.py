@@ -80,9 +80,7 @@ class ToothForm(BaseModel, ABC):
     """Names of the fields that determine the backlash if they are declared."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
-    """Names of the fields that do not affect the tooth shape: stiffness and damping of the teeth in dynamic
-    simulations.
-    """
+    """Names of the fields that do not affect the tooth shape: stiffness and damping for dynamic simulations."""
 
     if TYPE_CHECKING:
         form: str

@@ -61,9 +61,7 @@ def check_friction(friction: float) -> float:
 
 
 class SpeedLeap(NamedTuple):
-    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after the
-    impact.
-    """
+    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after it."""
 
     before: float
     after: float
@@ -75,9 +73,7 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding of the teeth of a pair at driver angles: arrays with one row for each contact, NaN where teeth do not
-    touch.
-    """
+    """Sliding of the teeth of a pair at driver angles: arrays with a row for each contact, NaN without contact."""
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""

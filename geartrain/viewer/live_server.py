@@ -65,9 +65,7 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages and increment the version; on errors of the train, keep the old pages and store the
-        message.
-        """
+        """Rebuild the pages and increment the version; on errors of the train, keep the old pages and the message."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
@@ -76,9 +74,7 @@ class LiveServer:
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
-        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, or an empty
-        string.
-        """
+        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, or ""."""
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(report))
 
@@ -161,9 +157,7 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page: its own script, frames of this server, and its web
-        socket.
-        """
+        """Return the content security policy of the outer page: own script, frames of this server, and web socket."""
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]
         reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"

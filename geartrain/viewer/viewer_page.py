@@ -128,9 +128,7 @@ def _words(scene: Scene) -> str:
 
 
 def own_script_only(program: str) -> str:
-    """Return a content security policy that allows inline styles and one script, identified by its hash, but no
-    images.
-    """
+    """Return a content security policy that permits inline styles and one script (by its hash), but no images."""
     digest = b64encode(sha256(program.encode("utf-8")).digest()).decode("ascii")
     allowed = f"script-src 'sha256-{digest}'; style-src 'unsafe-inline'"
     return f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"

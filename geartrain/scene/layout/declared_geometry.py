@@ -142,9 +142,7 @@ class PitchContact:
 
 @dataclass(frozen=True, slots=True)
 class CouplingTie:
-    """Coupling of two axes: driver and driven link, their axes, and the distance between the axes [mm] if it is
-    declared.
-    """
+    """Coupling of two axes: driver and driven link, their axes, and the distance between axes [mm] if declared."""
 
     links: tuple[str, str]
     axes: tuple[str, str]

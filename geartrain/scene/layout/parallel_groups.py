@@ -186,9 +186,7 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan, relative to its height at its reference
-        point [mm].
-        """
+        """Return the height of a crossing axis at a point in plan above its height at its reference point [mm]."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
@@ -212,9 +210,7 @@ class _BlockBuilder:
                     self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of a crossing mate: its strip in plan, or the whole area that it sweeps if a carrier moves
-        it.
-        """
+        """Return the block of a crossing mate: its strip in plan, or the whole area that it sweeps on a carrier."""
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))

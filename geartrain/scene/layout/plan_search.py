@@ -336,7 +336,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return points in plan of all axes [mm] at the required distances, or fitted to them; the result is
+    """Return points in plan of all axes [mm] at the required distances or fitted to them; the result is
     deterministic.
     """
     return _BeamSearch(problem).found()

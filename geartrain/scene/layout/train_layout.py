@@ -454,9 +454,7 @@ def _coned_seats(found: Arrangement) -> dict[str, Seat]:
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Return the level indices of the wheels on the main axes, from the lowest; a broad wheel counts at its lowest
-    slot.
-    """
+    """Return the level indices of the wheels on the main axes, from the lowest; a broad wheel has its lowest level."""
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

@@ -69,7 +69,7 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten each distance that is longer than the path round it, or lengthen that path, in place; return True if
+    """Shorten a distance that is longer than the path round it, or lengthen the path, in place; return True if
     changed.
     """
     one = distances[at]
@@ -97,9 +97,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """Return the nearest fraction with a denominator up to 1000, so that modules have simple values; the result may be
-    0.
-    """
+    """Return the nearest fraction with a denominator up to 1000, to keep module values simple; the result may be 0."""
     return Fraction(factor).limit_denominator(1000)
 
 
@@ -138,7 +136,7 @@ class WheelModules:
     """Wheel -> module [mm]."""
     declared: frozenset[str]
     distances: Mapping[tuple[str, str], float]
-    """Pair of axes -> required distance [mm]: the declared offset of a pin, otherwise the mean distance of its gear
+    """Pair of axes -> required distance [mm]: a pin's declared offset, otherwise the mean distance of the gear
     pairs.
     """
 
@@ -196,9 +194,7 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root (reference cluster) of each cluster, and the module of the cluster divided by the module of that
-        root.
-        """
+        """Root (reference cluster) of each cluster, and the cluster's module divided by the module of the root."""
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -302,8 +298,8 @@ class Seat:
     """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
-    """Distance along the wheel's axis from the point where the axes intersect, or are nearest, to the wheel's centre
-    [mm].
+    """Distance along the wheel's axis from the intersection of the axes, or nearest point, to the wheel's
+    centre [mm].
     """
     cone: float
     """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""

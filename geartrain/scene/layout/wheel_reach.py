@@ -50,9 +50,7 @@ def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> f
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the extents of `reach` [mm] with the standard tooth heights of a module, for wheels whose teeth are not
-    known.
-    """
+    """Return the extents of `reach` [mm] with the standard tooth heights of a module, for wheels with unknown teeth."""
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 

@@ -298,9 +298,7 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run of levels moved or
-    reversed.
-    """
+    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with a run of levels moved or reversed."""
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -403,7 +401,7 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, which share a
+        """Yield arbors with the wheels through which they pass, except a pin's and its slot's arbors, which share a
         stud.
         """
         tied = {frozenset(pair) for pair in self.problem.pins}

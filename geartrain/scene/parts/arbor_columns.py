@@ -105,7 +105,7 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """Input for the choice of the arbor, pipes and studs of one axis: its discs, discs of other axes, and ends at
+    """Input for the choice of the arbor, pipes and studs of one axis: its discs, other axes' discs, and ends at
     dials.
     """
 

@@ -179,9 +179,7 @@ def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
 
 
 def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
-    """Return the problem that an eccentric is too thin for an arbor of the diameter `arbor` [mm]; None if it is thick
-    enough.
-    """
+    """Return the problem of an eccentric that is too thin for an arbor of the diameter `arbor` [mm], or None."""
     beside = eccentric.wall - arbor / 2
     if beside >= _THIN:
         return None

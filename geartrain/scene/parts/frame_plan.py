@@ -225,9 +225,7 @@ class FramePlan:
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Return the diameters of the arbor and the pivots of an axis [mm], as requested or as declared for its
-        link.
-        """
+        """Return the diameters of the arbor and the pivots of an axis [mm], as requested or declared for its link."""
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
@@ -328,7 +326,7 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if the plates cannot support the
+        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if no plate can support the
         axis.
         """
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
@@ -543,9 +541,7 @@ class StackHeights:
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return the heights as built: plates are inserted between slabs of wheels, and the lowest slab stays in its
-    place.
-    """
+    """Return the heights as built: plates are inserted between slabs of wheels, and the lowest slab stays in place."""
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [

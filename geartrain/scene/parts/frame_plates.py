@@ -63,9 +63,7 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield at least six holes in a wide wave generator between its lobes, around a central hole of diameter `bore`
-    [mm].
-    """
+    """Yield six or more holes in a wide wave generator between its lobes, around a hole of the diameter `bore` [mm]."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return

@@ -215,9 +215,7 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by coupling, if no wheel of the link of the pins is wide enough for the
-        pins.
-        """
+        """Circles of pins in round holes, by coupling, if no wheel of the link of the pins is wide enough for them."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
@@ -407,9 +405,7 @@ def _arbor(stack: FrameStack, link: str) -> float | None:
 
 
 def _cranks(stack: FrameStack, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-    """Yield the link, axis and coupling of each of the parallel cranks that a link represents, carried about its
-    axis.
-    """
+    """Yield the link, axis and coupling of each parallel crank that a link represents, carried about its axis."""
     tree = stack.train.kinematics.tree
     for coupling in stack.train.declaration.pin_couplings:
         pair = coupling.pin, coupling.slot

@@ -64,9 +64,7 @@ def pillar_places(
 
 
 def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
-    """Return the first position, then repeatedly the position farthest from those already chosen (greedy
-    dispersion).
-    """
+    """Return the first position, then repeatedly the position farthest from the chosen ones (greedy dispersion)."""
     taken = [first]
     while len(taken) < min(count, len(set(spots))):
         taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))
@@ -109,9 +107,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance of a point from circles [mm], negative inside a circle; infinite if there are
-    none.
-    """
+    """Return the minimum distance of a point from circles [mm], negative inside a circle; infinite without circles."""
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 

@@ -35,9 +35,7 @@ class StackDisc:
     outer: float
     """Outer radius of the teeth or of the rim [mm]."""
     inner: float = 0.0
-    """Radius of the free space within the teeth of a ring, or of a central hole for an eccentric [mm]; 0 for other
-    discs.
-    """
+    """Radius of the free space within a ring's teeth, or of a central hole for an eccentric [mm]; 0 for other discs."""
     root: float = 0.0
     """Root radius of the teeth [mm]; 0 for a plate, which does not limit the diameter of its arbor."""
     hub: bool = True

@@ -173,9 +173,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 
 
 def pin_diameter(radius: float) -> float:
-    """Return the default diameter of a pin [mm] at a distance from its axis [mm]: a quarter of the distance, at most 2
-    mm.
-    """
+    """Return the default diameter of a pin [mm] at a distance from its axis [mm]: a quarter of it, at most 2 mm."""
     return min(2.0, _PIN * radius)
 
 

@@ -191,9 +191,7 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of the frame's arbors that are parallel to its plates; `bores` are arbor diameters by axis
-    [mm].
-    """
+    """Return the brackets of arbors that are parallel to the frame plates; `bores` are arbor diameters by axis [mm]."""
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
@@ -237,9 +235,7 @@ def _brackets(
 def _best_plate(
     plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
 ) -> tuple[int, float, str]:
-    """Return the number of wheels in front of the best plate for a bracket, the distance of the plate [mm], and its
-    side.
-    """
+    """Return the number of wheels before the best plate for a bracket, the distance of the plate [mm], and its side."""
     place, stack = _middle(plan, body, face, way), plan.stack
     height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
 
@@ -265,9 +261,7 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor, on the plate with fewer wheels in front of it, or on the
-    nearer plate.
-    """
+    """Return the bracket at one end of an arbor, on the plate with fewer wheels before it, or on the nearer plate."""
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
@@ -303,9 +297,7 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the end of its arbor along the body
-    [mm].
-    """
+    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the outer end of its arbor [mm]."""
 
     body: int
     reach: float
@@ -313,9 +305,7 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are arbor diameters by axis
-    [mm].
-    """
+    """Return the cages of axes carried at an angle to the carrier's axis; `bores` are arbor diameters by axis [mm]."""
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]
@@ -363,9 +353,7 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1 or -1) and its position
-        [mm].
-        """
+        """Return the outer end of the wheels on their arbor: side of the carrier's axis (1 or -1) and position [mm]."""
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)

@@ -66,9 +66,7 @@ class DialCircle:
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials that fit, as letters to be engraved below the hole, relative to the centre of the
-        disc.
-        """
+        """Yield the names of dials that fit, as letters engraved below the hole, relative to the centre of the disc."""
         height = max(_LETTER * self.radius, _SMALLEST)
         inside = min(self.radii.values()) * (1 - DEPTH)
         for depth, name in enumerate(self.scales):

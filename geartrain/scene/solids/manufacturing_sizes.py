@@ -189,9 +189,7 @@ def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of a named process, unless a backlash is given or all tooth forms determine
-    it.
-    """
+    """Return the sizes with the backlash of a named process, unless it is given or determined by all tooth forms."""
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -252,8 +250,8 @@ def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return arbor diameters by axis [mm] where no plate holds them, as given or 1/3 of the root diameter, at most 6
-    mm.
+    """Return arbor diameters by axis [mm] where no plate holds them: as given, or 1/3 of the root diameter up
+    to 6 mm.
     """
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)

@@ -115,7 +115,7 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return a wheel's holes for pins and for a slot, in coordinates of the wheel with rotation `turn` and centre
+    """Return a wheel's holes for pins and for a slot, in the wheel's coordinates with rotation `turn` and centre
     `place`.
     """
     coupling, thick = cut.coupling, pin_width(cut.coupling)

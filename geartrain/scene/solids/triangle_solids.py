@@ -268,9 +268,7 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of a tooth with its sector of the web, closed along the bore, or at the centre of a solid
-    wheel.
-    """
+    """Return the polygon of a tooth with its sector of the web, closed along the bore or at the centre of the wheel."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -314,9 +312,7 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle if it has too many
-    teeth.
-    """
+    """Return radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle for too many teeth."""
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
     r, angle = np.array(profile.points, dtype=float)[:-1].T

@@ -102,9 +102,7 @@ def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
 
 
 def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves) -> float:
-    """Return the arc X of the contact at which both flanks of a tooth intersect; 0 if they intersect from the first
-    contact.
-    """
+    """Return the arc X of the contact at which both flanks of a tooth intersect; 0 if they intersect at the start."""
     foot, _ = path.ends(gear)
     foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
     thickness = partial(_thickness, path, gear, halves)

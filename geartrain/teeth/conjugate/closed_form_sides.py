@@ -214,9 +214,7 @@ def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) ->
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
-    """Return the extremal of minimum friction with the arc X, whose pressure angle decreases from `first` to `last`
-    [rad].
-    """
+    """Return the extremal of minimum friction with the arc X and a pressure angle from `first` down to `last` [rad]."""
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
         return PathSide((_extremal_piece(pitch, D, D * cos(first), D * cos(last)),))
@@ -299,9 +297,7 @@ def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance from a point of the mate to the pin's centre between the pin angles `low` and
-    `high`.
-    """
+    """Return the minimum distance from a point of the mate to the pin's centre at pin angles from `low` to `high`."""
     # the mate's frame turns by R / mate t while the lantern turns by t
     return -peak(lambda t: -np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point), low, high)
 

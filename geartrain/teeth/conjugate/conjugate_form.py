@@ -342,7 +342,7 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess from pitches to arcs X along the pitch surfaces [module; rad for bevel
+    """Convert arcs of approach and recess from pitches to arcs X on the pitch surfaces [module; rad for bevel
     gears].
     """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p

@@ -52,9 +52,7 @@ class ConjugateDetails(NamedForm, Protocol):
     """Advice on how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if it is
-        undefined.
-        """
+        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if undefined."""
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
         """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
@@ -114,9 +112,7 @@ class ConjugateMesh(GearMesh):
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirements on a tooth of `wheel`: its flank as designed, and a root that clears the mate's
-        tip.
-        """
+        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the mate's tip."""
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale

@@ -30,9 +30,7 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module] and pressure angle
-    [rad].
-    """
+    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module], pressure angle [rad]."""
 
     z: float
     psi: float
@@ -102,9 +100,7 @@ class InvolutePair:
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Total reduction of the tooth thickness of both wheels relative to a pair without backlash, as an arc X
-    [module].
-    """
+    """Total reduction of the tooth thickness of both wheels from a pair without backlash, as an arc X [module]."""
 
     @property
     def psi(self) -> float:

@@ -52,9 +52,7 @@ class PitchSurfaces:
 
     @property
     def B(self) -> float:
-        """Curvature of pitch surface 2 [1/module]: 1/R2, or cot R2 on cones; negative for ring gears, 0 for crown
-        gears.
-        """
+        """Curvature of pitch surface 2 [1/module]: 1/R2, or cot R2 on cones; negative for rings, 0 for crown gears."""
         return 1 / tan(self.R2) if self.bevel else 1 / self.R2
 
     @property
@@ -105,7 +103,7 @@ class PitchSurfaces:
         return found
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
-        """Return contact points in the fixed frame: shape (..., 2) from the pitch point, or (..., 3) on the unit
+        """Return contact points in the fixed frame, shape (..., 2) from the pitch point, or (..., 3) on the unit
         sphere.
         """
         S = self.S(d)

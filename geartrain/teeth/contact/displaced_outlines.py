@@ -151,9 +151,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return the range of driver angles in which flanks touch, and the larger range that includes contact of tips
-    [rad].
-    """
+    """Return the range of driver angles [rad] in which flanks touch, and the larger range that includes tip contact."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))

@@ -154,9 +154,7 @@ class FlankSegments(NamedTuple):
 
 
 class FirstTouches(NamedTuple):
-    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, radii about both
-    axles.
-    """
+    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, and both radii."""
 
     angle: Floats
     speed: Floats
@@ -320,9 +318,7 @@ class FirstTouchSearch:
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the touch at parameter u of the driver's piece; v is NaN unless an end of the driven piece touches
-        there.
-        """
+        """Return the touch at parameter u of the driver's piece; v is NaN unless an end of the driven piece touches."""
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
         at_end = ~np.isnan(v)

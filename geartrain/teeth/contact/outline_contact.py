@@ -29,9 +29,7 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the front or back flanks of two wheels at one distance; the back flanks are solved as mirror
-    images.
-    """
+    """Contact of the front or back flanks of two wheels at one distance; back flanks are solved as mirror images."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -130,9 +128,7 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def kinds(self, found: FirstTouches) -> Indices:
-        """Return the kind of each touch: 0 for two flanks, 1 for a corner of the first wheel, 2 of the second, 3 of
-        both.
-        """
+        """Return the kind of each touch: 0 for two flanks, 1 for a corner of wheel 1, 2 of wheel 2, 3 of both."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
@@ -141,8 +137,8 @@ class OutlinePair:
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return the number of tooth pairs at each driver position that touch at the driven angle `minimum` or
-        beyond.
+        """Return the number of tooth pairs that touch at the driven angle `minimum` or beyond, at each driver
+        position.
         """
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
@@ -196,9 +192,7 @@ class FlankContact(Shown):
     angle: Floats
     """Angle of the driven wheel in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where the teeth do not
-    touch.
-    """
+    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN without contact."""
     pair: Indices
     """Number of the driver's tooth that is in contact; 0 where the teeth do not touch. Teeth are counted forward from
     tooth 0, beyond z after a revolution.

@@ -87,9 +87,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, backlash, and gaps in contact at the centre
-        distance.
-        """
+        """Verdict on whether the pair can run: faults of its teeth, backlash, and gaps in contact at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding error
@@ -104,16 +102,12 @@ class OutlineTransmission(ToothTransmission):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert transmission errors of the front flanks to the direction of motion; reversed motion is the mirror
-        image.
-        """
+        """Convert transmission errors of the front flanks to the direction of motion; reversed motion is mirrored."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN where the teeth do not
-        touch.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN without contact."""
         return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:
@@ -121,7 +115,7 @@ class OutlineTransmission(ToothTransmission):
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio where the next tooth takes over; they are the same in reversed
+        """Return the upward steps of the speed ratio as the next tooth takes over; they are equal in reversed
         motion.
         """
         return self.table.speed_leaps()
@@ -175,9 +169,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks, among the quadrature nodes; infinite if no contact
-        locks.
-        """
+        """Minimum friction coefficient at which a contact locks, at the quadrature nodes; infinite if none locks."""
         steepest = float(np.nanmax(-self.rubbing(self.graded_nodes(self.speed)[0]).out))
         return 1 / steepest if steepest > _FLAT else inf
 
@@ -228,9 +220,7 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Return the backlash [rad of the driven wheel] at equally spaced angles of one period; NaN where the teeth do not
-    touch.
-    """
+    """Return the backlash [rad of the driven wheel] at equally spaced angles of one period; NaN without contact."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash

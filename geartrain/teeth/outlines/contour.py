@@ -1,6 +1,4 @@
-"""Closed curves of straight edges and circular arcs, stored as in DXF: vertices with the bulge of the edge that
-follows.
-"""
+"""Closed curves of straight edges and circular arcs, stored as in DXF: vertices, each with the bulge of an edge."""
 
 from __future__ import annotations
 

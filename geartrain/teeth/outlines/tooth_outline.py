@@ -140,9 +140,7 @@ class ToothOutline:
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """Return the vertices of one tooth about the x axis from root to root; the last edge lies on the root
-        circle.
-        """
+        """Return the vertices of one tooth about the x axis from root to root; the last edge is on the root circle."""
         half = self._half()
         x, y, _ = half[-1]
         land = bulge_about(complex(x, -y), complex(x, y))

@@ -46,9 +46,7 @@ class BlankSizes:
     clearance: float | None = None
     """Bottom clearance between a root and the mate's tip [mm], 0 or more; by default a quarter of a module."""
     fillet: float | None = None
-    """Radius of the root fillet [mm], 0 or more; by default 0.38 modules, or the largest possible radius if it is
-    smaller.
-    """
+    """Radius of the root fillet [mm], 0 or more; by default 0.38 modules, or the largest radius that fits."""
     bore: float | None = None
     """Diameter of the central hole [mm]; by default the wheel has no hole."""
     rim: float | None = None

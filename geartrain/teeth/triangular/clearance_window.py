@@ -55,16 +55,14 @@ class TriangularContact:
         return y - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio while the driver's apex is at the angle x [rad] from the line of centres; 0 during a
+        """Return the speed ratio while the driver's apex is at the angle x [rad] from the line of centres; 0 in a
         dwell.
         """
         return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals in which a contact limits the driven wheel, including contacts that cannot drive it; gaps are
-        possible.
-        """
+        """Intervals in which a contact limits the driven wheel, even if it cannot drive it; gaps are possible."""
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 

@@ -30,9 +30,7 @@ def depth(z: int, beta: float) -> float:
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq.
-    (2).
-    """
+    """Return the length of a flank divided by the tip radius for z teeth with half angle `beta` [rad], Eq. (2)."""
     return sin(pi / z) / sin(beta + pi / z)
 
 
@@ -179,9 +177,7 @@ class TriangularSizes(Shown):
 
     @property
     def surrounds(self) -> bool:
-        """True if the tip circles of an internal pair overlap at every angle. The pinion's teeth then have no free
-        space.
-        """
+        """True if the tip circles of an internal pair overlap at every angle, so that the pinion has no free space."""
         return bool(self.ring) and sum(self.signed_radii) >= self.D
 
     @property

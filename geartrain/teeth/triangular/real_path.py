@@ -63,9 +63,7 @@ class DriveInterval:
     tooth_pair: int
     """Number of the tooth pair that drives, or that drove last before a dwell."""
     held: float | None = None
-    """Angle alpha_2 of the driven apex from the line of centres during a dwell [rad]; None while a tooth pair
-    drives.
-    """
+    """Angle alpha_2 of the driven apex from the line of centres during a dwell [rad]; None while a pair drives."""
 
     @property
     def width(self) -> float:
@@ -377,9 +375,7 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum of the lag g over an interval [rad], which the driven wheel reaches from any initial
-    position.
-    """
+    """Return the minimum of the lag g over an interval [rad], which the driven wheel reaches from any position."""
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 

@@ -287,7 +287,7 @@ class Triangular(ToothForm):
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _declared_excess(self, sizes: TriangularSizes) -> float:
-        """Return the declared excess, subtracted exactly before rounding. Raises `GearTrainError` if it is not
+        """Return the declared excess, subtracted exactly before rounding; raise `GearTrainError` if it is not
         positive.
         """
         if self.excess is not None or self.clearance_factor is None:

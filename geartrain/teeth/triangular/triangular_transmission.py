@@ -127,9 +127,7 @@ class TriangularTransmission(ToothTransmission):
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Return the sliding speed divided by the pitch-line speed, and the friction terms of input and output
-        power.
-        """
+        """Return the sliding speed divided by the pitch-line speed, and the friction terms of input and output."""
         if interval.held is not None:
             return nan, nan, nan
         side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
@@ -199,8 +197,8 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle of the driver's tooth from the line of centres at the start of the first interval, modulo the pitch
-        [rad].
+        """Angle of the driver's tooth from the line of centres at the start of the first interval [rad, within a
+        pitch].
         """
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
@@ -330,9 +328,7 @@ class TriangularTransmission(ToothTransmission):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of contact over one pitch in order of time, with one row for each sample; ends of intervals are
-    included.
-    """
+    """Table of contact over one pitch in order of time, one row for each sample; ends of intervals are included."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -357,9 +353,7 @@ class ContactCourse(Result):
     driven_arm: Floats
     """Moment arm b2 of the force about the driven wheel's axis, in the unit of the sizes; NaN during a dwell."""
     efficiency: Floats
-    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN during a dwell and where friction
-    locks.
-    """
+    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell and where friction locks."""
 
 
 def contact_course(

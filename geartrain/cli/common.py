@@ -77,7 +77,9 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if a state (default: the first) is determined and as expected, and no teeth have faults."""
+    """Return True if the named state (by default the first) is determined and as expected, and the teeth have no
+    faults.
+    """
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
@@ -212,7 +214,9 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Write documents to a file (HTML or Markdown), or print them at terminal width (80 columns in a pipe)."""
+    """Write documents to an HTML or Markdown file, or print them at the width of the terminal (80 columns in a
+    pipe).
+    """
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
     if (out.suffix if suffix is None else suffix) == ".html":

@@ -154,7 +154,9 @@ def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> Tim
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """Return the states to be shown: the named state; otherwise the first state if `first` is True, or all states."""
+    """Return the states to be shown: the named state if one is named, otherwise all states, or only the first if
+    `first` is True.
+    """
     if state is not None:
         return (state,)
     names = train.states or (None,)

@@ -140,8 +140,8 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, if there are none to draw, or for more
-    than 60 faces.
+    """Return the dial faces to draw; raise `QuestionError` if an output is unknown, or if none or more than 60 faces
+    would be drawn.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
@@ -259,7 +259,9 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn."""
+    """Draw a hand from the centre if its reading is determined; on a spiral, the hand ends at the current turn of the
+    spiral.
+    """
     if reading.turned is None:
         return
     scale = face.scale
@@ -286,8 +288,8 @@ def _fill_hand(
 
 
 def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, usual: str) -> str:
-    """Return the name of an output, the position of its pointer, its reading, and its sense of rotation unless it is
-    the usual one, as a string.
+    """Return a string with the name of an output, the position and the reading of its pointer, and its sense of
+    rotation if it is unusual.
     """
     if reading.turned is None:
         return f"{pointer.output}: undetermined"

@@ -36,7 +36,9 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if unknown)."""
+    """Point of a lever with its abscissa, its members, their closed brakes and clutches, and its speed (None if
+    unknown).
+    """
 
     x: Fraction
     links: list[str]
@@ -134,8 +136,8 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state: its name, closed brakes and clutches, the verdict if speeds are not determined,
-    and for the first state the unit of speeds.
+    """Return the heading of a state with its name, its closed brakes and clutches, the verdict if speeds are not
+    determined, and, for the first state, the unit of speeds.
     """
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:

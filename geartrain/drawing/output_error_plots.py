@@ -169,7 +169,9 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the positions to draw: the first of each bin, its extremes of deviation and speed, and all reversals."""
+    """Return the positions to draw: the first position of each bin, the extremes of deviation and speed in it, and all
+    reversals.
+    """
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))

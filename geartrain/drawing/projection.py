@@ -114,7 +114,7 @@ class ProjectedScene:
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) in the deflected middle plane of a flexible wheel, given radius and angle (n,) in the
+        """Return points (n, 3) in the deflected middle plane of a flexible wheel for the radius and angle (n,) in the
         undeformed wheel.
         """
         wheel = self.scene.wheels[wave.wheel]
@@ -141,7 +141,7 @@ class ProjectedScene:
         return self._around(wheel, np.full(_ROUND, radius), angle, height)
 
     def pins(self, wheel: SceneWheel) -> Iterator[Floats]:
-        """Yield the outline (points, 3) of each pin of a lantern pinion; none for other wheels."""
+        """Yield the outline (points, 3) of each pin of a lantern pinion; yield nothing for other wheels."""
         profile = self.scene.profiles[wheel.profile]
         if profile.hole and wheel.teeth <= _FINE:
             tooth = np.array(profile.points)
@@ -215,7 +215,8 @@ def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
 def coupling_spans(
     projected: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
 ) -> list[Floats]:
-    """Return lines (2, 2) [in] across the area of a coupling: along its slot, or two diameters of each of its holes.
+    """Return lines (2, 2) [in] across the area of a coupling: one along its slot, or two diameters of each of its
+    holes.
 
     at      conversion of view coordinates (..., 3) to inches (..., 2)
     scale   inches per millimetre
@@ -234,7 +235,9 @@ def coupling_spans(
 
 
 def part_points(part: ScenePart, outline: int = 0) -> Floats:
-    """Return points of a part in the zero pose (n, 3) [mm]: an outline of a flat part, the section of a turned part."""
+    """Return points (n, 3) of a part in the zero pose [mm], either of an outline of a flat part or of the section of a
+    turned part.
+    """
     x, z = np.array(part.across), np.array(part.direction)
     if part.outlines:
         flat = np.array(part.outlines[outline]).reshape(-1, 2)

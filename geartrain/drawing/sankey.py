@@ -213,7 +213,9 @@ def _graph(streams: Sequence[PowerStream]) -> Any:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return each node's column, after the columns of all nodes that feed it (longest path); outputs are last."""
+    """Return the column of each node, to the right of all nodes that feed it (longest path); outputs are in the last
+    column.
+    """
     import networkx as nx
 
     graph = _graph(ahead)

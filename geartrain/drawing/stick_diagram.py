@@ -177,12 +177,16 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """Gear pair or coupling in its column, between two rows; `ring` is the name of its ring wheel, or empty."""
+    """Gear pair or coupling in its column between two rows; `ring` is the name of its ring wheel, or empty if it has
+    none.
+    """
 
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links, with the link on the lower row first; `wheels` are their wheels, or for a coupling the links again."""
+    """Links of the mesh, with the link on the lower row first; `wheels` are their wheels, or these links for a
+    coupling.
+    """
     wheels: tuple[str, str]
     ring: str
     x: float
@@ -575,8 +579,8 @@ class _Drawing:
         draw_bearing(self.axes, crank.x, far, ORANGE, slides)
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw a tooth mark at a wheel's end: level for spur wheels, slanted for bevel and contrate wheels, long and
-        dashed for worms.
+        """Draw a tooth mark at a wheel's end, which is level for spur wheels, slanted for bevel and contrate wheels,
+        and long and dashed for worms.
         """
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = TICK * (1.6 if kind == "worm" else 1.0)

@@ -285,7 +285,7 @@ def legend_below(
     side: Literal["center", "left"] = "center",
     **how: Any,
 ) -> None:
-    """Draw a legend of the given handles below all panels; by default of all labelled artists."""
+    """Draw a legend of the given handles, or by default of all labelled artists, below all panels."""
     how = {"fontsize": SMALL, "frameon": False, "ncols": columns, **how}
     if handles is not None:
         how["handles"] = handles

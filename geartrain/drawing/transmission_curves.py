@@ -234,7 +234,9 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact: the speed ratio before it, as a tooth pair separates, and after it, as the next pair drives."""
+    """Draw each impact with the speed ratios before and after it, at which a tooth pair separates and the next pair
+    drives.
+    """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -346,8 +348,8 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Return a figure that compares tooth forms for one pair: flanks, path of contact, stress, heat, flash temperature,
-    sliding and loss.
+    """Return a figure that compares the flanks, path of contact, stress, heat, flash temperature, sliding and loss of
+    tooth forms for one pair.
     """
     if not paths:
         what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"

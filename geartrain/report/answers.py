@@ -85,7 +85,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the sections on one state: pointers with their targets; then, as details, all outputs, targets and
+    """Yield the sections on one state: the pointers with their targets, and, as details, all outputs, targets and
     speeds.
     """
     if answer.outputs:
@@ -304,7 +304,7 @@ def result_words(result: OutputResult) -> str:
 
 
 def only_sign(result: OutputResult) -> str:
-    """Return a remark if an output has the expected magnitude in the opposite sense, and its remedy; otherwise ""."""
+    """Return a remark and a remedy if an output has the expected magnitude in the opposite sense; otherwise ""."""
     if not result.differs_in_sign:
         return ""
     published = result.output.published
@@ -354,7 +354,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a time as a string: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
+    """Return a time as a string in years if the unit is a year, otherwise in days, hours, minutes or seconds.
 
     Return a number without a unit if the train has no unit of time.
     """

@@ -334,7 +334,9 @@ def _by_unit(
     head: Callable[[str], tuple[str, ...]],
     rows: Callable[[RunningStatistics], Sequence[tuple[str, ...]]],
 ) -> tuple[Table, ...]:
-    """Return a table of the outputs that turn, with angles in deg, and one of the links that slide, in mm."""
+    """Return a table of the outputs that turn, with angles in deg, and a table of the links that slide, with travels in
+    mm.
+    """
     groups = {unit: [tally for tally in tallies if _unit(tally.slides) == unit] for unit in ("deg", "mm")}
     return tuple(
         Table(head(unit), [row for tally in own for row in rows(tally)]) for unit, own in groups.items() if own

@@ -208,7 +208,7 @@ def torques_document(found: Torques | TorqueCycle) -> Document | None:
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
-    """Yield sections on the torques in each loaded state of a train; the first explains the units."""
+    """Yield sections on the torques in each loaded state of a train; the first section explains the units."""
     sections = (section for each in found for section in torque_sections(each))
     for at, section in enumerate(sections):
         yield section if at else replace(section, paragraphs=(_units(found), *section.paragraphs))
@@ -377,7 +377,9 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a table row: a loss, its shares of input power and of all losses, the power of impacts and its share."""
+    """Return a table row with a loss and its shares of the input power and of all losses, and the power of impacts and
+    its share.
+    """
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")
@@ -454,7 +456,7 @@ def _run(found: TorqueCycle) -> str:
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
     """Yield sentences on the fractions of the run in which the train locks, all energy is lost, or results are
-    ambiguous; then on efficiency, the largest loss, flank changes and recirculating power.
+    ambiguous, and on efficiency, the largest loss, flank changes and recirculating power.
     """
     shares = {
         "no torque balances: the train locks": found.locked_share,

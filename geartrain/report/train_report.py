@@ -391,7 +391,9 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return the adjacency matrix of links as a table: R(axis) for a turning pair, ids for gear pairs and couplings."""
+    """Return the adjacency matrix of links as a table, with R(axis) for turning pairs and ids for gear pairs and
+    couplings.
+    """
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)

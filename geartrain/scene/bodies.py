@@ -386,7 +386,9 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Return the helix angle of teeth, or of a worm's thread, from the axis [rad], positive for a right-hand helix."""
+    """Return the helix angle of teeth, or of a worm's thread, relative to the axis [rad]; it is positive for a
+    right-hand helix.
+    """
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)

@@ -44,7 +44,7 @@ class SceneContext:
 
     @cached_property
     def outputs(self) -> Mapping[str, Output]:
-        """Outputs declared in the state; for a train without outputs, the first 100 links of the train."""
+        """Outputs declared in the state, or the first 100 links of a train without declared outputs."""
         from geartrain.train import Output
 
         declared = self.train.declaration
@@ -87,8 +87,8 @@ class SceneContext:
         return found / self.case.inputs[self.driving_link]
 
     def shown(self, speed: Fraction | None, link: str) -> str | None:
-        """Return the speed of a link as a string, exact if the inputs are exact and rounded if not, with the unit of a
-        travel; None if the speed is None.
+        """Return the speed of a link as a string with its unit if the link slides, exact if the inputs are exact and
+        otherwise rounded; None if the speed is None.
         """
         if speed is None:
             return None
@@ -96,7 +96,9 @@ class SceneContext:
         return text + self._unit(link)
 
     def rounded(self, speed: Fraction | None, link: str) -> str:
-        """Return the speed of a link as a decimal string, with the unit of a travel; empty if the speed is None."""
+        """Return the speed of a link as a decimal string, with its unit if the link slides; empty if the speed
+        is None.
+        """
         return "" if speed is None else decimal(speed) + self._unit(link)
 
     def _unit(self, link: str) -> str:
@@ -117,8 +119,8 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def line(self, axis: str) -> Vector:
-        """Return the unit direction in which links slide on an axis: as declared, along the axis of a screw, vertical
-        for the weight of a drum so that it falls as the train runs, otherwise along x.
+        """Return the unit direction in which links slide on an axis. It is the declared direction, the axis of a screw,
+        the vertical for the weight of a drum, which falls as the train runs, or otherwise x.
         """
         declared = self.train.declaration.axes.get(axis)
         if declared is not None and "direction" in declared.model_fields_set:

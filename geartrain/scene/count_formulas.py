@@ -15,9 +15,9 @@ class CountFormula(Shown):
     wheels: Sequence[int]
     """Indices in `SceneFormulas.wheels` of the counts in the formula, repeated for equal planets that share a count."""
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the numerator: a coefficient as a string, and the power of each entry of `wheels`, 0 or more."""
+    """Terms of the numerator, each as a coefficient (a string) and the power of each entry of `wheels`, 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the denominator, in the same form as the numerator."""
+    """Terms of the denominator, in the same form as the terms of the numerator."""
 
 
 @dataclass(frozen=True, slots=True)

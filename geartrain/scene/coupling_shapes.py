@@ -130,7 +130,7 @@ def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: in
 
 
 def circle(radius: float, centre: Point = (0.0, 0.0), start: float = 0.0, sweep: float = 2 * pi) -> list[Point]:
-    """Return points on a circle; on an arc of `sweep` from `start` [rad] both ends are included."""
+    """Return points on a circle, or on an arc of `sweep` from `start` [rad] including both ends."""
     whole = abs(abs(sweep) - 2 * pi) < _NONE
     count = max(ceil(abs(sweep) / _ARC), 2)
     angles = [start + sweep * at / count for at in range(count + (not whole))]
@@ -186,8 +186,8 @@ def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier; a belt
-    with an idle pulley is off.
+    """Yield the pulleys of a belt, and the straight parts and arcs of the belt, which are fixed to the carrier; the
+    belt is omitted if a pulley idles.
     """
     first = places[0]
     ends = (first.circuit.j, *(place.circuit.i for place in places))

@@ -37,7 +37,7 @@ _TYRE = 0.1  # thickness of a road wheel divided by its radius
 
 
 def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weight"]:
-    """Return the drive of a train: as declared; by default a motor for a speed in real time, otherwise a hand."""
+    """Return the declared drive of a train; by default, a motor for a speed in real time, and a hand otherwise."""
     drive = stage.case.drive
     declared = stage.train.declaration
     if drive is None:
@@ -76,7 +76,9 @@ def _part(stage: SceneContext, link: str, name: str, at: Vector, way: Vector, **
 
 
 def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield a standing figure in a robe, its outstretched arm, which points as a hand would, and the rod below it."""
+    """Yield a standing figure in a robe, its outstretched arm, which points like a hand, and the rod below the
+    figure.
+    """
     up, point = facing(stage, name), _origin(stage, link)
     feet = _reach(stage, point, up)[0] + _STAND
     high = _HEIGHT * train_width(stage)

@@ -197,7 +197,9 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return the pin radius and offset [mm]: as declared, scaled to axes `apart` [mm], or in default proportions."""
+    """Return the pin radius and the offset [mm] as declared, scaled to axes that are `apart` [mm], or in default
+    proportions.
+    """
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:

@@ -59,7 +59,7 @@ class DialFace(Shown):
     """Divisions of the scale; its radii are relative to `radius`."""
     look: Literal["scale", "ball"] = "scale"
     """Appearance: a scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball,
-    `radius` is the radius of the ball, and `normal` the direction of its axis of rotation, which passes through its
+    `radius` is the radius of the ball, and `normal` is the direction of its axis of rotation, which passes through its
     centre.
     """
     note: str = ""
@@ -75,7 +75,7 @@ class DialFace(Shown):
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
     """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in units of 1/4,000
     of the radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
-    relative to the centre, each further point to the previous point.
+    relative to the centre, and each further point is relative to the previous point.
     """
 
 
@@ -216,9 +216,9 @@ class Scene(Shown):
     driving_link: int | None
     """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None
-    """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
+    """Index of the body that is turned by hand: the declared crank, or the driving link; None if neither exists."""
     drive: Literal["hand", "motor", "spring", "weight"]
-    """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
+    """Declared drive of the crank's body; by default, a motor for a speed in real time, and a hand otherwise."""
     fusee: Sequence[float]
     """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty if there is none.
     """
@@ -277,7 +277,9 @@ class Scene(Shown):
     waves: Sequence[SceneWave] = ()
     """Strain waves that deflect flexible wheels into mesh with their rings."""
     shapes: Sequence[ScenePart] = ()
-    """Parts of couplings other than pins, such as belts, cams and stars; also in a scene that is not built."""
+    """Parts of couplings other than pins, such as belts, cams and stars, which are also present in a scene that is not
+    built.
+    """
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"

@@ -142,7 +142,7 @@ class Coupling(BaseModel):
 
     @property
     def name(self) -> str:
-        """Declared id; by default the names of its first two ends, joined by `~`."""
+        """Declared id; by default, the names of the first two ends joined by `~`."""
         return self.id or "~".join(self.ends[:2])
 
     @property

@@ -104,7 +104,8 @@ class FormComparison(Pictured, Result):
 
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
-    """Return the conjugate forms that can be compared: class, and the parameters of the variant (reading), by name.
+    """Return the class and the parameters of each conjugate form, or variant (reading) of a form, that can be compared,
+    by name.
 
     A form with several readings is listed once without a reading and once for each, such as `uniform_temperature_b`.
     """

@@ -114,7 +114,8 @@ class FrictionLaw(BaseModel, ABC):
 
 
 class StribeckFriction(FrictionLaw):
-    """Friction that decreases from static to kinetic with the sliding speed, and may increase again by a viscous term.
+    """Friction that decreases from static to kinetic with the sliding speed, and may increase again because of a
+    viscous term.
 
     Examples
     --------

@@ -361,8 +361,8 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def friction_words(self) -> str:
-        """Statement of the friction of the pair, without a full stop: the coefficient, or the friction law, its mean
-        coefficient and the pitch-line speed if that speed is known.
+        """Statement of the friction of the pair, without a full stop. It gives the coefficient, or the friction law,
+        its mean coefficient and the pitch-line speed if that speed is known.
         """
         declared, at = self.wheels.friction_law, self.wheels.pitch_line
         if declared is None:
@@ -427,7 +427,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Meshes to examine: this mesh, or, if the driver is not determined, one mesh for each of the two possible
+        """Meshes to examine: this mesh if the driver is determined, otherwise one mesh for each of the two possible
         drivers.
         """
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))

@@ -129,8 +129,8 @@ class Lantern(ConjugateToothForm):
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """Return an undercut fault if the approaching pins remove part of the mate's flank that the arcs of contact
-        require; otherwise an empty tuple.
+        """Return an undercut fault in a tuple if the approaching pins remove part of the mate's flank that the arcs of
+        contact require; otherwise an empty tuple.
         """
         from geartrain.teeth.pair_results import ToothFault
 

@@ -141,8 +141,8 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the function that gives the friction loss density at distance d from the pitch point, up to a factor:
-        mu S, with coefficient of friction mu, and S = d, or sin d for bevel gears.
+        """Return the function that gives the density of the friction loss at the distance d from the pitch point, up to
+        a factor. It is mu S with the coefficient of friction mu, and S = d, or sin d for bevel gears.
 
         Return None if friction is the same at every contact.
         """

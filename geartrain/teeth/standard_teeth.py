@@ -102,7 +102,7 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """Return a mate for a wheel without a mate: an equal wheel, or for a ring gear a pinion with half as many teeth,
+    """Return a mate for a wheel that has none: an equal wheel, or for a ring gear a pinion with half as many teeth,
     rounded down.
     """
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear

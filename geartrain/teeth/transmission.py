@@ -346,8 +346,8 @@ class TransmissionFunction(Shown, ABC):
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous; by
-        default an empty list.
+        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous; the
+        default is an empty list.
         """
         return []
 
@@ -391,14 +391,14 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function that applies while the driver turns backwards; by default this function
+        """Return the transmission function that applies while the driver turns backwards; the default is this function
         itself.
         """
         return self
 
     def mirrored(self) -> TransmissionFunction:
         """Return the transmission function for a driver whose mean motion is opposite to the positive sense of its
-        angle; by default this function itself.
+        angle; the default is this function itself.
 
         Its error at S is minus the error of this function at -S. Override it in functions whose error is not odd.
         """

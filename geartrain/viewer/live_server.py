@@ -65,7 +65,9 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages and increment the version; on errors of the train, keep the old pages and the message."""
+        """Rebuild the pages and increment the version; if the train has errors, keep the old pages and store the
+        message.
+        """
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
@@ -157,7 +159,9 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page: own script, frames of this server, and web socket."""
+        """Return the content security policy of the outer page, which permits its own script, frames of this server,
+        and its web socket.
+        """
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]
         reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"

@@ -96,7 +96,7 @@ class EmbeddedPage:
     train: GearTrain
     """Train that the page shows."""
     state: str | None = None
-    """Name of the state that the page shows; by default the user can select any state."""
+    """Name of the state that the page shows, or None to let the user select any state."""
     height: int = 620
     """Height of the frame [px]."""
 

@@ -45,7 +45,7 @@ class AxisLine:
     bearers: tuple[str, ...]
     """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
-    """Axes about which the links in `bearers` turn, in the same order; the frame has none."""
+    """Axes about which the links in `bearers` turn, in the same order; the frame has no axis."""
     given: Vector | None
     """Declared point of the axis [mm]; None if no position is declared."""
 
@@ -159,8 +159,8 @@ class CouplingTie:
 
 
 class DialEnds(NamedTuple):
-    """Numbers of hands, one above the other, at the low and the high end of an arbor: 0 if that end is not extended to
-    a dial, 1 if it is, and 2 if its hand passes over the hand of a dial inside its dial.
+    """Numbers of hands, one above the other, at the low and the high end of an arbor. A number is 0 if that end does
+    not extend to a dial, 1 if it does, and 2 if its hand passes over the hand of a dial inside its dial.
     """
 
     low: int = 0

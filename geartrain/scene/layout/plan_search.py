@@ -130,7 +130,7 @@ class DistanceBound(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """Step of the search: the axis to be placed, by index, and the placed axes that restrict its position."""
+    """Step of the search, with the index of the axis to be placed and the placed axes that restrict its position."""
 
     axis: int
     placed: Indices
@@ -438,7 +438,7 @@ class _BeamSearch:
         return [(x + c * u - s * v, y + s * u + c * v)]
 
     def _outside(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points outside all placed axes, in eight directions; the origin if no axis is placed."""
+        """Return points outside all placed axes in eight directions, or the origin if no axis is placed."""
         if not len(step.placed):
             return [(0.0, 0.0)]
         radius = self.order.radius

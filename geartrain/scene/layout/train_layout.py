@@ -264,7 +264,9 @@ class AxisPlace(Shown):
     direction: Vector
     """Declared unit vector of the axis, about which positive speeds of its links are counted."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from meshing wheels or a pin, or `free` (chosen)."""
+    """Origin of the position: `given` in the declaration, `found` from meshing wheels or a pin, or chosen freely
+    (`free`).
+    """
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
 
@@ -297,7 +299,7 @@ class WheelPlace(Shown):
     cone: float = 0.0
     """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
-    """Side of the axis, along its direction, towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
+    """Side of the axis towards which the pitch cone opens: 1 in the axis direction, -1 against it, 0 for a cylinder."""
     layer: int | None = 0
     """Index of the level, from 0 for the lowest along the main axes; None for wheels on other axes."""
     turn: float = 0.0

@@ -69,8 +69,8 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance that is longer than the path round it, or lengthen the path, in place; return True if
-    changed.
+    """Shorten a distance that is longer than the path round it, or lengthen that path, in place; return True after a
+    change.
     """
     one = distances[at]
     way = _way_round(distances, at, modules)
@@ -223,8 +223,8 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return the modules of the reference clusters (roots), as declared, otherwise fitted by least squares to
-        declared positions and offsets.
+        """Return the modules of the reference clusters (roots) that are declared, or follow from declared positions and
+        offsets by a least squares fit.
 
         For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.
         """

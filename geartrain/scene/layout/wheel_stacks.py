@@ -44,7 +44,7 @@ class StackProblem:
     clash: Flags
     """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
     pierce: Flags
-    """Mask, shape (links and pins, blocks), of the wheels that each arbor or pin would pass through at their height."""
+    """Mask of the wheels that an arbor or pin would pass through at equal height, shape (links and pins, blocks)."""
     arbors: Sequence[str]
     """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]
@@ -156,7 +156,9 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to its cheapest position, in a level (integer key) or between levels (half-integer key)."""
+        """Move one stack to its cheapest position, which is a level (integer key) or between two levels (half-integer
+        key).
+        """
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -225,8 +227,8 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) for each ordered pair of coaxial arbors: the first arbor with every stack of the second
-        arbor.
+        """Rows (arbor, stack) that combine, for each ordered pair of coaxial arbors, the first arbor with every stack
+        of the second arbor.
 
         The arrays are the arbors and the stacks of all rows, and the index of the first row of each pair.
         """

@@ -51,7 +51,7 @@ class FramePlaces:
 
 @dataclass(frozen=True, slots=True)
 class ColumnMember:
-    """Arbor or pipe of a column: its link, its ends, and its inside (0 if solid) and outside diameter [mm]."""
+    """Arbor or pipe of a column, with its link, its ends, and its inside (0 if solid) and outside diameter [mm]."""
 
     link: str
     low: float
@@ -114,7 +114,7 @@ class ColumnProblem:
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[int, int]]
-    """Link -> (below, above): number of hands one above the other at each end of the link's arbor; 0 if the end does
+    """Link -> (below, above): number of hands, one above the other, at each end of the link's arbor; 0 if that end does
     not extend beyond the stack.
     """
     span: tuple[float, float]
@@ -141,8 +141,8 @@ class ColumnProblem:
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Return the column (arbor and pipes) with a single bearing, in a bridge, and a collar on either side of the
-        bridge.
+        """Return the column (arbor and pipes) with a single bearing in a bridge, and with a collar on either side of
+        the bridge.
         """
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
@@ -236,8 +236,8 @@ class ColumnProblem:
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
     def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Yield possible pieces that hold the fixed wheels: one piece for all, or two, of which one is next to its
-        plate.
+        """Yield possible pieces that hold the fixed wheels: one piece for all wheels, or two pieces, one of which is
+        next to its plate.
 
         hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that
         plate

@@ -178,7 +178,7 @@ class FramePlan:
     core: float | None
     """Diameter of all arbors [mm]; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[int, int]]
-    """Link -> (below, above): number of hands one above the other at each end of the link's arbor; 0 if the end does
+    """Link -> (below, above): number of hands, one above the other, at each end of the link's arbor; 0 if that end does
     not extend to a dial.
     """
 

@@ -219,8 +219,8 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate that carries axes; the hole of the
-        hub is not included.
+        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate that carries axes, but not the
+        hole of its hub.
         """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
@@ -256,7 +256,9 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """Yield all turned parts: parts of axes, sleeves, barrel, washers, cup walls, pillars, posts, pins and feet."""
+        """Yield all turned parts: the parts of axes, sleeves, barrels, washers, cup walls, pillars, posts, pins and
+        feet.
+        """
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None

@@ -96,7 +96,9 @@ def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
 
 @dataclass(frozen=True)
 class FrameStack:
-    """Train as placed, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is given."""
+    """Train with its positions, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is
+    given.
+    """
 
     train: GearTrain
     layout: Layout

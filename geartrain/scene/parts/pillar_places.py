@@ -84,8 +84,8 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon (count, 2) of candidates around all axes, relative to their middle; None if there is
-    none.
+    """Return the shortest polygon (count, 2) of candidates around all axes, relative to their middle; None if none
+    exists.
     """
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]

@@ -157,7 +157,9 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor from shoulder to shoulder, with a pivot or, where it passes through, a collar at each plate."""
+    """Yield an arbor from shoulder to shoulder, with a pivot at each plate, or a collar where it passes through the
+    plate.
+    """
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)

@@ -151,7 +151,9 @@ class HangingParts:
 
 
 def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
-    """Yield the turned parts of a hanging part, at rest relative to the body with index `frame`; none for a line."""
+    """Yield the turned parts of a hanging part, at rest relative to the body with index `frame`; yield nothing for a
+    line.
+    """
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
         rod = Band(_COCK, hanger.length - wide, _ROD * wide)

@@ -266,8 +266,8 @@ def dial_feet(
     faces: tuple[float, float],
     corners: Sequence[Point] = (),
 ) -> list[TurnedPart]:
-    """Return the feet of a plate of dials: up to four, at its corners or far apart inside its dials, otherwise outside
-    all turning parts.
+    """Return up to four feet of a plate of dials, at its corners or far apart inside its dials, otherwise outside all
+    turning parts.
 
     circles   centres and radii of the discs of its dials [mm]
     faces     heights of its faces [mm]

@@ -56,7 +56,9 @@ class CutCoupling:
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Return couplings that flat wheels with given bores [mm] can hold, by name; pins of round holes need no wheel."""
+    """Return the couplings, by name, that can be cut into flat wheels with given bores [mm]; pins of round holes need
+    no wheel.
+    """
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)

@@ -36,7 +36,8 @@ _NEXT = [1, 2, 0]
 
 
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
-    """Return points (n, 2) of a polygon with holes, and triangles (m, 3) of their indices, counter-clockwise.
+    """Return the points (n, 2) of a polygon with holes, and counter-clockwise triangles (m, 3) as indices of these
+    points.
 
     The points of the polygon are followed by the points of its holes. Polygons (k, 2) may have either orientation. They
     must not intersect themselves or each other.
@@ -338,8 +339,8 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return a bevel or crown wheel: its back, its teeth from the large end to the small end, and the disc inside the
-    ring of teeth.
+    """Return the solid of a bevel or crown wheel, with its back, its teeth from the large to the small end, and the
+    disc inside the ring of teeth.
 
     The surface has rows of points, from the bore at the back round the outside to the bore at the front.
     """

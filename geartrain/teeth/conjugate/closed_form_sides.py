@@ -190,8 +190,8 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the path of contact with minimum friction loss, an extremal of the loss: S = D cos psi, docs/shapes.md
-    (10).
+    """Return the path of contact with minimum friction loss, S = D cos psi, which is an extremal of the loss,
+    docs/shapes.md (10).
 
     S is d on cylinders and sin d on cones, psi is the pressure angle, and D is a constant. The arc X is D ln d, or D ln
     tan(d/2) on cones, counted from the first contact.

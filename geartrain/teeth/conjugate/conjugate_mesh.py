@@ -279,8 +279,8 @@ class SharedEfficiency(Result):
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """Pair with conjugate teeth as designed: values for gear 1, then gear 2; lengths in modules (bevels: rad), angles
-    in rad.
+    """Design of a pair with conjugate teeth, with values for gear 1 and then gear 2. Lengths are in modules (in rad for
+    bevel gears) and angles in rad.
     """
 
     KEYS = (

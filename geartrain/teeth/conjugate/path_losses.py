@@ -222,8 +222,8 @@ def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -
 
 
 def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
-    """Return the sliding integral J for arcs X from `low` to `high`: S / cos^2 psi integrated over d,
-    docs/shapes.md (7), with S = d, or sin d for bevel gears.
+    """Return the sliding integral J of S / cos^2 psi over d for arcs X from `low` to `high`, docs/shapes.md (7). S is
+    d, or sin d for bevel gears.
     """
     x, weights = _GAUSS
     total = 0.0

@@ -51,8 +51,8 @@ class ToothPairContact(NamedTuple):
     angle: Floats
     """Angle of the driven tooth past the line of centres [rad]."""
     corner: Indices
-    """Tip corners in contact: 1 for the driver's, 2 for the driven wheel's, 3 for both, 0 for none; -1 where the teeth
-    do not touch.
+    """Tip corners in contact: 1 for a corner of the driver, 2 for a corner of the driven wheel, 3 for both, 0 for none;
+    -1 where the teeth do not touch.
     """
 
 

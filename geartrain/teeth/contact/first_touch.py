@@ -123,7 +123,7 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Tooth pairs that may touch: driver angle x [rad], shape indices of both teeth, angle `place` of the driven
+    """Tooth pairs that may touch, with driver angle x [rad], shape indices of both teeth, angle `place` of the driven
     tooth [rad], and index of the driver position.
     """
 
@@ -146,8 +146,8 @@ class FlankSegments(NamedTuple):
     u: Floats
     """Parameters of `piece1` at both ends of the segment, shape (2, n)."""
     polar2: Floats
-    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives with respect
-    to the parameter u of `piece1`, shape (4, 2, n).
+    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives by the parameter u of
+    `piece1`, shape (4, 2, n).
     """
     v: Floats
     """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
@@ -273,8 +273,8 @@ class FirstTouchSearch:
         return DrivenFrame(self.axles, r, a + x), dr, da
 
     def _stalled(self, segments: FlankSegments) -> Bools:
-        """Return flags of segment ends at which one of the two curves is stationary, where slopes are meaningless;
-        shape (2, n).
+        """Return flags, shape (2, n), of segment ends at which one of the two curves is stationary, so that slopes are
+        meaningless.
         """
         first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first

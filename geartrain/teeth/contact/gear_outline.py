@@ -525,7 +525,9 @@ class FlankTable:
         return piece[at], u[at], begins[at]
 
     def _sample_points(self, piece: int, cells: int) -> Floats:
-        """Return the values of u at which a piece is sampled: uniform, refined geometrically at stationary ends."""
+        """Return the values of u at which a piece is sampled, which are uniform with geometric refinement at stationary
+        ends.
+        """
         marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
         for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
             if stalls:

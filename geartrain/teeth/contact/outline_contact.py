@@ -128,7 +128,7 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def kinds(self, found: FirstTouches) -> Indices:
-        """Return the kind of each touch: 0 for two flanks, 1 for a corner of wheel 1, 2 of wheel 2, 3 of both."""
+        """Return the kind of each touch: 0 for two flanks, 1 or 2 for a corner of wheel 1 or 2, 3 for two corners."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
@@ -156,7 +156,7 @@ def _no_contact(count: int) -> tuple[Any, ...]:
 
 
 def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Raise an error if the wheels cannot mesh: spur with bevel wheel, two ring gears, or a distance out of range."""
+    """Raise an error for a spur wheel with a bevel wheel, two ring gears, or a distance out of range."""
     if first.bevel != second.bevel or (first.ring and second.ring):
         raise QuestionError(
             Problem(

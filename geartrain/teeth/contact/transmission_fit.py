@@ -115,7 +115,7 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Intervals with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth and kind of contact, and
+    """Intervals with fitted polynomials: their ends (2, n), coefficients (COUNT, n), tooth and kind of contact, and
     maximum differences from the function.
     """
 

@@ -101,7 +101,7 @@ class Belt(Coupling):
 
     @property
     def row_names(self) -> tuple[str, ...]:
-        """Name of the belt for two pulleys; otherwise `first~other` for each other pulley."""
+        """Name of the belt if it has two pulleys; otherwise, a name `first~other` for each other pulley."""
         first, *others = self.ends
         return (self.name,) if len(others) == 1 else tuple(f"{first}~{other}" for other in others)
 

@@ -317,7 +317,7 @@ class TabledLaw(_VaryingPair):
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function; with a negative mean, angles of the driven side are forward angles."""
+        """Transmission function; if the mean ratio is negative, the angles of the driven side are forward angles."""
         from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicTable
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 

@@ -48,8 +48,8 @@ class PinTransmission(SeriesTransmission):
 
     @property
     def _maximum_tangent(self) -> float:
-        """Maximum of tan d over a turn, e/sqrt(r^2 - e^2), for a pin whose circle encloses the slot's axis: d is the
-        angle between pin radius and slot, r the pin radius and e the axis offset.
+        """Maximum of tan d over a turn, e/sqrt(r^2 - e^2), for a pin whose circle encloses the slot's axis. Here d is
+        the angle between pin radius and slot, r the pin radius and e the axis offset.
         """
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
 
@@ -247,7 +247,7 @@ class SlotToPinTransmission(PinTransmission):
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction at which the pin locks at some angle: sqrt(r^2 - e^2)/e, with pin radius r
+        """Minimum coefficient of friction at which the pin locks at some angle, sqrt(r^2 - e^2)/e, with pin radius r
         and axis offset e.
         """
         return 1 / self._maximum_tangent if self.e else inf

@@ -153,7 +153,7 @@ class PinsInHoles(_ParallelCoupling):
 
 
 class Parallel(_ParallelCoupling):
-    """Any other coupling that keeps two links parallel: parallel cranks, an Oldham cross, a flexible wall.
+    """Any other coupling that keeps two links parallel, such as parallel cranks, an Oldham cross or a flexible wall.
 
     The links `pin` and `slot` are interchangeable. The coupling is not drawn.
     """

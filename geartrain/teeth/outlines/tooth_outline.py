@@ -321,8 +321,8 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the unit tangent towards the root, normal to the contact normal: radial component, and component towards
-    the tooth space.
+    """Return the unit tangent towards the root, normal to the contact normal, as its radial component and its component
+    towards the tooth space.
     """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi

@@ -111,7 +111,7 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle [module]; for pins, radius of their outermost points."""
+        """Radius of the tip circle [module], or of the outermost points of pins."""
         if self.pins is not None and self.has_pins:
             return self.pins.circle + self.pins.radius
         return self.pair.path.radii(self.gear)[1]

@@ -50,8 +50,8 @@ class BlankSizes:
     bore: float | None = None
     """Diameter of the central hole [mm]; by default the wheel has no hole."""
     rim: float | None = None
-    """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; by default two modules, or the
-    diameter of a pin.
+    """Width of the rim around the roots of a ring gear, by default two modules, or around the pins of a lantern, by
+    default a pin diameter [mm].
     """
     tolerance: float = 0.001
     """Maximum deviation of a chord from a flank [mm]."""

@@ -80,7 +80,9 @@ class FixedTooth(CutTooth, WheelRequirement):
 
 @dataclass(frozen=True)
 class PairRequirement:
-    """Requirement of a pair on a wheel: name of the pair, name of its tooth form, the form in words, required teeth."""
+    """Requirement of a pair on a wheel, with the name of the pair, the name of its tooth form, the form in words, and
+    the required teeth.
+    """
 
     pair: str
     form: str

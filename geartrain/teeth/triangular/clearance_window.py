@@ -111,8 +111,8 @@ class TriangularContact:
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict: the first failed check in the order valley, range of contact, overhang, coast flanks, entry, exit;
-        "runs" if no check fails.
+        """Verdict of the first failed check, in the order valley, range of contact, overhang, coast flanks, entry,
+        exit; "runs" if no check fails.
         """
         sizes = self.sizes
         if not sizes.has_valleys:

@@ -234,8 +234,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def matching(self) -> float:
-        """Matching position: angle alpha_1m of the driver's apex from the line of centres at which the flanks of both
-        teeth coincide [rad], Eq. (10). It is also defined for unequal aperture angles.
+        """Angle alpha_1m of the driver's apex from the line of centres in the matching position, in which the flanks of
+        both teeth coincide [rad], Eq. (10). It is also defined for unequal aperture angles.
 
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The expression for the
         sine of alpha_1m avoids the difference of nearly equal angles. The value is infinite if no such position exists.
@@ -287,7 +287,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def maximum_excess(self) -> float:
-        """Maximum excess at which the teeth can touch; beyond it tips never touch or, in an internal pair, the tip
+        """Maximum excess at which the teeth can touch. Beyond it, tips never touch or, in an internal pair, the tip
         circles overlap at every angle.
         """
         apart = min(self.depths) / self.deepest_distance

@@ -54,7 +54,8 @@ class DriveInterval:
     """
 
     phase: str
-    """Phase of contact: approach, recess or dwell; slip or return in a path that includes contacts that cannot drive.
+    """Phase of contact: approach, recess or dwell; also slip or return in a path that includes contacts that cannot
+    drive.
     """
     start: float
     """Angle alpha_1 of the driver's apex from the line of centres at the start [rad]."""
@@ -83,8 +84,8 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag of the driven wheel behind its mean motion [rad] while the driver's apex is at the angle x
-        [rad]: g(x) = f(x) - (z1/z2) x, with f the angle of the driven apex.
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] while the driver's
+        apex is at the angle x [rad]; f is the angle of the driven apex.
         """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
@@ -94,8 +95,8 @@ class RealPath:
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Monotone pieces of the path of contact, divided where the curvature of the driven angle changes sign: recess,
-        then approach.
+        """Monotone pieces of the path of contact, first of recess and then of approach, divided where the curvature of
+        the driven angle changes sign.
 
         With `slips`, the contacts beyond the exit come first. Empty for teeth without valleys.
         """

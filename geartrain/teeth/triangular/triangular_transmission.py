@@ -197,8 +197,8 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle of the driver's tooth from the line of centres at the start of the first interval [rad, within a
-        pitch].
+        """Angle of the driver's tooth from the line of centres at the start of the first interval, within a pitch
+        [rad].
         """
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
@@ -224,8 +224,8 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals of the path (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of
-        the speed ratio and the line of centres.
+        """Smooth intervals of the path, each as (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks,
+        extrema of the speed ratio and the line of centres.
         """
         return [
             (interval, high, low)

@@ -81,7 +81,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute torques of links and pairs, power flow, losses, efficiency and crank torque under the declared loads.
+    """Compute the torques of links and pairs, power flow, losses, efficiency and crank torque under the declared loads.
 
     With --turns and -o x.csv, write the torque at every position.
 

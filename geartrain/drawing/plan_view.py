@@ -383,9 +383,9 @@ class _PlanSize:
     size: Floats
     """Width and height of the plan (2,) [in]."""
     bottom: float
-    """Height of the lowest layer towards the reader [mm]."""
+    """Height of the lowest layer, measured towards the reader [mm]."""
     depth: float
-    """Height of all layers together [mm]."""
+    """Total height of all layers [mm]."""
     deep: float
     """Width of the side view [in]; 0 if the plan has no side view."""
 

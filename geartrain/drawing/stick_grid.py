@@ -74,7 +74,7 @@ def _cost(
     ends: dict[str, tuple[float, float]],
     spans: Sequence[tuple[str, str, float]],
 ) -> float:
-    """Return the cost of a level: lengths of the axis' vertical lines, plus penalties for crossings and overlaps."""
+    """Return the cost of a level: the lengths of the axis' vertical lines, and penalties for crossings and overlaps."""
     cost = 0.3 * abs(here)
     placed = {**level, axis: here}
     known = [(*sorted((placed[one], placed[other])), x, axis in (one, other)) for one, other, x in spans

@@ -178,7 +178,7 @@ class DeclaredGeometry:
     ties: tuple[CouplingTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
     thickness: Mapping[str, float]
-    """Declared thickness by wheel [mm], for wheels with a declared thickness."""
+    """Declared thickness [mm] of each wheel for which one is declared."""
     strays: tuple[tuple[str, str, str], ...]
     """Wheels that a gear pair requires on a different axis than earlier pairs do: wheel, pair and axis."""
     front: int

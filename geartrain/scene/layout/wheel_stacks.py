@@ -52,7 +52,9 @@ class StackProblem:
     plates: Mapping[str, str]
     """Arbor -> wheel of a carrier that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Wheel with a pin and wheel with its slot, in the order of the rows of `pierce` after the rows of arbors."""
+    """Pairs of a wheel with a pin and the wheel with its slot, in the order of the rows of `pierce` after the
+    arbors.
+    """
     still: str = ""
     """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
 
@@ -274,7 +276,7 @@ class _OrderSearch:
 
     @cached_property
     def _dial_arbors(self) -> tuple[Indices, Indices]:
-        """Arbors that extend beyond the low end of the stack, and beyond the high end."""
+        """Arbors that extend beyond the low end of the stack, and arbors that extend beyond its high end."""
         ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
         ends += [DialEnds()] * len(self.problem.pins)
         low, high = np.array(ends, bool).reshape(-1, 2).T

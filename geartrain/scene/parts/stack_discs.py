@@ -146,7 +146,9 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a convex edge with notches, and its windows; passages that would divide the plate are omitted."""
+    """Return a plate's convex edge with notches, and the plate's windows; passages that would divide the plate are
+    omitted.
+    """
     windows = []
     for each in passages:
         x, y = each.way

@@ -261,7 +261,7 @@ class Triangular(ToothForm):
         return TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0, ring)
 
     def _sizes_at_clearance(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
-        """Return the sizes at the declared clearance, in m if a pitch distance is given."""
+        """Return the sizes at the declared clearance, with lengths in m if a pitch distance is given."""
         from geartrain.teeth.triangular.clearance_window import excess_of_backlash
 
         if not sizes.has_valleys:

@@ -204,7 +204,7 @@ def _clearance(curve: Floats, others: Floats) -> float:
 
 
 def _point(curve: Floats, share: float) -> Floats:
-    """Return a point of a quadratic Bezier curve."""
+    """Return the point of a quadratic Bezier curve at the parameter `share`, from 0 to 1."""
     rest = 1 - share
     return np.asarray(rest**2 * curve[0] + 2 * rest * share * curve[1] + share**2 * curve[2])
 

@@ -109,7 +109,7 @@ class ProjectedScene:
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return the line of a flexible wheel's bore (points, 3), which its wave generator touches."""
+        """Return the line of a flexible wheel's bore (points, 3) [mm], which its wave generator touches."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
@@ -126,7 +126,7 @@ class ProjectedScene:
         return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
 
     def lobes(self, wave: SceneWave) -> Floats:
-        """Return the points (lobes, 3) of the bore of a flexible wheel with the maximum outward deflection."""
+        """Return the points (lobes, 3) [mm] of the bore of a flexible wheel with the maximum outward deflection."""
         wheel = self.scene.wheels[wave.wheel]
         bore = wave.middle + wave.rise - wave.wall / 2
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
@@ -136,7 +136,7 @@ class ProjectedScene:
         return self.pose.point(wave.by, np.array(wheel.centre) + bore * ring)
 
     def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
-        """Return a circle about a wheel's axis (points, 3)."""
+        """Return points (points, 3) [mm] on a circle about the axis of a wheel."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._around(wheel, np.full(_ROUND, radius), angle, height)
 

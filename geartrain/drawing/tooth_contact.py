@@ -95,7 +95,9 @@ class ToothPairPose:
 
     @property
     def axis2(self) -> float:
-        """Coordinate of the driven wheel's axis on the line of centres, from the driver's axis."""
+        """Coordinate of the driven wheel's axis on the line of centres, from the driver's axis, in the unit of the
+        sizes.
+        """
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:

@@ -39,7 +39,7 @@ class EccentricWheels(NamedTuple):
     counts: tuple[int, int]
     """Tooth counts."""
     offsets: tuple[float, float]
-    """Distances of the centres from the axes."""
+    """Distances of the centres from the axes, in the common length unit."""
     angles: tuple[float, float]
     """Directions of the centres at S = 0 [rad], from the direction of the driven wheel's axis, in the driver's sense.
     """
@@ -50,7 +50,7 @@ class EccentricWheels(NamedTuple):
 
     @property
     def base(self) -> tuple[float, float]:
-        """Base radii; the radius of a ring is negative."""
+        """Base radii, in the common length unit; the radius of a ring is negative."""
         first, second = (z / 2 * cos(self.pressure_angle) for z in self.counts)
         return first, -second if self.internal else second
 

@@ -361,7 +361,7 @@ class FramePlan:
 
     @property
     def bridged_plate(self) -> tuple[float, float]:
-        """Faces of the plate to which the bridge is fixed."""
+        """Heights of the faces of the plate to which the bridge is fixed [mm]."""
         above = self.bridge is not None and self.bridge > self.places.front
         return self.places.front if above else self.places.back
 

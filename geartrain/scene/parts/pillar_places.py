@@ -72,7 +72,7 @@ def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
 
 
 def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:
-    """Return the point of a ray just beyond the last circle that the ray intersects."""
+    """Return the point of a ray just beyond the last circle that the ray intersects [mm]."""
     along = np.array([cos(angle), sin(angle)])
     far = 0.0
     for centre, reach in blocked:

@@ -379,7 +379,9 @@ class _CageBuilder:
         return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the nearest face of a carrier's wheel whose tips are outside of a post; None if there is none."""
+        """Return the height of the nearest face of a carrier's wheel whose tips are outside of a post [mm]; None if
+        none exists.
+        """
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
         return min(faces, key=lambda each: abs(each - height), default=None)

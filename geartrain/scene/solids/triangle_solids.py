@@ -54,7 +54,7 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
 
 
 def area(polygon: Floats) -> float:
-    """Return the signed area of a polygon, positive if it is counter-clockwise."""
+    """Return the signed area of a polygon, in the squared unit of its points; it is positive if counter-clockwise."""
     x, y = polygon.T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 

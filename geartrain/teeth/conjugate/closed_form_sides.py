@@ -297,7 +297,9 @@ def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance from a point of the mate to the pin's centre at pin angles from `low` to `high`."""
+    """Return the minimum distance [module] from a point of the mate to the pin's centre at pin angles from `low` to
+    `high`.
+    """
     # the mate's frame turns by R / mate t while the lantern turns by t
     return -peak(lambda t: -np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point), low, high)
 

@@ -132,7 +132,7 @@ class PathSide:
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X along the pitch surfaces while the contact moves from `start` to the distance d."""
+        """Return the arc X along the pitch surfaces [module] while the contact moves from `start` to the distance d."""
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 

@@ -90,7 +90,7 @@ class Belt(Coupling):
             what = f"`reversed` names '{unknown}', which is not a pulley of this belt"
             raise bad("belt", what, f"choose from: {', '.join(ends[1:])}")
         if set(ends) == set(self.reversed) or (len(ends) == 2 and ends[0] in self.reversed):
-            what = f"'{ends[0]}' is reversed, but the senses of all pulleys refer to this first pulley"
+            what = f"'{ends[0]}' is reversed, but the senses of the other pulleys refer to this one"
             raise bad("belt", what, f"reverse only other pulleys, such as `reversed: [{ends[1]}]`")
         return self
 

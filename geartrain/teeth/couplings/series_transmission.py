@@ -57,7 +57,7 @@ class SeriesTransmission(LosslessTransmission):
         return SeriesTransmission(self.ratio, self.factor, self.order, self.rho, self.rest, -self.phase)
 
     def _argument(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return x = n (S + phase), and sin^2(x/2)."""
+        """Return the argument x = n (S + phase) of epsilon, and sin^2(x/2)."""
         x = self.order * (np.asarray(S, dtype=float) + self.phase)
         return x, np.sin(x / 2) ** 2
 

@@ -123,7 +123,7 @@ class Contour(Shown):
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Return the points of a flattened arc, without its end point."""
+    """Return the points of a flattened arc, without the end point of the arc."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)

@@ -133,12 +133,12 @@ class TriangularSizes(Shown):
 
     @property
     def signed_radii(self) -> tuple[float, float]:
-        """Tip radii of both wheels, negative for a ring gear."""
+        """Tip radii of both wheels, in the common length unit; negative for a ring gear."""
         return self.signs[0] * self.R1, self.signs[1] * self.R2
 
     @property
     def radii(self) -> tuple[float, float]:
-        """Tip radii of both wheels."""
+        """Tip radii of both wheels, in the common length unit."""
         return self.R1, self.R2
 
     @property

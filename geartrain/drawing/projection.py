@@ -197,7 +197,7 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield each arm of a carrier: index of the carrier's body, a point of its axis, and a point of the carried
+    """Yield each arm of a carrier as the index of the carrier's body, a point of its axis, and a point of the carried
     axis.
     """
     scene = projected.scene

@@ -474,8 +474,8 @@ class _Drawing:
         self.words.name_element(name, closed, *place)
 
     def _ends(self, name: str) -> list[float | None]:
-        """Return the height of the shafts that a brake or clutch joins [in], None for the frame, which is the first
-        member of a brake.
+        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame, the first member of a
+        brake.
         """
         clutch = self.train.declaration.clutches[name]
         links = clutch.locks or (self.train.declaration.frame, *clutch.links)

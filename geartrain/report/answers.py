@@ -488,7 +488,9 @@ def why_floats(answer: Answer) -> str:
 
 
 def _speed(speed: SpeedValue | None, tolerance: Fraction | None, slides: bool = False) -> str:
-    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio; a travel has its unit."""
+    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio, and with its unit if the
+    link slides.
+    """
     text = exact(speed) + " mm" if slides and speed is not None else exact(speed)
     return f"≈ {text.removeprefix('≈ ')}" if tolerance else text
 

@@ -72,8 +72,8 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state;
-    angles in rad, and travels of links that slide in mm.
+    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state. Angles
+    are in rad, and travels of links that slide are in mm.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -179,9 +179,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state; yield nothing for a train without tooth forms and without pins with
-    dimensions.
-    """
+    """Yield the motion in every state; yield nothing if the train has neither tooth forms nor pins with dimensions."""
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -458,7 +456,7 @@ def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
 
 
 def _amount(slides: bool, value: float, digits: int = 6) -> str:
-    """Return an angle in degrees as a string, or the travel of a link that slides in mm."""
+    """Return an angle in degrees, or the travel of a link that slides in mm, as a string."""
     # joints that cancel leave rounding errors
     value = value if abs(value) > _ROUNDING else 0.0
     return f"{value if slides else degrees(value):.{digits}g}"

@@ -273,7 +273,9 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of contact intervals."""
+    """Return a section on speed ratio, instant centre and moment arms at the ends of contact intervals and
+    within them.
+    """
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))

@@ -158,7 +158,9 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
-    """Yield the pull of each belt at the driven pulley [N], torque divided by half of the pitch diameter."""
+    """Yield the pull of each belt at the driven pulley [N], which is the torque divided by half of the pitch
+    diameter.
+    """
     for belt in declared.couplings:
         if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
             continue

@@ -109,7 +109,7 @@ class SceneContext:
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Return the starting angle of a link [rad]: from the epoch or as declared, 0 by default."""
+        """Return the starting angle of a link [rad], which follows from the epoch or is declared; the default is 0."""
         angle = self.train.declaration.links[link].angle
         return self.set_angles.get(link, 0.0 if angle is None else angle.si)
 

@@ -122,7 +122,9 @@ class SceneEpoch(Shown):
     note: str
     """Declared note on the date."""
     settings: Sequence[SceneSetting] = ()
-    """Pointers that are set at that date. Each pointer is listed after the pointer that sets its base."""
+    """Pointers that are set at that date. Each pointer is listed after the pointer that determines the position of its
+    base.
+    """
     unset: Sequence[str] = ()
     """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)

@@ -240,7 +240,9 @@ class Coupling(BaseModel):
 
     @property
     def torques(self) -> Iterator[Quantity]:
-        """Declared energies, such as the loss of a jumper; all torques of the train then have units."""
+        """Declared energies, such as the loss of a jumper; if there are any, all torques of the train must have
+        units.
+        """
         values = (getattr(self, name) for name in type(self).model_fields)
         return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 

@@ -1,8 +1,8 @@
 """Transmission functions of pairs: the interface of all tooth forms and pins, and functions derived from others.
 
 Angles are forward angles: S of the driver and q of the driven side both increase as the pair turns forwards. At S = 0 a
-tooth of the driver is on the line of centres (a pin points at the other axis). The sign of the speed ratio of an
-external mesh belongs to the train, not to these functions.
+tooth of the driver is on the line of centres, or a pin is on the line from its axis to the other axis. The sign of the
+speed ratio of an external mesh belongs to the train, not to these functions.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ class LivePages:
 class LiveServer:
     """Web server for the pages of a train, reachable only from this computer, that runs until it is interrupted.
 
-    A missing tornado or watchdog raises `MissingExtraError`, and a port that cannot be used `QuestionError`.
+    It raises `MissingExtraError` if tornado or watchdog is missing, and `QuestionError` if the port cannot be used.
 
     make      function that builds the pages; a `GearTrainError` is shown above the last pages
     watched   function that returns the files to watch; it is called after each change

@@ -273,8 +273,8 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
     """Return the slots of one group of wheels; empty if no assignment exists, or if the search limit is reached.
 
-    Iterative deepening: the first success of a depth-first search has the minimum number of slots. It has an explicit
-    stack, because a chain of meshes may exceed Python's recursion limit.
+    The method is iterative deepening: the first success of a depth-first search has the minimum number of slots. The
+    search has an explicit stack, because a chain of meshes may exceed Python's recursion limit.
     """
     tries = 0
     # one slot is not sufficient, because some wheels clash

@@ -119,7 +119,7 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
 
 
 def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
-    """Yield notices on dials whose pointers turn about another point than the declared centre."""
+    """Yield notices on dials whose pointers turn about a point other than the declared centre."""
     declared = found.geometry.declared
     for name, axis, centre in declared.centres:
         off = size(across(minus(found.points[axis], centre), declared.lines[axis].direction))
@@ -291,7 +291,7 @@ class WheelPlace(Shown):
     radius: float
     """Pitch radius [mm]; for a bevel wheel, at the large end."""
     module: float
-    """Transverse module [mm], the pitch diameter divided by the tooth count; axial module of a worm."""
+    """Transverse module [mm], the pitch diameter divided by the tooth count; for a worm, the axial module."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     given: bool = False

@@ -6,8 +6,8 @@ fractions. The scale of a group of clusters is a declared module; if there is no
 distances, or the median of all known modules.
 
 Free modules are changed until every closed chain of axes can close. A chain closes if none of its distances is longer
-than the sum of the rest (polygon inequality). Relaxation: each distance that is longer than the shortest path between
-its ends is shortened, or that path is lengthened, repeatedly.
+than the sum of the rest (polygon inequality). The method is relaxation: each distance that is longer than the shortest
+path between its ends is shortened, or that path is lengthened, repeatedly.
 
 `SizedGeometry` is the input of all placements: the declared geometry with modules, sizes of wheels, and seats of
 pairs whose axes are not parallel.

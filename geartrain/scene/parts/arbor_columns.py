@@ -130,7 +130,7 @@ class ColumnProblem:
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes, each with its gap to the middle of this axis [mm]; it does not depend on the plates'
+        """Discs of other axes, each with its gap to the middle of this axis [mm], which does not depend on plate
         positions.
         """
         return beside(self.axis, self.at, self.others)
@@ -355,7 +355,7 @@ class CoaxialLink:
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on the piece; `ends` (below, above) is True for each end that extends beyond the stack."""
+    """Discs on the piece; the entries of `ends` (below, above) are True for ends that extend beyond the stack."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:

@@ -301,7 +301,7 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return a wheel's approximate solid, first tooth along x and axis along z, with a hole of `bore` [mm]."""
+    """Return a wheel's approximate solid, with the first tooth along x, the axis along z, and a hole of `bore` [mm]."""
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
         return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)
@@ -313,7 +313,9 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle for too many teeth."""
+    """Return the radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle if it has too many
+    teeth.
+    """
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
     r, angle = np.array(profile.points, dtype=float)[:-1].T

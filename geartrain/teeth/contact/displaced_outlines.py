@@ -38,7 +38,7 @@ _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are di
 class ToothPairContact(NamedTuple):
     """Contact of a single tooth pair at driver angles x [rad past the nominal position].
 
-    The driver's axle is at the origin, the driven axle on the x axis.
+    The driver's axle is at the origin, and the driven axle is on the x axis.
     """
 
     x: Floats

@@ -260,7 +260,7 @@ Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
 class TabledLaw(_VaryingPair):
     """Coupling with the driven angle q = mean S + unit d(S), with d given by harmonics or by a table.
 
-    A mean of 0 is a cam with an oscillating arm.
+    A mean of 0 describes a cam with an oscillating arm.
     """
 
     NEEDS_DISTANCE = False

@@ -124,8 +124,8 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return the values of the lag g [rad] at its extrema between `low` and `high`, where the speed ratio is
-        monotonic: at most one value.
+        """Return the value of the lag g [rad] at its extremum, if there is one, between `low` and `high`, where the
+        speed ratio is monotonic.
         """
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []

@@ -127,7 +127,9 @@ class TriangularTransmission(ToothTransmission):
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Return the sliding speed divided by the pitch-line speed, and the friction terms of input and output."""
+        """Return the sliding speed divided by the pitch-line speed, and the friction terms of input and output
+        power.
+        """
         if interval.held is not None:
             return nan, nan, nan
         side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)

@@ -13,7 +13,7 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Counts of the candidates that a search rejected, by reason, which explain an empty or short list of solutions."""
+    """Numbers of candidates that a search rejected, by reason. They explain an empty or short list of solutions."""
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
 
@@ -56,7 +56,7 @@ class CountSizes(ABC):
 
     @property
     def largest(self) -> int:
-        """Maximum tooth count; 0 without tooth counts."""
+        """Maximum tooth count; 0 if there are no tooth counts."""
         return max(self.counts, default=0)
 
     @property

@@ -78,7 +78,7 @@ def free_name(name: str, kind: str, taken: Container[str]) -> str:
 
 
 def numbered(stem: str, taken: Container[str]) -> str:
-    """Return `stem` with the smallest number, from 1, that is not taken."""
+    """Return `stem` followed by the smallest positive number that gives a name not in `taken`."""
     number = 1
     while f"{stem}{number}" in taken:
         number += 1

@@ -345,7 +345,7 @@ class _TrainReading:
 
     @cached_property
     def _driven(self) -> dict[str, DrivenArbor]:
-        """Mesh that drives each link that meshes connect to the input on the frame, in breadth-first order."""
+        """Mesh that drives each link that is connected to the input by meshes on the frame, in breadth-first order."""
         rings = {own for own, name in self._survivors.items() if name in self.problem.rings}
         return walk_meshes(self.train, self._source, self._joined, rings)
 

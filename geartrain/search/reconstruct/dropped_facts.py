@@ -83,7 +83,7 @@ def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
 
 
 def without_each_dial(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problems that result from dropping each dial in turn; nothing for a single dial."""
+    """Yield the problems that result from dropping each dial in turn; yield nothing if there is only one dial."""
     for dial in problem.dials if len(problem.dials) > 1 else ():
         left = tuple(each for each in problem.dials if each is not dial)
         yield ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=left))

@@ -1,7 +1,7 @@
 """Problem of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, limits of additions.
 
-Speeds are exact, in turns per unit of the input arbor, and signed. The input arbor turns at `input_speed`. Lengths are
-exact, in millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
+Speeds are exact and signed [turns per unit of the input]. The input arbor turns at `input_speed`. Lengths are exact, in
+millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
 """
 
 from __future__ import annotations

@@ -154,7 +154,7 @@ class CompliantTrain(TrainModel):
     def fastest(self) -> float:
         """Maximum angular frequency that time steps must resolve [rad/s].
 
-        It is that of the fastest mode, or half the decay rate of the most damped pair.
+        It is the frequency of the fastest mode or half the decay rate of the most damped pair, whichever is larger.
         """
         rates = [0.0]
         for pair, c in zip(self.model.pairs, self.yields.damping, strict=True):

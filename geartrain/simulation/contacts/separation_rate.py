@@ -1,8 +1,8 @@
 """Input speed at which teeth first separate, searched over all positions including kinks and jumps.
 
-Between kinks of the transmission functions, the torque that each pair must carry is smooth. Every interval is sampled,
-with its ends on their own sides of the kinks, and the best intervals are refined. Where a speed jumps, the sign of the
-impulse decides.
+Between kinks of the transmission functions, the torque that each pair must carry is smooth. Every interval is sampled
+up to one-sided limits at its ends, and the best intervals are refined. Where a speed jumps, the teeth separate if the
+impulse is negative.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ _MOST_KINKS = 80_000  # maximum product of kinks and pairs by default; takes som
 def find_separation(
     train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
 ) -> SeparationRates:
-    """Return the input speed at which the flanks of each pair first separate; `motion` is valid below the lowest speed.
+    """Return the input speed at which the flanks of each pair first separate. `GearTrain.motion` is valid below the
+    lowest of these speeds.
 
     The computation includes inertia, loads, a driving weight or torque, friction of bearings and of teeth with a
     variable ratio, viscous drag, and impacts at speed jumps (docs/dynamics.md, section 3).
@@ -175,8 +176,8 @@ class PairSeparation(Result):
 
 @dataclass(frozen=True)
 class SeparationRates(Result):
-    """Input speeds at which the flanks of each pair in a train first separate; `motion` is valid below the lowest
-    speed.
+    """Input speeds at which the flanks of each pair in a train first separate. `GearTrain.motion` is valid below the
+    lowest of these speeds.
 
     See Also
     --------
@@ -321,7 +322,8 @@ def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> t
 def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
     """Return the first input position at which each pair separates at any speed [revolutions], by index of the pair.
 
-    There, a jump of the speed ratio would require a tensile impulse. Pairs without such a position are omitted.
+    At this position, a jump of the speed ratio would require a tensile impulse. Pairs without such a position are
+    omitted.
     """
     if not len(kinks):
         return {}

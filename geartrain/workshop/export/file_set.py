@@ -37,7 +37,7 @@ SUFFIXES = {
     **{".graphml": "graphml", ".dot": "dot", ".gv": "dot", ".rexsj": "rexs", ".json": "rexs"},
     **{".rexs": "rexs-xml", ".urdf": "urdf", ".xml": "mjcf"},
 }
-"""Kind of a file with a whole train, by suffix."""
+"""Format of an export file of a whole train, by the suffix of the file."""
 
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
 """Suffixes of files with a single wheel."""

@@ -1,6 +1,6 @@
 """Gear unit as a REXS model (FVA's Reusable Engineering Exchange Standard, version 1.4).
 
-Component types, attributes, units and relations are those of the REXS 1.4 database; see www.rexs.info. A carrier with
+Component types, attributes, units and relations are taken from the REXS 1.4 database; see www.rexs.info. A carrier with
 spur wheels on its axes is a planetary stage. A state of the train is a gear of the unit and a load case.
 """
 

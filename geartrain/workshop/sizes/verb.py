@@ -187,7 +187,7 @@ def _is_probability(text: str) -> bool:
 
 
 def _start(pair: PairRequest) -> ToothSizes:
-    """Return the pair described by options; by default its clearance is in the middle of the clearance window."""
+    """Return the pair described by options; by default its clearance factor is midway between the limits."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     friction = read_pair_friction(pair.friction).number("--objective")

@@ -640,7 +640,7 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
     """Return the clearance of bevel planets [modules]: the angle between neighbouring axes minus the pitch cone angles,
-    times the radius, minus the addenda.
+    multiplied by the radius; from this the addenda are subtracted.
     """
     cone = np.arccos(_planet_cosine(columns))
     # a cone angle of 0 gives an infinite radius, which is replaced below

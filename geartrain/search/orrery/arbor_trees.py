@@ -263,8 +263,8 @@ Meshes = tuple[tuple[int, int], ...]
 
 
 def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes, bool]:
-    """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is the proved
-    minimum.
+    """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is proved to be
+    minimal.
 
     Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of wheels. The search is
     branch and bound over the multiples that can coincide. If it reaches its limit of steps, the number is only an upper

@@ -157,7 +157,7 @@ def _arbor_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[B
     for arbor in candidate.arbors():
         said = arbor.name or "an added arbor"
         if arbor.name in wheels and wheels[arbor.name] and arbor.driven and arbor.driven.name is None:
-            what = f"{said} is driven by an added wheel of {arbor.driven.teeth}"
+            what = f"{said} is driven by an added wheel of {arbor.driven.teeth} teeth"
             yield BrokenRule("driven", (said,), what, f"if {said} is lost")
         if arbor.passes and not problem.idlers:
             assert arbor.driven is not None

@@ -48,7 +48,7 @@ LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer
 """Kinds of facts that an examination of surviving or new fragments can establish."""
 
 _MOST_FACTS = 200
-"""Maximum number of facts that are compared for equal partitions of the candidates."""
+"""Maximum number of facts that are compared to find facts that partition the candidates in the same way."""
 
 
 class Fact(NamedTuple):

@@ -214,7 +214,8 @@ class PathTrees:
         """Yield each chain of given surviving arbors and some added arbors that all paths can share, without the end of
         the chain.
 
-        The second entry is the number of wheels and arbors that may still be added, the third is the rest of each path.
+        The second entry is the number of wheels and arbors that may still be added, and the third is the rest of each
+        path.
         """
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)

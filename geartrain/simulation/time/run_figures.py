@@ -182,7 +182,7 @@ class RunFigures:
 
     @property
     def _other_work(self) -> float:
-        """Work of the other links with prescribed speeds [J], computed from mean torques over the samples and angles."""
+        """Work of the other links with prescribed speeds [J], from mean torques over the samples and from angles."""
         others = {
             link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
         }

@@ -124,7 +124,7 @@ def model_in_time(
         names = ", ".join(each.name for each in case.one_way)
         what = f"the simulation in time does not include the one-way clutches {names}"
         why = "a one-way clutch engages and disengages during the motion"
-        fix = "disable them with `free` in a state, or declare clutches that hold both ways"
+        fix = "disable them with `free` in a state, or declare clutches that lock in both directions"
         raise QuestionError(Problem(what, why, fix, declared.place("clutches")))
     if rate is not None:
         # a given rate is positive; the sense follows from the declared inputs

@@ -66,7 +66,7 @@ class ToothMotion:
     lost: Mapping[str, tuple[float, float]]
     """Maximum and rms of the lag of each output after a reversal of the crank [rad], by output."""
     pairs: Mapping[str, Mapping[str, float]]
-    """Peak-to-peak error due to each single pair [deg], by output and pair."""
+    """Peak-to-peak output error due to each pair [deg], by output and pair."""
     declared: Mapping[str, DeclaredPairs]
     """Pairs in the path of each output, and which of them have declared tooth forms or dimensions."""
     reversing_drivers: tuple[str, ...]

@@ -31,7 +31,7 @@ class TrialTransmissionFunction(TransmissionFunction):
     """Transmission function of a pair of cut wheels in many trials.
 
     even     mean transmission error of wheels without errors (rad)
-    rows     number of the trial at each angle, or the number of one trial for any angles
+    rows     number of the trial at each angle, or the number of one trial for all angles
     count    number of tooth pairs in a full meshing cycle; `pitches` are the angular pitches of both wheels (rad)
     last     errors (rad of the driven wheel) of the last evaluation of each trial
     """

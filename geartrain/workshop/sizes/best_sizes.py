@@ -210,7 +210,9 @@ class OutlineAgreement(Result):
     loss: tuple[float, float]
     """Loss computed from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Peak-to-peak error from the transmission function and from the outlines [rad of the driven wheel]."""
+    """Peak-to-peak transmission error computed from the transmission function and from the outlines [rad of the driven
+    wheel].
+    """
     impact: tuple[float, float]
     """Impact loss computed from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]

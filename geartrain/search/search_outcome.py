@@ -25,7 +25,7 @@ class Shortfall(Result):
     """
     nearest: str = ""
     """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
-    ratio error, or of a constraint that no candidate satisfies; "" if there is a solution or the search was
+    ratio error, or of a constraint that no candidate satisfies. It is "" if there is a solution or the search was
     interrupted.
     """
     advice: str = ""

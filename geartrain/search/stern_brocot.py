@@ -177,7 +177,7 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
 
 
 def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
-    """Return the largest fraction <= `value` and the smallest >= `value` with denominators up to `most`.
+    """Return the largest fraction <= `value` and the smallest fraction >= `value` with denominators up to `most`.
 
     `value` must be 0 or more, and `most` 1 or more.
 

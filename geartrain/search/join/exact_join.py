@@ -175,8 +175,8 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the extensions of the rows by values of the variable of a node that satisfy the constraints of the
-        node, block by block, each with the indices of its original rows.
+        """Yield the rows extended by each value of a node's variable that satisfies the constraints of the node, block
+        by block, with the indices of the original rows.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable

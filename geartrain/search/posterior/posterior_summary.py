@@ -280,8 +280,8 @@ Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
 def find_variance_shares(
     name: str, formula: Formula, uncertainties: Mapping[str, ToothCountPrior]
 ) -> VarianceShares | None:
-    """Return the Sobol indices of an output; None if its speed is constant, or undefined for some counts, or if it is
-    not a sum of monomials and has more than two million combinations.
+    """Return the Sobol indices of the speed of an output. Return None if the speed is constant or undefined for some
+    counts, or if it is not a sum of monomials and has more than two million combinations.
     """
     own = [uncertainties[wheel] for wheel in formula.wheels]
     if not any(len(uncertainty.counts) > 1 for uncertainty in own):

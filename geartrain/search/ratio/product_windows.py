@@ -133,8 +133,8 @@ class ProductWindows:
         return int((_ends(self, bound) - self.starts).sum())
 
     def values(self, low: int, high: int) -> tuple[Ints, Places]:
-        """Return the distinct products in [low, high), ascending, shape (n,), and the number of multisets of the
-        window below each product, with their total number at the end, shape (n + 1,).
+        """Return the distinct products in [low, high) in ascending order, shape (n,), and the number of multisets of
+        the window below each product and in total, shape (n + 1,).
         """
         row, column = spread(_ends(self, low), _ends(self, high))
         found = self.rows[row]

@@ -263,7 +263,7 @@ def _spread(pairs: Pairs) -> Fraction:
 
 StageOrder = Literal["error", "total", "largest", "distinct", "hunting", "centres"]
 """Primary criterion of the order of solutions: minimum absolute error, sum of counts, largest count or number of
-distinct counts; maximum number of stages with coprime counts; minimum number of centre distances.
+distinct counts, maximum number of stages with coprime counts, or minimum number of centre distances.
 
 Ties are broken by absolute error, sum, largest count, and the counts.
 """

@@ -95,7 +95,7 @@ class FreeNames:
     """Names of wheels that are already used."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
-        """Return the name of the next added arbor, derived from the first dial whose pointer the arbor carries, if any."""
+        """Return the name of the next added arbor, derived from the first dial whose pointer it carries, if any."""
         name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
         link = free_name(name, "arbor", self.links)
         self.links.add(link)

@@ -215,7 +215,7 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
     """Yield the problem with another tooth count of one surviving wheel, for each count that differs by at most
-    `MISREAD` from a possible count, small differences first.
+    `MISREAD` from a possible count, in ascending order of the difference.
     """
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:

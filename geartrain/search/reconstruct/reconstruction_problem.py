@@ -223,8 +223,8 @@ class Additions:
     arbors: int | None = None
     """Maximum number of added arbors; None if it is not limited."""
     on: Literal["any", "new"] = "any"
-    """Arbors that may carry added wheels. "new": added arbors only. "any": surviving arbors too, with added
-    driving wheels, and with an added driven wheel if no wheel of the arbor survives.
+    """Arbors that may carry added wheels: "new" for added arbors only, "any" for surviving arbors too. A surviving
+    arbor may have added driving wheels, and an added driven wheel if no wheel of the arbor survives.
     """
 
 

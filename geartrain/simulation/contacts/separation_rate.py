@@ -201,8 +201,8 @@ class SeparationRates(Result):
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the links, as used in the computation."""
     uncounted: tuple[str, ...] = ()
-    """Names of the pairs with a constant ratio and of the pins, and `bearing LINK` for each bearing whose friction
-    grows with the load; the computation neglects their friction.
+    """Names of the pairs and bearings whose friction is neglected: pairs with a constant ratio, pins, and (as `bearing
+    LINK`) bearings whose friction increases with the load.
     """
 
     @property
@@ -286,8 +286,8 @@ def _first_separation(found: SeparationRates) -> str:
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return for each pair the minimum input speed at which it separates between kinks [rad/s] and its position, and
-    the width of the narrowest interval between kinks [revolutions of the input].
+    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum,
+    and the width of the narrowest interval between kinks [revolutions of the input].
 
     The best intervals of each pair are refined with ever finer samples.
     """

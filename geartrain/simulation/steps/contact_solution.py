@@ -113,8 +113,8 @@ class StepEquations(NamedTuple):
     matrix: Floats
     """Matrix of equation (13), docs/dynamics.md, shape (n + contacts, n + contacts); overwritten by the elimination."""
     solution: Floats
-    """Right side of equation (13), docs/dynamics.md, overwritten by the solution: speeds [rad/s] and impulses of the
-    contacts [N m s]; for a prescribed coordinate, the impulse of its drive instead of its speed.
+    """Right side of equation (13), docs/dynamics.md, which the solution overwrites: speeds [rad/s] and impulses of the
+    contacts [N m s]. For a prescribed coordinate it contains the impulse of the drive instead of the speed.
     """
     v: Floats
     """Speeds of the coordinates at the end of the step [rad/s]."""

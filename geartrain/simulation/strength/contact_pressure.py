@@ -119,7 +119,7 @@ class ContactLoad:
     """
 
     path: PathOfContact
-    """Path of contact, lengths in modules."""
+    """Path of contact, with lengths in modules."""
     module: float
     """Module [mm]; `width` is the width of the teeth in contact [mm]."""
     width: float

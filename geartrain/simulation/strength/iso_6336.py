@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 HOB_CORNER = 0.38
-"""Tip radius of the rack [module], of ISO 53 profile A."""
+"""Tip radius of the basic rack of ISO 53, profile A [module]."""
 
 _CHORD = 2e-5  # tolerance of chords [module]
 _STEP = 0.004  # distance between sections [module]

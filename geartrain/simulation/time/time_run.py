@@ -180,7 +180,7 @@ class ContactInTime(Result):
     """Results for one pair, pin or escapement from a time-domain simulation."""
 
     name: str
-    """Name of the pair or coupling; for an escapement, name of its link."""
+    """Name of the pair or coupling; for an escapement, the name of its link."""
     apart: float
     """Fraction of the time in which no flank is in contact."""
     coast: float
@@ -247,7 +247,7 @@ class EnergyAccount(Result):
     drag: float
     """Energy lost to viscous drag [J]."""
     friction: float
-    """Energy lost to friction of teeth and pins, and by declared efficiencies [J]."""
+    """Energy lost to friction of teeth and pins, and losses given by declared efficiencies [J]."""
     impact_loss: float
     """Energy lost in impacts, or in the damping of compliant teeth [J]."""
     steps: float

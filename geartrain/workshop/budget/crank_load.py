@@ -74,8 +74,8 @@ class WeightDrive(Result):
     link: str
     """Name of the link that carries the drum, or of the link that represents the weight itself."""
     torque: float
-    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts; for a link
-    that represents the weight itself, its force [N].
+    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts. For a link
+    that represents the weight itself, it is the force of the weight [N].
     """
     needed: float | None = None
     """Torque required at the drum to start the train from its worst position under the declared loads [N m].

@@ -255,7 +255,7 @@ class FeasibilityResult(Pictured, Result):
 
 
 def _estimate(event: Bools, of: Bools) -> ProbabilityEstimate:
-    """Return the probability of an event in the trials of a mask."""
+    """Return the probability of an event in the trials selected by the mask `of`."""
     return ProbabilityEstimate(int(np.count_nonzero(event & of)), int(np.count_nonzero(of)))
 
 

@@ -257,8 +257,8 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the first-order approximation of `errors` [rad]: the error of each pair is evaluated at its driver's
-        mean angle and multiplied by the mean ratios of the following pairs and pins.
+        """Return the first-order approximation of `errors` [rad]. The error of each pair is evaluated at its driver's
+        mean angle and multiplied by the mean ratios of the pairs and pins that follow.
         """
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)

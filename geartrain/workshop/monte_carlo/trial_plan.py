@@ -82,7 +82,7 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [unit of the radii; module; rad for bevel gears]."""
+        """Smaller tooth depth of the two wheels [unit of the radii, module, or rad for bevel gears]."""
 
     @property
     @abstractmethod

@@ -320,7 +320,7 @@ class ConvergenceStep:
     KEYS = ("trials", Key("", "share"))
 
     trials: int
-    """Number of trials used, from the first one."""
+    """Number of trials used, beginning with the first trial."""
     share: ProbabilityEstimate
     """Probability estimated from the first `trials` trials."""
 

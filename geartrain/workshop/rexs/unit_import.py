@@ -92,7 +92,7 @@ class _GearUnit:
         return self.parts[found[0]] if found else RexsComponent(_FRAME, kind, name, {})
 
     def declaration(self) -> dict[str, Any]:
-        """Return the declaration as data; problems and notes are collected."""
+        """Return the declaration as data, and collect problems and notes."""
         self._check_types()
         unread = Counter(each.type for each in self.parts.values() if each.type not in _READ)
         if unread:

@@ -10,8 +10,7 @@ from typing import Any
 def public_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], list[str]]:
     """Return the function `__getattr__` and the sorted names `__all__` of a package.
 
-    modules   module below `package` -> names that it defines, separated by blanks; with leading dots, relative to a
-              package above it
+    modules   module in `package` -> names that it defines, separated by blanks; leading dots refer to parent packages
     """
     homes = {name: module for module, names in modules.items() for name in names.split()}
 

@@ -14,18 +14,18 @@ if TYPE_CHECKING:
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
     """Return the thickness of a wheel along its axis: its declared thickness, else its face width, else the thickness
-    or face width declared for the train; None if none is declared.
+    or face width of the train; None if none of them is declared.
     """
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
     """Return the face width of a wheel: its declared face width, else its thickness, else the face width or thickness
-    declared for the train; None if none is declared.
+    of the train; None if none of them is declared.
     """
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 
 def material_named(train: Train, name: str) -> Material:
-    """Return a material by its name in the train, else in the table of materials that is shipped with geartrain."""
+    """Return the material with a given name from the declaration of the train, else from the shipped table."""
     return train.materials.get(name) or material_table()[name]

@@ -1,7 +1,8 @@
 """Meshes of one carrier as a gain graph (links as nodes, speed ratios as gains), and its inconsistent loops.
 
-Speeds are measured in units in which as many meshes as possible have the gain 1. A mesh has another gain only if it
-closed an inconsistent loop in a first search. A loop can turn if the product of its gains is 1.
+The units of speed of the links are chosen so that as many meshes as possible have the gain 1. A mesh has another gain
+only if it closes an inconsistent loop with the spanning tree of a first search. A loop can turn if the product of its
+gains is 1.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from geartrain.numerics.graphs import ways_to_common_ancestor
 
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
-"""Closed walk in the graph, as pairs of the node at which a step starts and the mesh of the step."""
+"""Closed walk in the graph, as pairs of the node at which a step begins and the mesh of the step."""
 
 
 @dataclass(frozen=True)
@@ -25,11 +26,11 @@ class GainGraph:
 
     size: int
     ends: Sequence[tuple[int, int]]
-    """Two nodes of each mesh; several meshes may connect the same nodes."""
+    """Two nodes of each mesh; several meshes may connect the same two nodes."""
     gains: Mapping[int, Gain]
     """Gain of each mesh whose gain is not 1: speed of its second node divided by speed of its first."""
     firm: frozenset[int] = frozenset()
-    """Couplings, which cannot be disengaged."""
+    """Indices of the couplings, which cannot be disengaged."""
 
     @cached_property
     def at(self) -> list[list[int]]:
@@ -60,7 +61,7 @@ class GainGraph:
 
 
 class GainWalk(NamedTuple):
-    """Result of a search: speed of each node, consistent with a spanning forest, and the meshes (`breaking`) that
+    """Result of a search: the speed of each node, consistent with a spanning forest, and the meshes (`breaking`) that
     contradict these speeds.
     """
 
@@ -69,8 +70,8 @@ class GainWalk(NamedTuple):
 
 
 def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWalk:
-    """Search all nodes breadth first without the meshes `without`, which may nevertheless be listed in `breaking` of
-    the result.
+    """Search all nodes breadth first, using only meshes outside `without`. Meshes in `without` may be listed in
+    `breaking` of the result.
     """
     gone = bytearray(len(network.ends))
     for mesh in without:
@@ -94,15 +95,15 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWa
 
 
 def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
-    """Return True if every loop has gain product 1 after removal of the meshes `without`."""
+    """Return True if every loop has the gain product 1 after the meshes in `without` are removed."""
     return set(without).issuperset(walk_gain_graph(network, without).breaking)
 
 
 def inconsistent_loops(network: GainGraph, without: Collection[int] = ()) -> list[GainLoop]:
     """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates.
 
-    A shortest inconsistent loop of the whole network is among them, because every such loop contains one of these
-    meshes.
+    A shortest inconsistent loop of the whole network is among them, because every inconsistent loop contains one of
+    these meshes.
     """
     breaking = [mesh for mesh in walk_gain_graph(network, without).breaking if mesh not in without]
     starts = dict.fromkeys(network.ends[mesh][0] for mesh in breaking)
@@ -121,8 +122,8 @@ def shortest_loop(network: GainGraph, starts: Iterable[int]) -> GainLoop:
 
 
 def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop:
-    """Return an inconsistent loop with fewer than `below` meshes, by breadth-first search from `start`; empty if none
-    exists.
+    """Return an inconsistent loop with fewer than `below` meshes, found by breadth-first search from `start`; empty if
+    there is none.
     """
     speed: dict[int, Gain] = {start: 1}
     came: dict[int, tuple[int, int]] = {}

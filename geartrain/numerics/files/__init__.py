@@ -1,4 +1,4 @@
-"""Atomic output of files, tables as CSV and Parquet, and input of points and edges."""
+"""Atomic output of files, tables in CSV and Parquet format, and input of points and edges."""
 
 from __future__ import annotations
 

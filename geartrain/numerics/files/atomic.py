@@ -1,7 +1,7 @@
 """Atomic output of results: a file is written completely or not at all, and overwrites another file only on request.
 
-Every file that geartrain creates for a user is written here. `destination` returns the path of the file, or raises an
-error if it cannot be written. `write_bytes` and `place` write a temporary file next to it, flush it to disk, and
+This module writes every file that geartrain creates for a user. `destination` returns the path of the file, or raises
+an error if it cannot be written. `write_bytes` and `place` write a temporary file next to it, flush it to disk, and
 rename it in one step, so that a reader sees either the old or the new file. `write_folder` does the same for many
 files.
 """
@@ -29,10 +29,10 @@ _KINDS = (
 
 
 def destination(path: Path, force: bool = False) -> Path:
-    """Return the file to which a result for `path` is written, after symbolic links are resolved.
+    """Return the file to which a result for `path` will be written, with symbolic links resolved.
 
-    Existing files are overwritten only with `force`, and only if they are regular files whose permissions allow
-    writing, even for root. Otherwise `GearTrainError` is raised. The function does not change the disk.
+    An existing file may only be overwritten with `force`, and only if it is a regular file whose permissions allow
+    writing (also for root). Otherwise `GearTrainError` is raised. The function does not write anything.
     """
     try:
         real, mode = _target(path)
@@ -78,7 +78,8 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
 def place(temporary: Path, path: Path, force: bool = False) -> None:
     """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`.
 
-    The permissions of an overwritten file are kept. Raises `GearTrainError`, or `OSError` for disk errors.
+    The permissions of an overwritten file are kept. Raises `GearTrainError` if a check fails, and `OSError` for disk
+    errors.
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
@@ -92,7 +93,7 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
-    """Return the `GearTrainError` for a file that could not be written because of a disk error."""
+    """Return the `GearTrainError` that reports that a disk error prevented writing a file."""
     why = getattr(error, "strerror", None) or str(error)
     fix = "free disk space, or check the folder and its permissions"
     return GearTrainError(Problem("the file cannot be written", why, fix, str(path)))
@@ -109,7 +110,7 @@ def umask() -> int:
 
 
 def _target(path: Path) -> tuple[Path, int | None]:
-    """Return the target of a path after resolving symbolic links, and its mode; None if it does not exist."""
+    """Return the target of a path with symbolic links resolved, and its mode; None if it does not exist."""
     try:
         mode = os.stat(path).st_mode
     except (FileNotFoundError, NotADirectoryError):
@@ -150,7 +151,7 @@ def _unwritable(folder: Path) -> Problem:
 
 
 def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return the problem to report if an existing file must not be overwritten; None if it may be."""
+    """Return the problem that prevents overwriting an existing file; None if it may be overwritten."""
     if not force:
         return _exists(path)
     if not mode & 0o222 or not os.access(real, os.W_OK):
@@ -172,7 +173,7 @@ def _invalid_name(path: Path, why: str) -> Problem:
 
 
 def _copy_permissions(old: Path, new: Path) -> None:
-    """Copy the permissions of the old file to the new file, and the owner if that is allowed."""
+    """Copy the permissions of the old file to the new file, and its owner if the system allows it."""
     found = old.stat()
     if hasattr(os, "chown"):
         with suppress(OSError):
@@ -181,9 +182,9 @@ def _copy_permissions(old: Path, new: Path) -> None:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Give a file an unused name in one step by a hard link; return False if the disk does not support it.
+    """Give a file a new name in one step by a hard link; return False if the file system does not support hard links.
 
-    Unlike renaming, this fails if another process has created the file in the meantime.
+    Unlike renaming, this fails if another process has created a file with this name in the meantime.
     """
     try:
         os.link(temporary, real)
@@ -196,7 +197,7 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Write a folder to disk (fsync), so that a new name survives a power failure, on systems that support this."""
+    """Write a folder to disk (fsync) on systems that support it, so that a new name survives a power failure."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -208,7 +209,7 @@ def _sync_folder(folder: Path) -> None:
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
     """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written to a folder.
 
-    Without `force`, the error is also raised for existing files.
+    Without `force`, the error is also raised if a file exists.
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
@@ -231,9 +232,9 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
     """Write named files to a folder and return their number.
 
-    The files are created in a temporary folder next to the destination and moved when all files are complete, so that
-    an error in creating them leaves the destination unchanged. Existing files are overwritten only with `force`. Raises
-    `GearTrainError`.
+    The files are created in a temporary folder next to the destination and moved when all are complete, so that an
+    error leaves the destination unchanged. Existing files are overwritten only with `force`. Raises `GearTrainError` if
+    a file cannot be written.
     """
     made: list[str] = []
     try:

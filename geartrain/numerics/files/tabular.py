@@ -1,7 +1,7 @@
 """Tables on disk: long tables as CSV or Parquet, and small text files of points and edges.
 
-Long tables are written in chunks to a file whose name contains `partial` until they are complete. An interrupted CSV
-file can be resumed. All rows of CSV files are formatted here.
+Long tables are written in chunks, to a file whose name contains `partial` until it is complete. An interrupted CSV file
+can be resumed. This module formats the rows of all CSV files.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ def partial_name(path: Path) -> Path:
 
 
 def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
-    """Return the partial file of a table for `path`, after resolving the symbolic links of the path.
+    """Return the partial file of the table `path`, with the symbolic links of the path resolved.
 
-    An existing partial file belongs to an interrupted run: `resume` continues the run, and `force` overwrites the file.
-    Raises `GearTrainError` if it or the table cannot be written.
+    An existing partial file is from an interrupted run: `resume` continues the run, and `force` overwrites the file.
+    Raises `GearTrainError` if the partial file or the table cannot be written.
     """
     found = partial_name(destination(path, force))
     if found.is_symlink():
@@ -75,7 +75,7 @@ class LongTable:
             raise unfinished_file(self.partial, error) from None
 
     def _truncate_to_whole_rows(self) -> int:
-        """Cut the partial file off after its last complete row; return the number of complete rows."""
+        """Remove an incomplete row at the end of the partial file; return the number of complete rows."""
         # -1, because the first line is the header
         rows, end = -1, 0
         with self.partial.open("rb") as file:
@@ -99,7 +99,7 @@ class LongTable:
         return lines[-1].decode("utf-8") if self.rows else ""
 
     def write(self, rows: list[str]) -> None:
-        """Append rows to the file. Raises `GearTrainError`."""
+        """Append rows to the file. Raises `GearTrainError` if that fails."""
         try:
             self._file.write(("\n".join(rows) + "\n").encode("utf-8"))
         except OSError as error:
@@ -110,7 +110,7 @@ class LongTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Rename the complete file; mark an interrupted file as partial in its last line."""
+        """Rename the file if it is complete; append a line to an interrupted file that marks it as partial."""
         try:
             if kind is not None:
                 self._file.write(f"{PARTIAL_SUFFIX}stopped after {self.rows} rows\n".encode())
@@ -122,14 +122,14 @@ class LongTable:
 
 
 class ColumnTable:
-    """Parquet file that is written by row groups as `name.partial.parquet` and renamed when it is complete.
+    """Parquet file that is written in row groups as `name.partial.parquet` and renamed when it is complete.
 
     about    metadata of the file, by key
     force    True to overwrite an existing table
     replay   True to overwrite the partial file of an interrupted run
 
-    After an interrupt the partial file is closed and readable. Raises `MissingExtraError` if pyarrow is not installed,
-    and `GearTrainError` if the file cannot be written.
+    After an interrupt, the partial file is closed and can be read. Raises `MissingExtraError` if pyarrow is not
+    installed, and `GearTrainError` if the file cannot be written.
     """
 
     def __init__(self, path: Path, about: Mapping[str, str], force: bool = False, replay: bool = False) -> None:
@@ -143,7 +143,7 @@ class ColumnTable:
         self.about, self.rows = dict(about), 0
 
     def write(self, columns: Mapping[str, Any]) -> None:
-        """Append arrays of equal length as one row group. Raises `GearTrainError`."""
+        """Append arrays of equal length as one row group. Raises `GearTrainError` if that fails."""
         table = self._arrow.table(dict(columns))
         try:
             if self._writer is None:
@@ -158,7 +158,7 @@ class ColumnTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Rename the complete file; an interrupted file keeps its partial name."""
+        """Rename the file if it is complete; an interrupted file keeps its partial name."""
         if self._writer is None:
             return
         try:
@@ -175,11 +175,11 @@ _FORMULA = ("=", "@", "+", "-", "\t", "\r", "\n")
 
 
 def csv_line(cells: Iterable[object]) -> str:
-    r"""Format one row as CSV without a line end; cells are quoted where necessary.
+    r"""Format one row as CSV without a line end. Cells are quoted if necessary.
 
     None is written as an empty cell, and floats with all digits.
 
-    Text that a spreadsheet would interpret as a formula is preceded by an apostrophe, except numbers and fractions.
+    An apostrophe is put before text that a spreadsheet would interpret as a formula, except numbers and fractions.
     Control characters are escaped, so that a row is always one line of the file.
 
     >>> csv_line(["a,b", "=1+1", "-254/19", -0.5, None])
@@ -196,7 +196,7 @@ def csv_lines(rows: Iterable[Iterable[object]]) -> list[str]:
 
 
 def csv_text(header: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    """Format a table as CSV, each row ended by a line feed."""
+    """Format a table as CSV in which each row ends with a line feed."""
     return "\n".join((csv_line(header), *csv_lines(rows), ""))
 
 
@@ -213,7 +213,7 @@ def _cell(cell: object) -> object:
 def read_points(path: Path) -> list[tuple[float, float, float]]:
     """Read points from a file with three numbers per line, separated by blanks or commas.
 
-    `#` begins a comment. Raises `GearTrainError` with the invalid lines.
+    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
     """
 
     def point(words: list[str]) -> tuple[float, float, float]:
@@ -226,7 +226,7 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 def read_edges(path: Path) -> list[tuple[str, str]]:
     """Read edges from a file with two names per line, separated by blanks or commas.
 
-    `#` begins a comment. Raises `GearTrainError` with the invalid lines.
+    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
     """
 
     def edge(words: list[str]) -> tuple[str, str]:

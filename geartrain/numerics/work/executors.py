@@ -1,4 +1,4 @@
-"""Choice of an executor: this process, processes on this machine, or a dask cluster."""
+"""Choice of an executor: none (this process), processes on this machine, or a dask cluster."""
 
 from __future__ import annotations
 
@@ -25,26 +25,26 @@ def cores() -> int:
 def open_executor(
     workers: int | None = None, dask: str | None = None, announce: Announcement | None = None
 ) -> Iterator[Executor | None]:
-    """Open a context that yields an executor for `run`, or None if the tasks run in this process.
+    """Return a context manager that yields an executor for `run`, or None if the tasks run in this process.
 
-    On exit the context manager ends all running work.
+    All running work is ended when the context is left.
 
     Parameters
     ----------
     workers : int, optional
-        Number of processes on this machine, 1 or more, started with the first task. The default is the number of cores
-        available to this process. With the default number, processes are started only if the work is not nearly
-        finished after one second in this process.
+        Number of processes on this machine, 1 or more; they are started with the first task. The default is the number
+        of cores available to this process. By default, processes are started only if the work is not nearly finished
+        after one second in this process.
     dask : str, optional
-        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers run the tasks. Needs the extra `dask`,
-        and the same version of geartrain on the cluster.
+        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers run the tasks. It requires the extra
+        `dask`, and the same version of geartrain on the cluster.
     announce : callable, optional
         Function that is called once with (tasks, workers) when other processes begin to work.
 
     Yields
     ------
     concurrent.futures.Executor or None
-        Argument for `run` and `Execution`; it survives the death of workers.
+        Executor for `run` and `Execution`; it continues if workers die.
 
     Raises
     ------
@@ -92,6 +92,6 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
 
 
 def _default_count() -> int:
-    """Return the number of available cores; 1 in a worker of `multiprocessing.Pool`, which may not start processes."""
+    """Return the number of available cores; 1 in a worker of `multiprocessing.Pool`, which must not start processes."""
     started = sys.modules.get("multiprocessing.process")
     return 1 if started is not None and started.current_process().daemon else cores()

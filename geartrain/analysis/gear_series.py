@@ -177,7 +177,7 @@ def find_gears(
     if one_way := [name for name, each in train.declaration.clutches.items() if each.one_way is not None]:
         what = f"the search for gears does not include the one-way clutches {', '.join(one_way)}"
         why = "they close by themselves, so that gears have different numbers of closed elements"
-        raise QuestionError(Problem(what, why, "declare them without `one_way`, as clutches that hold both ways"))
+        raise QuestionError(Problem(what, why, "declare them without `one_way`, as clutches that hold in both senses"))
     found = _all_gears(train, source, link)
     forward = [each for each in found.gears if each.ratio is not None and each.ratio > 0]
     if gears < 2:

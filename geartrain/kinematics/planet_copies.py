@@ -177,7 +177,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
             if train.links[link].copies > 1 and not _allows_copies(train, coupling):
                 what = f"coupling '{coupling.name}' cannot connect {train.links[link].copies} equal links '{link}'"
                 fix = "declare these links one by one, each with its coupling"
-                why = "copies have equal motions and equal pairs, and this coupling would connect each one differently"
+                why = "copies have equal motions and equal pairs, but this coupling connects each one differently"
                 yield Problem(what, why, fix, train.place("couplings", at))
 
 

@@ -189,7 +189,7 @@ def check_points(
 ) -> None:
     """Raise `RangeError` if the points do not define a periodic function."""
     if interpolation not in get_args(Interpolation):
-        what, why = f"'{interpolation}' is not an interpolation", f"known are {', '.join(get_args(Interpolation))}"
+        what, why = f"unknown interpolation '{interpolation}'", f"known: {', '.join(get_args(Interpolation))}"
         raise RangeError(Problem(what, why, "give `interpolation: pchip`"))
     fewest = _FEWEST_POINTS[interpolation]
     if len(positions) < fewest or len(positions) != len(values):
@@ -205,8 +205,8 @@ def check_points(
             why = "the points repeat after the period, and the end of the period is its start"
             raise RangeError(Problem(what, why, "give each position once, from 0 up to the period, without its end"))
         if at and x <= positions[at - 1]:
-            what = f"the position of point {at + 1}, {x:.10g}, is not above that of the point before it"
-            raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
+            what = f"the position of point {at + 1}, {x:.10g}, is not greater than that of the previous point"
+            raise RangeError(Problem(what, "positions must ascend", "sort the points, without repeated positions"))
 
 
 def periodic_integral(

@@ -175,7 +175,7 @@ def nearest_unit(unit: str, dimension: str) -> str:
     spelt = {name.casefold(): name for name, meant in SPELT.items() if meant in known.split(", ")}
     names = spelt | {name.casefold(): name for name in known.split(", ")}
     close = nearest_names(unit.casefold(), names)
-    return f"did you mean '{names[close[0]]}'? Known here: {known}" if close else f"use one of: {known}"
+    return f"did you mean '{names[close[0]]}'? Units are: {known}" if close else f"use one of: {known}"
 
 
 def units_of(dimension: str) -> str:

@@ -99,7 +99,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
     if twice:
         names = " and ".join(sorted(map(str, twice[0])))
-        raise _refused(f"{names} mesh twice", "two gears on a sphere touch at one point", "name each mesh once")
+        raise _refused(f"{names} mesh twice", "two gears on a sphere touch at one point", "list each mesh once")
 
 
 def _check_connected(found: nx.Graph[Any]) -> None:

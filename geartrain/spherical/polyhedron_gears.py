@@ -398,9 +398,9 @@ def without_gears(
         if len(rest) == len(left):
             raise QuestionError(
                 Problem(
-                    f"no mesh '{word}' to drop",
+                    f"no mesh '{word}' exists that could be dropped",
                     f"{first} and {second} do not mesh",
-                    "name two gears that mesh",
+                    "give the names of two gears that mesh",
                 )
             )
         left = rest

@@ -333,7 +333,7 @@ def _materials(train: Train) -> Iterator[Problem]:
     for name, loc in named:
         if name not in train.materials and name not in material_table():
             known = [*train.materials, *material_table()]
-            otherwise = f"declare it in `materials`, or take one of: {', '.join(known)}"
+            otherwise = f"declare it in `materials`, or use one of: {', '.join(known)}"
             what, why = f"no material '{name}'", f"`{dotted(loc)}` refers to it"
             yield Problem(what, why, suggest(name, known, otherwise=otherwise), train.place(*loc))
 
@@ -363,7 +363,7 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
         if not abs(remainder(after - before - even, 2 * pi)) < even:
             what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' does not follow that of tooth {one + 1}"
             why = f"angles increase from tooth to tooth, by about {360 / count:.5g} deg"
-            fix = "list the teeth in the order of rotation, and measure angles against the direction of rotation"
+            fix = "list the teeth in the order of rotation; measure angles in the sense opposite to the rotation"
             yield Problem(what, why, fix, train.place(*loc, "angles"))
             return
 
@@ -714,7 +714,7 @@ def _sliding_links(train: Train) -> Iterator[Problem]:
             what, why = f"'{link}' slides and has no `{key}`", f"`{key}` belongs to a link that turns"
             yield Problem(what, why, _TURNING_ONLY[key], place)
         if part.copies > 1:
-            what, why = f"{part.copies} copies of '{link}', which slides", "copies are spaced about an axis"
+            what, why = f"'{link}' slides, but has {part.copies} copies", "copies are spaced about an axis"
             yield Problem(what, why, "declare them one by one", place)
     if train.escapement is not None and train.escapement.link in train.sliding:
         what, why = f"the escapement is on '{train.escapement.link}', which slides", "an escape wheel must turn"
@@ -736,7 +736,7 @@ def _sliding_drive(train: Train, loc: Loc, drive: Drive) -> Iterator[Problem]:
             yield Problem(what, "the rate is the speed of the input in real time", f"write `rate: {fix}`", place)
     elif slides and (drive.weight is None or drive.drum is not None):
         what = f"'{link}' slides, and can only be driven by its weight"
-        why = "other drives turn a link" if drive.weight is None else "`drum` would turn a link"
+        why = "other drives turn a link" if drive.weight is None else "a weight on a drum turns a link"
         yield Problem(what, why, "give `drive: {weight: 4 kg}` without `drum`", place)
     elif not slides and drive.weight is not None and drive.drum is None:
         what = f"the weight at '{link}' has no `drum`"

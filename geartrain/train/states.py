@@ -364,7 +364,7 @@ def _read_sense(raw: object) -> object:
         "one_way",
         "`one_way` needs a sense of rotation",
         {
-            "why": f"{raw!r} is not a sense",
+            "why": f"{raw!r} is not a sense of rotation",
             "fix": "write `one_way: forward` or `one_way: backward`: the sense in which it may turn",
         },
     )

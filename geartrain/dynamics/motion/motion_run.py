@@ -253,7 +253,7 @@ class MotionRun(Tabular, Pictured):
             raise QuestionError(
                 Problem(
                     f"samples = {self.samples} is too small",
-                    "at least two positions of the input are needed",
+                    "a run has at least two positions of the input",
                     "pass samples >= 2",
                 )
             )

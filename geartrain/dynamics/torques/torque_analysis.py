@@ -563,7 +563,7 @@ def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | N
     """Return a verdict if the only requested link is at rest while the train moves; else None."""
     speeds = setting.speeds
     if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
-        return TorqueVerdict("still", f"'{requested[0]}' does not turn, so no torque on it does any work")
+        return TorqueVerdict("still", f"'{requested[0]}' does not turn, so a torque on it does no work")
     return None
 
 

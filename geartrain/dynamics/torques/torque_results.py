@@ -284,8 +284,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
     MEANINGS: ClassVar = {
         "link": "Link with an external torque.",
         "torque": "External torque on the link",
-        "speed": "Speed of the link; empty where it is not determined",
-        "power": "Power that the torque puts into the train; empty where the speed is not determined",
+        "speed": "Speed of the link; empty if it is not determined",
+        "power": "Power that the torque supplies to the train; empty if the speed is not determined",
     }
 
     PAGE = "report.torque_report:torques_document"

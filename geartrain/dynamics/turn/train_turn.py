@@ -106,7 +106,7 @@ def solve(
         raise QuestionError(
             Problem(
                 f"samples = {samples} is too small",
-                "at least two positions of the input are needed",
+                "a run has at least two positions of the input",
                 "pass samples >= 2",
             )
         )

@@ -224,8 +224,8 @@ class _DeclaredCoupling(NamedTuple):
         coaxial = _shared_axis(tree, *ends) is not None
         if carrier is None and row.carrier is not None and coaxial:
             what = f"'{row.carrier}' is not coaxial with '{row.driver}' and '{row.driven}'"
-            why = "the carrier of a coaxial pair turns on the axis of the pair, or bears this axis"
-            fix = "name a link on this axis as `carrier`, or omit it for the link that bears the axis"
+            why = "the carrier of a coaxial pair turns on the axis of the pair, or carries this axis"
+            fix = "name a link on this axis as `carrier`, or omit it to use the link that carries the axis"
             return self._problem(what, why, fix, "carrier")
         if carrier is None:
             return _no_carrier(self.train, tree, row.id, *ends, ("couplings", self.at))

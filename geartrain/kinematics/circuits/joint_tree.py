@@ -714,7 +714,7 @@ def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterato
 def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
     links = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     return Problem(
-        f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which makes a linkage",
+        f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which would form a linkage",
         f"a closed chain of {len(rigid.joints)} turning pairs may move with a varying ratio, which a gear train "
         "cannot have",
         f"fix or lock a link in between ({', '.join(links)}), or lock coaxial links",

@@ -310,7 +310,7 @@ class SymbolicEquations:
             if kind == "share":
                 row = self._form(subject)
                 add_into(row, self._relative_form(node), self._constant(-1))
-                yield row, f"'{parts.links[subject]}' is driven in more than one way"
+                yield row, f"'{parts.links[subject]}' is driven by several causes"
             else:  # a component that is locked to its carrier for all counts
                 yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' locks its wheels"
 

@@ -78,7 +78,7 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
         raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give only one of them"))
     if workers is not None and workers < 1:
         what = f"the number of workers is {workers}"
-        raise QuestionError(Problem(what, "at least one worker is needed", "give 1 or more"))
+        raise QuestionError(Problem(what, "a run has at least one worker", "give 1 or more"))
     if dask is not None:
         from geartrain.numerics.work.cluster import DaskPool
 

@@ -12,7 +12,7 @@ def public_names(
 ) -> tuple[Callable[[str], Any], list[str]]:
     """Return the function `__getattr__` and the sorted names `__all__` of a package.
 
-    modules       module in `package` -> names that it defines, separated by blanks; leading dots refer to parent packages
+    modules       module in `package` -> names that it defines, separated by blanks; leading dots mean parent packages
     subpackages   names of packages in `package` that are its attributes without an import statement, separated by
                   blanks; they are not part of `__all__`
     """

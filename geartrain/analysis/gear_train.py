@@ -757,9 +757,7 @@ class GearTrain:
 
     @property
     def unfolded(self) -> GearTrain:
-        """Train in which each of several equal planets (`copies`) is declared as a separate link; self if there are
-        none.
-        """
+        """Train in which each equal planet (`copies`) is declared as a separate link; self if there are none."""
         # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
@@ -778,9 +776,7 @@ class GearTrain:
 
     @cached_property
     def mechanics(self) -> TrainMechanics:
-        """Results that depend on tooth forms and loads: driving wheels of pairs, transmission errors, pins and
-        torques.
-        """
+        """Results that depend on tooth forms and loads: drivers of pairs, transmission errors, and torques."""
         from geartrain.dynamics.train_mechanics import TrainMechanics
 
         return TrainMechanics(self.kinematics)

@@ -77,8 +77,6 @@ def _places(declared: Train) -> Mapping[str, _Place]:
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """Return a nominal half cone angle [rad]: 0 for a spur wheel without bevel mates, 1 for wheels without plane
-    teeth.
-    """
+    """Return a nominal half cone angle [rad]: 0 for a spur wheel without bevel mates, 1 if teeth are not plane."""
     mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
     return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

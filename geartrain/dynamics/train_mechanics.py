@@ -131,9 +131,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """Problems that prevent declared teeth from turning in a driving direction that occurs in at least one
-        state.
-        """
+        """Problems that prevent declared teeth from turning in a driving direction that occurs in a state."""
         if not self.teeth:
             return ()
         from geartrain.teeth.gear_mesh import find_faults

@@ -108,9 +108,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Return the graph as Graphviz text: thin turning pairs, thick gear pairs, dashed couplings, a box for the
-    frame.
-    """
+    """Return the graph as Graphviz text: thin turning pairs, thick gear pairs, dashed couplings, a box as frame."""
     lines = [f"graph {_quoted(graph.name)} {{", "  node [shape=circle];"]
     for link, data in graph.nodes(data=True):
         lines.append(f"  {_quoted(link)}{' [shape=box]' if data['frame'] else ''};")

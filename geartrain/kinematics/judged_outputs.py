@@ -288,9 +288,7 @@ class OutputResult(Result):
 
     @property
     def differs_in_sign(self) -> bool:
-        """True if the output violates its `expect` or `published` value, and would satisfy both with the opposite
-        sign.
-        """
+        """True if the output violates `expect` or `published`, and would satisfy both with the opposite sign."""
         if self.speed is None or (self.expect_holds is not False and self.published_holds is not False):
             return False
         expected = self.expect_holds is not False or _expect_holds(self.output, -self.speed)

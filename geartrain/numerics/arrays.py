@@ -27,9 +27,7 @@ NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
 
 
 def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
-    """Return a named tuple of arrays with the entries that an index or mask selects along the last axis of each
-    array.
-    """
+    """Return a named tuple of arrays with the entries that an index or mask selects along the last axis."""
     kind: Any = type(columns)
     found: NamedArrays = kind(*(each[..., which] for each in columns))
     return found

@@ -83,9 +83,7 @@ class Shown:
 
 
 def _described(result: object, name: str) -> Any:
-    """Call the function named `package.module:function` with an object and return its result; None if the name is
-    empty.
-    """
+    """Call the function named `package.module:function` with an object and return its result; None if unnamed."""
     if not name:
         return None
     module, _, function = name.partition(":")

@@ -117,9 +117,7 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
 
 @dataclass(frozen=True)
 class TipCollision:
-    """Two gears that do not mesh but whose tips may collide, because their pitch circles are less than two modules
-    apart.
-    """
+    """Two gears that do not mesh but may collide, because their pitch circles are less than two modules apart."""
 
     gears: tuple[str, str]
     """Names of the two gears."""

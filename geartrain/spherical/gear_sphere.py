@@ -177,9 +177,7 @@ class GearSphere(Result):
 
     @property
     def radii(self) -> Mapping[str, float | None]:
-        """Pitch radius of each kind of gear, in the unit of `radius`; all values are None if a tooth number is
-        missing.
-        """
+        """Pitch radius of each kind of gear, in the unit of `radius`; all are None if a tooth number is missing."""
         return {kind: None if cone is None else self.radius * sin(cone) for kind, cone in self.cones.items()}
 
     @property

@@ -129,9 +129,7 @@ def frames(axes: Floats) -> Floats:
 
 
 def azimuths(axes: Floats, at: Ints, to: Ints) -> Floats:
-    """Return the direction of axis `to` about axis `at` [rad], counterclockwise from the first vector of its
-    `frames`.
-    """
+    """Return the direction of axis `to` about axis `at` [rad], counterclockwise from the first of its `frames`."""
     across = frames(axes)[at]
     first, second = (np.einsum("px,px->p", across[:, k], axes[to]) for k in (0, 1))
     return np.asarray(np.arctan2(second, first), dtype=float)

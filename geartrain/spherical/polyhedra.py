@@ -313,9 +313,7 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
 
 
 def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tuple[int, ...], Floats, float]:
-    """Return a face as a cycle of vertices, counterclockwise as seen from outside, with its outward normal and its
-    height.
-    """
+    """Return a face as a cycle of vertices, counterclockwise from outside, with its outward normal and height."""
     index = np.array(sorted(members))
     centre = vertices[index].mean(axis=0)
     arms = vertices[index] - centre

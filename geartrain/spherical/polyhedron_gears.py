@@ -311,9 +311,7 @@ def _letters(at: int) -> str:
 
 
 def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
-    """Return for each gear the minimum number of meshes that connect it to a gear in `start`, by breadth-first
-    search.
-    """
+    """Return for each gear the minimum number of meshes from a gear in `start`, by breadth-first search."""
     mates = defaultdict(list)
     for i, j in layout.meshes:
         mates[i].append(j)

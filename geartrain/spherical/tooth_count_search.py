@@ -181,9 +181,7 @@ class ToothCountCompromise(Shown):
     cones: tuple[tuple[float, float], ...]
     """Half-angles of the operating pitch cones of the two gears in each kind of mesh [rad]."""
     pressure: tuple[float, ...]
-    """Operating pressure angle of each kind of mesh for a common base pitch [rad]; NaN if involutes cannot be in
-    mesh.
-    """
+    """Operating pressure angle of each kind of mesh for a common base pitch [rad]; NaN without contact."""
     room: float
     """Minimum distance between the pitch circles of gears that do not mesh [modules]."""
     residue: float

@@ -78,9 +78,7 @@ _TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem if a target is not in the table, is a count, or has a dimension that differs from the train's
-    unit.
-    """
+    """Yield a problem if a target is unknown, is a count, or has another dimension than the train's unit."""
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)
@@ -465,9 +463,7 @@ def _unresolved(train: Train) -> Iterator[Problem]:
 
 
 def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
-    """Yield the kind, name (None if none is given) and path of all references, except those of turning and gear
-    pairs.
-    """
+    """Yield the kind, name (None if not given) and path of all references, except of turning and gear pairs."""
     loc: Loc
     for at, coupling in enumerate(train.couplings):
         yield from ((kind, name, ("couplings", at, *path)) for kind, name, path in coupling.references())

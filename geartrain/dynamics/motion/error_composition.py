@@ -245,15 +245,11 @@ class ErrorComposition:
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
-        """Return the change of a driver's angle in its mean sense [rad] due to the errors of all links, `error`
-        [rad].
-        """
+        """Return the change of a driver's angle in its mean sense [rad] due to `error`, the errors of links [rad]."""
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
-        """Return a driver's angle in its mean sense of rotation [rad]; `error` is the error of each link, by index
-        [rad].
-        """
+        """Return a driver's angle in its mean sense [rad]; `error` is the error of each link, by index [rad]."""
         S = phase.cycles(source.cycles) * source.transmission.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]

@@ -100,9 +100,7 @@ def count_extremes(
 
 
 def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -> Iterator[tuple[Floats, Floats]]:
-    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, at most `size` pieces at
-    once.
-    """
+    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, for `size` pieces at once."""
     narrowest = min(searches, key=lambda each: each.step)
     for steps in narrowest.steps(low, high):
         kinks = [search.between(steps).turns for search in searches]

@@ -71,9 +71,7 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of the transmission function of `source`; the only output of the error composition `drivers` is its
-    driver.
-    """
+    """Kinks of the transmission function of `source`, whose driver is the only output of `drivers`."""
 
     source: PairErrorSource
     drivers: ErrorComposition

@@ -126,9 +126,7 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """Drivers of all pairs in one state with known speeds. Efficiencies are computed only for pairs that transmit a
-    load.
-    """
+    """Drivers of all pairs in one state. Efficiencies are computed only for pairs that transmit a load."""
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting

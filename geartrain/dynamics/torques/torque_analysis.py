@@ -56,9 +56,7 @@ class LoadedBalance:
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
     bearings: tuple[BearingTorque, ...] = ()
-    """Friction torques of the bearings; `bearing_friction` is their sum on each link, without load-dependent
-    friction.
-    """
+    """Friction torques of the bearings; `bearing_friction` is their load-independent sum on each link."""
     bearing_loads: BearingLoads | None = None
     """Loads of the bearings whose friction depends on the load; None if there are none."""
 
@@ -440,9 +438,7 @@ def torques_unknown(state: str | None) -> Torques:
 
 
 def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
-    """Compute the torques if the torques `drag` act on links and power enters at the inputs; bearing friction is
-    neglected.
-    """
+    """Compute the torques if power enters at the inputs and the torques `drag` act; bearing friction is neglected."""
     if (verdict := _without_axis(setting, drag)) is not None:
         return Torques(setting.case.state, verdict)
     links = power_inputs(setting)
@@ -497,9 +493,7 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Compute the torques if a unit of power leaves at `load` and the link `source` drives; bearing friction is
-    neglected.
-    """
+    """Compute the torques if `source` drives and unit power leaves at `load`; bearing friction is neglected."""
     if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):

@@ -39,9 +39,7 @@ class LoadedPair:
     b: int
     """Coefficient of the second link in the pair's Willis equation."""
     rolling: Fraction
-    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), where w is the angular speed of a link; 0 without relative
-    motion.
-    """
+    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), where w are angular speeds; 0 without relative motion."""
     forward: Fraction = Fraction(1)
     """Efficiency with the first link driving, at most 1; 0 or less means self-locking. `backward` is the efficiency
     with the second link driving.
@@ -63,9 +61,7 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed. Power flows from the first link to the second if the multiplier has the opposite
-        sign.
-        """
+        """Sign of the rolling speed; power flows from first to second link if the multiplier has the opposite sign."""
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
@@ -286,9 +282,7 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques for one pattern of power flow: multipliers of meshes, unknown external torques, and torques of brakes and
-    locks.
-    """
+    """Torques for one pattern of power flow: multipliers of meshes, external torques, torques of brakes and locks."""
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
@@ -324,9 +318,7 @@ def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """Return the balance with generic coefficients, which do not cancel by coincidence. It determines the order of
-    solution.
-    """
+    """Return the balance with generic coefficients, which do not cancel; it determines the order of solution."""
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(

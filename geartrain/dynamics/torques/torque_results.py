@@ -114,9 +114,7 @@ class PairTorque(Result):
     reaction of the force acts on the third link, and the reaction of the torque on a fourth link.
     """
     torques: tuple[Fraction, ...]
-    """Torques on `links`, each about its own axis, or forces on links that slide [N m or N, or numbers without a
-    unit].
-    """
+    """Torques on `links` about their own axes, or forces on sliding links [N m or N, or numbers without a unit]."""
     multiplier: Fraction
     """Multiplier x of the pair's Willis equation. Without losses, the torque on the first link is x times its
     coefficient a.

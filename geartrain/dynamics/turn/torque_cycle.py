@@ -215,9 +215,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     maximum: TorqueExtreme | None = None
     """Maximum torque of all solutions at all positions, with its position; None if the train locks at some position."""
     minimum: TorqueExtreme | None = None
-    """Minimum torque in the solution with minimum loss, with its position; None if the train is locked at all
-    positions.
-    """
+    """Minimum torque in the solution with minimum loss, with its position; None if the train is always locked."""
     starting: TorqueExtreme | None = None
     """Maximum breakaway torque over all positions, which starts the train at any of them; None if no torque starts it
     at some position.

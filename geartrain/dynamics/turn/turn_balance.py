@@ -259,9 +259,7 @@ class PositionTorques(NamedTuple):
     """True where a link rests within its backlash, or where no choice of flanks is consistent with the torques."""
     layers: Floats
     torque: Floats
-    """Unknown torque on each requested link about its own axis in the solution with minimum loss, shape (requested,
-    n).
-    """
+    """Unknown torque on each requested link in the solution with minimum loss, shape (requested, n)."""
     highest: Floats
     """Unknown torque on each requested link in the solution with maximum loss, shape (requested, n)."""
     speeds: Floats
@@ -536,9 +534,7 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Return the magnitude of the friction torque of a bearing. Drag is 0 for static friction and for a link at
-        rest.
-        """
+        """Return the magnitude of a bearing's friction torque; drag is 0 for static friction and at rest."""
         own, loaded = self.bearings[link], state.loaded.get(link, np.zeros(len(speed)))
         if state.static:
             return own.static + loaded

@@ -67,7 +67,7 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Two terms (sign, tooth count) that add up to twice the centre distance [modules]: z1 + z2, or z_ring -
+        """Two terms (sign, tooth count) with twice the centre distance [modules] as sum: z1 + z2, or z_ring -
         z_mate.
         """
         first, second = self.parts
@@ -120,9 +120,7 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Canonical form of the meshes, which is equal for planets that mesh in the same way with the same central
-        wheels.
-        """
+        """Canonical form of the meshes, which is equal for planets with equal meshes with the same central wheels."""
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -476,9 +474,7 @@ def check_planets(
 
 
 class _EqualPlanets:
-    """Equal sets of planets on one carrier. They are evenly spaced unless the positions of all their axes are
-    declared.
-    """
+    """Equal sets of planets on one carrier, evenly spaced unless the positions of all their axes are declared."""
 
     def __init__(
         self,
@@ -635,9 +631,7 @@ class _EqualPlanets:
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if it is
-        unknown.
-        """
+        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if unknown."""
         tips = self._tip_diameter(planet, mesh)
         # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
@@ -671,9 +665,7 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if it is
-        unknown.
-        """
+        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if unknown."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None

@@ -19,15 +19,11 @@ from geartrain.kinematics.formulas import laurent
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one step, which take a few seconds; longer polynomials are of no practical
-use.
-"""
+"""Maximum number of products of terms in one step, which takes seconds; longer polynomials are of no practical use."""
 
 
 class Term(NamedTuple):
-    """Integer coefficient times a product of powers. Exponents are in the order of the wheels, or of the groups of
-    wheels.
-    """
+    """Integer coefficient times a product of powers; exponents are in the order of the wheels or their groups."""
 
     coefficient: int
     exponents: Exponents

@@ -263,9 +263,7 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of link `to` of a circuit divided by the speed of its other link, both relative to their
-        carrier.
-        """
+        """Return the speed of link `to` divided by the speed of the circuit's other link, relative to the carrier."""
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())
@@ -444,9 +442,7 @@ def _with_value(wheel: Wheel, count: int) -> int | Teeth:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations that affect the outputs. Variable counts are represented by different large random
-    numbers.
-    """
+    """Return the equations that affect the outputs; large random numbers represent the variable counts."""
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)

@@ -34,9 +34,7 @@ from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.graphs import DisjointSets
 
 MOST_COUPLED = 2000
-"""Maximum number of meshes for which a removal over several carriers is searched, because each trial solves the
-train.
-"""
+"""Maximum number of meshes for which a removal over several carriers is searched; each trial solves the train."""
 _ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
 _TRIALS = 3000  # maximum number of sets that are tried
 

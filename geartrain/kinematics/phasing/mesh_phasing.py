@@ -171,9 +171,7 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the congruence row · x = 0 (mod power) in reduced form, as a modulus and the smallest equivalent
-    weights.
-    """
+    """Return the congruence row · x = 0 (mod power) in reduced form, as modulus and smallest equivalent weights."""
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
@@ -230,9 +228,7 @@ class LoopPhase(Result):
     slack: float
     """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is exact."""
     how: ResidueKnowledge
-    """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions), or
-    "numeric".
-    """
+    """Accuracy of the residue: "exact", "recognised" (exact, with inferred fractions), or "numeric"."""
     inside: Mapping[str, Fraction | float] | None
     """Signed angle of the arc inside the loop at each wheel [turn], which is the coefficient of its tooth count in the
     sum of the phase equations; None for loops with compound wheels.
@@ -314,9 +310,7 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of the sum of a loop's phase equations if one wheel is rotated on its arbor by one pitch
-    [pitch].
-    """
+    """Return the change of a loop's sum of phase equations [pitch] if a wheel turns on its arbor by one pitch."""
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 

@@ -202,9 +202,7 @@ class PhaseCondition:
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions) or
-        "numeric".
-        """
+        """Accuracy of the residue: "exact", "recognised" (exact, with inferred fractions), or "numeric"."""
         if not isinstance(self.residue, Fraction):
             return "numeric"
         return "recognised" if self.guessed else "exact"

@@ -79,9 +79,7 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return the factor of each equation by its number, from a row in which column -1 - n is the symbol of equation
-    n.
-    """
+    """Return the factor of each equation n, from a row in which column -1 - n is the symbol of the equation."""
     return {-1 - column: value for column, value in row.items()}
 
 

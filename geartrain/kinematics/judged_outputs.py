@@ -445,7 +445,7 @@ def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> Tar
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity(Result):
-    """Effect of one tooth fewer or one tooth more on an uncertain wheel on the speed of an output, computed exactly.
+    """Exact change of the speed of an output if an uncertain wheel has one tooth fewer or one tooth more.
 
     Examples
     --------

@@ -66,7 +66,9 @@ class PeriodicFunction(ABC):
 
     @cached_property
     def _samples(self) -> Floats:
-        """Ascending positions over one period at most `resolution` apart, including both sides of every breakpoint."""
+        """Ascending positions over one period, at most `resolution` apart, with positions on both sides of every
+        breakpoint.
+        """
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
         counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)

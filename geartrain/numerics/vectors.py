@@ -122,7 +122,7 @@ def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return unit vectors right and up for a viewer who looks against the normal; x and y if the normal is z."""
+    """Return the unit vectors that point right and up for a viewer who looks against a normal; x and y for z."""
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
         return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)

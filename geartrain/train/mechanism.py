@@ -285,7 +285,7 @@ class Teeth(Declared):
 
     @property
     def searched(self) -> Sequence[int]:
-        """Counts of `search` in ascending order; empty if `search` is not declared."""
+        """Tooth counts declared by `search`, in ascending order; empty if `search` is not declared."""
         if self.search is None:
             return ()
         if isinstance(self.search, OwnedWheels):

@@ -173,7 +173,7 @@ class BearingLoads:
 
     @cached_property
     def _shares(self) -> Floats:
-        """Fraction of each force that each bearing takes, shape (bearings, forces)."""
+        """Fraction of each force that each bearing carries, shape (bearings, forces)."""
         found = np.zeros((len(self._supports), len(self.forces)))
         for row, (number, own, other) in enumerate(self._supports):
             for column, force in enumerate(self.forces):
@@ -191,7 +191,7 @@ class BearingLoads:
 
     @cached_property
     def _weights(self) -> Floats:
-        """Weight that each bearing takes [N], shape (bearings, 3, 1)."""
+        """Weight that each bearing carries [N], shape (bearings, 3, 1)."""
         found = np.zeros((len(self._supports), 3, 1))
         for row, (number, own, other) in enumerate(self._supports):
             mass = sum(mass or 0.0 for link, mass in self.masses.items() if self._inside(self.links[number], link))
@@ -308,7 +308,7 @@ class BearingLoads:
 
 
 def _share(own: float | None, other: float | None, place: float | None) -> float:
-    """Return the fraction of a force that a bearing takes, by the law of the lever."""
+    """Return the fraction of a force that a bearing carries, by the law of the lever."""
     if own is None or other is None:
         return 1.0
     return 0.5 if place is None else (other - place) / (other - own)

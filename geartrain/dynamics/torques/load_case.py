@@ -291,7 +291,7 @@ class LoadCase:
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
-    """Return the links at which power may enter the train: the inputs, or the crank if it is declared.
+    """Return the links at which power may enter the train: the inputs, or the crank if it is another link.
 
     A crank replaces a single input, which then only prescribes the speed; several inputs remain in addition to the
     crank.

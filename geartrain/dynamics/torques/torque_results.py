@@ -333,8 +333,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
     transmits no torque.
     """
     arms: Mapping[str, Fraction] = field(default_factory=dict)
-    """Lever arm of the force on each link that slides [m]. The power is force times arm times speed, where a speed of 1
-    mm per unit corresponds to one turn.
+    """Lever arm of the force on each link that slides [m]. Power is force times arm times angular speed, where a travel
+    of 1 mm counts as one turn.
     """
 
     def power(self, link: str, load: Fraction) -> Fraction:

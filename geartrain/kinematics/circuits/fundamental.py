@@ -53,7 +53,7 @@ class Circuit(NamedTuple):
     b: int
     """Coefficient b of the speed of link j relative to the carrier in the Willis equation."""
     wheels: tuple[str, str]
-    """Names of the two wheels; for a coupling without teeth, of links i and j."""
+    """Names of the two wheels; for a coupling without teeth, names of links i and j."""
     note: str = ""
     """Remark: the sense of rotation is only a convention, or the links turn as one body; empty if there is none."""
     by_teeth: bool = True
@@ -361,11 +361,10 @@ def _labels(tree: Tree, carrier: str, i: str, j: str) -> tuple[str, str]:
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
-    """Return the carrier of the pair i, j: the link of the tree path at which the axis label changes. None if the label
+    """Return the carrier of the pair i, j: the link of the tree path at which the axis label changes; None if the label
     does not change exactly once.
 
-    If every link is attached to the top of its axis, the label changes once in three cases: the carrier is the top of
-    both links, or it is the top of one link and is on the axis of the other, or it is attached to the other link.
+    All links of an axis are treated as attached to the link that carries the axis.
     """
     parent, top = tree.parent, tree.top
     axis_i = parent[i][1] if i in parent else None

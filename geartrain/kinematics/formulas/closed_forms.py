@@ -226,7 +226,7 @@ class ClosedForm(Result):
 
     @property
     def inverse(self) -> ClosedForm:
-        """Reciprocal of the formula; its denominator is 0 where the formula is 0."""
+        """Reciprocal of the formula, whose denominator is 0 if the formula is 0."""
         width, wheels = len(self.formula.wheels), self.formula.wheels
         top, bottom = (Laurent.of(terms, width) for terms in (self.formula.denominator, self.formula.numerator))
         return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)

@@ -263,7 +263,7 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of link `to` divided by the speed of the circuit's other link, relative to the carrier."""
+        """Return the speed of link `to` divided by that of the circuit's other link, both relative to the carrier."""
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())

@@ -124,8 +124,8 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
 
 
 def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spread: Floats) -> dict[str, float]:
-    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link. Its numerator is `spread`, or is
-    computed exactly if the inverse is available.
+    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link; `spread` is its numerator, which is
+    exact if the inverse was computed.
     """
     if len(x) > _INVERTED:
         return {}

@@ -9,24 +9,21 @@ Exact numbers
     integer_lattice                       integer rows in a rational span
     rational_angles                       angles as fractions of a turn
 Floats
-    rounding_bounds, bounded_polynomials  error-free transformations; quotients of polynomials with error bounds roots
-    bracketed roots, one by one and vectorised
+    rounding_bounds, bounded_polynomials  error-free transformations; quotients of polynomials with error bounds
+    roots                                 bracketed roots, one by one and vectorised
     chebyshev, polynomial_pieces          Chebyshev series and piecewise polynomials
     periodic_function                     periodic functions given by points or harmonics, and their extremes
-                                          confidence_intervals                  confidence intervals of means and
-                                          probabilities
+    confidence_intervals                  confidence intervals of means and probabilities
     vectors, polylines                    vectors in space, exact for exact numbers; polylines
     kernels                               functions in plain Python that numba can compile
 Graphs
     graphs, lazy_graph                    paths in a rooted forest, union-find; networkx graph with lazy attributes
-                                          block_triangular                      matching and strongly connected
-                                          components (Dulmage and Mendelsohn)
+    block_triangular                      matching and strongly connected components (Dulmage and Mendelsohn)
 Values with names and units, and their representation
     quantity                              values with a unit, their limits, and numbers as written
     arrays, labelled_array                array types, named tuples of arrays; arrays with labelled axes
     results                               results as JSON, tables and pictures
     containers                            immutable mappings
-    markdown_text                         text that Markdown interprets literally
 Files, work, modules
     files                                 atomic output of finished texts and tables
     work                                  independent tasks, their journal, and their executors
@@ -46,9 +43,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.labelled_array import LabelledArray as LabelledArray
     from geartrain.numerics.quantity import Figure as Figure
     from geartrain.numerics.quantity import Quantity as Quantity
-    from geartrain.numerics.work.executors import open_executor as open_executor
     from geartrain.numerics.work.journal import Journal as Journal
     from geartrain.numerics.work.task_runner import Execution as Execution
+    from geartrain.numerics.work.task_runner import open_executor as open_executor
     from geartrain.numerics.work.task_runner import run as run
 
 __getattr__, __all__ = public_names(
@@ -58,8 +55,7 @@ __getattr__, __all__ = public_names(
         "exact": "decimal",
         "labelled_array": "LabelledArray",
         "quantity": "Figure Quantity",
-        "work.executors": "open_executor",
         "work.journal": "Journal",
-        "work.task_runner": "Execution run",
+        "work.task_runner": "Execution open_executor run",
     },
 )

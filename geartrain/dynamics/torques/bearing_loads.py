@@ -209,8 +209,8 @@ class BearingLoads:
     def loads(self, reactions: Floats, angles: Floats | None = None, leans: Floats | None = None) -> Floats:
         """Return the load on the bearings of each link [N], shape (links, n), which is the sum over its two bearings.
 
-        reactions   torque on the carrier of each force, about the reference direction [N m], shape (forces, n) angles
-                    angle by which each carrier has turned from its declared position [rad], shape (forces, n)
+        reactions   torque on the carrier of each force, about the reference direction [N m], shape (forces, n)
+        angles      angle by which each carrier has turned from its declared position [rad], shape (forces, n)
         leans       separating force divided by the tangential force, shape (forces, n); None for the mean ratios
         """
         along, apart = (

@@ -151,8 +151,8 @@ def _side(mesh: LoadedPair, link: str) -> int:
 def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
     """Return the efficiency of a screw gear pair, equation (12c) of docs/theory.md; 0 or less means self-locking.
 
-    driving, driven   helix angles of the driving and driven wheel [rad], positive for right-hand helices pressure_angle
-                      normal pressure angle [rad]
+    driving, driven   helix angles of the driving and driven wheel [rad], positive for right-hand helices
+    pressure_angle    normal pressure angle [rad]
 
     Only sliding along the teeth at the pitch point is considered; sliding along the profile is small compared with it.
     """

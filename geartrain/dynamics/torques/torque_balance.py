@@ -141,8 +141,8 @@ class TorqueBalance:
     unknown   links with unknown external torque
     reactions link with unknown torque -> link on which the reaction acts if it is not the frame, and the reaction to a
               unit torque
-    held      links braked to the frame; `locks` are pairs of links that are locked together, with the senses of both
-              axes ties      groups of meshes with equal multipliers, such as meshes of equal planets
+    held      links braked to the frame; `locks` are pairs of links that are locked together, with both senses
+    ties      groups of meshes with equal multipliers, such as meshes of equal planets
     shares    declared fractions of the torque of a wheel
     senses    sign of the torque on the last link of a brake or lock that consists of one-way clutches, by its links
     """

@@ -87,7 +87,10 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
     """Return a linear form in which the solved unknowns are replaced by their values."""
     resolved: LinearForm = {}
     for column, coefficient in row.items():
-        add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
+        if column in forms:
+            add_into(resolved, forms[column], coefficient)
+        else:
+            add_into(resolved, {column: coefficient}, 1)
     return resolved
 
 
@@ -435,9 +438,9 @@ def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -
 def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
     """Solve the train in one state exactly, by propagation if it reaches every link, else by reduction and elimination.
 
-    signs    -1 for links whose axis is opposite to the reference direction; the results refer to the declared
-             directions budget   maximum number of operations in addition to linear work; `TooDenseError` is raised
-             beyond it; None for no limit
+    signs    -1 for links whose axis is opposite to the reference direction; results refer to the declared directions
+    budget   maximum number of operations in addition to linear work, beyond which `TooDenseError` is raised; None for
+             no limit
     """
     ratios = _speed_ratios(part, case, signs)
     # if all inputs are 0, only the rank shows whether a link can move
@@ -535,7 +538,12 @@ def _determined_speeds(
     determined = [
         link for link in index if known.issuperset(reduced.unknowns_of(index[link])) or speed(link) is not None
     ]
-    speeds = ItemwiseMapping(determined, lambda link: (speed(link) or _ZERO) * signs.get(link, 1), keep=False)
+
+    def about_own_axis(link: str) -> Fraction:
+        found = speed(link) or _ZERO
+        return -found if signs.get(link, 1) < 0 else found
+
+    speeds = ItemwiseMapping(determined, about_own_axis, keep=False)
     return speeds, [link for link in index if link not in speeds]
 
 

@@ -64,7 +64,7 @@ class _GenevaDeviation(PeriodicFunction):
         self.breakpoints, self.resolution = np.array(kinks), period / 32
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
         x = np.asarray(x, dtype=float)
         u = x - self.period * np.rint(x / self.period)
         # at rest the angle is the angle at the end of the step

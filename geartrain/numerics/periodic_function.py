@@ -42,7 +42,7 @@ class PeriodicFunction(ABC):
 
     period        period, which is positive
     breakpoints   ascending positions in [0, period) at which the function or one of its derivatives is discontinuous
-                  resolution    maximum distance between samples that resolve the function between breakpoints
+    resolution    maximum distance between samples that resolve the function between breakpoints
     """
 
     period: float
@@ -124,7 +124,7 @@ class PeriodicPieces(PeriodicFunction):
 
     starts         ascending positions at which the pieces begin
     coefficients   coefficients of the powers of the distance from the piece's origin, in descending order of powers
-                   period         period, at least the difference between the last and the first start
+    period         period, at least the difference between the last and the first start
     origins        origin of each piece; by default its start
     """
 

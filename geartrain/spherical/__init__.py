@@ -11,14 +11,12 @@ outward axes satisfy z_i w_i = -z_j w_j. The teeth of a loop mesh if its phases 
 
 polyhedra                                    solids by name or from vertices, with their symmetries
 polyhedron_gears                             sets of gears on a solid (axes, kinds, names); survey of solids
-                                             circle_packing, graph_set                    sets of gears from any planar
-                                             graph
+circle_packing, graph_set                    sets of gears from any planar graph
 configuration, assembly                      axes, meshes and kinds of gear of a set; its assembly conditions
-                                             gear_sphere, gear_sizes                      mobility and assembly of a
-                                             set; sizes of its gears
+gear_sphere, gear_sizes                      mobility and assembly of a set; sizes of its gears
 pitch_cones                                  pitch and base cones of a pair
-tooth_count_search                           tooth numbers with nearly equal pitches (exhaustive search) axis_adjustment
-                                             axes adjusted until all meshes have one pitch, or loops close (Newton)
+tooth_count_search                           tooth numbers with nearly equal pitches (exhaustive search)
+axis_adjustment                              axes adjusted until all meshes have one pitch, or loops close (Newton)
 """
 
 from __future__ import annotations

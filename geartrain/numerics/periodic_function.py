@@ -191,8 +191,9 @@ def check_points(
 ) -> None:
     """Raise `RangeError` if the points do not define a periodic function."""
     if interpolation not in get_args(Interpolation):
-        what, why = f"unknown interpolation '{interpolation}'", f"known: {', '.join(get_args(Interpolation))}"
-        raise RangeError(Problem(what, why, "give `interpolation: pchip`"))
+        known = ", ".join(get_args(Interpolation))
+        what, why = f"unknown interpolation '{interpolation}'", f"the interpolations are {known}"
+        raise RangeError(Problem(what, why, "write `interpolation: pchip`"))
     fewest = _FEWEST_POINTS[interpolation]
     if len(positions) < fewest or len(positions) != len(values):
         what = f"{len(positions)} positions and {len(values)} values are not enough points"

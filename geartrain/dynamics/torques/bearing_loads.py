@@ -140,7 +140,7 @@ class BearingLoads:
             )
 
     def _line(self) -> Iterator[AxisForce]:
-        """Yield the pull of the line of a driving weight, which is proportional to the torque on its drum."""
+        """Yield the force of the line of a driving weight, which is proportional to the torque on its drum."""
         drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return

@@ -220,7 +220,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block; it is used if a block leaves an unknown of a later block undetermined."""
+        """Whole balance as one block; used if a block does not determine an unknown that a later block requires."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property

@@ -395,9 +395,9 @@ def _compatibility_number(one: tuple[Any, Any], other: tuple[Any, Any], common: 
 
 
 def bezout(a: int, b: int) -> tuple[int, int, int]:
-    """Return the common divisor g = gcd(a, b) of two non-negative integers, and u, v with u a + v b = g.
+    """Return the greatest common divisor g of two non-negative integers, and u, v with u a + v b = g.
 
-    Extended Euclidean algorithm.
+    They are found by the extended Euclidean algorithm.
 
     >>> bezout(24, 18)
     (6, 1, -1)

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 _MM = 1e-3
 _MOST_ROUNDS = 20_000  # maximum iterations; one that needs more is at the limit of locking
-_GROWTH = 1e12  # of the first torques: a larger friction torque grows without limit
+_GROWTH = 1e12  # multiple of the first torques: a larger friction torque grows without limit
 _KNOWN = -1  # column of the known torques
 
 

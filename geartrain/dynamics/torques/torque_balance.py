@@ -203,7 +203,7 @@ class TorqueBalance:
                 alike.setdefault(tuple(at for at, _, _ in entries), []).append(row)
         kept: list[int] = []
         for group in alike.values():
-            # of proportional rows the first is kept
+            # the first of several proportional rows is kept
             said = {_direction(held[row], known.get(row, Fraction(0))): row for row in reversed(group)}
             kept += said.values() if len(group) > 1 else group
         return {row: known.get(row, Fraction(0)) for row in sorted(kept)}

@@ -11,13 +11,13 @@ from scipy.optimize import brentq
 from scipy.special import ellipk
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics.clock_rate import Timekeeping, circular_error, escapement_error, find_timekeeping
+from geartrain.dynamics.clock_rate import circular_error, escapement_error, find_timekeeping
 from geartrain.train.states import GRAVITY, Drive, Escapement
 
 DAY = 86400
 
 
-def clock(**escapement: Any) -> Timekeeping:
+def clock(**escapement: Any) -> Any:
     """Return the figures of the loaded clock with the given keys of its escapement."""
     data = load("longcase-clock-loaded").declaration.model_dump(exclude_defaults=True)
     data["escapement"] = {"link": "escape", "teeth": 30, "beat": "1 s"} | escapement
@@ -26,7 +26,7 @@ def clock(**escapement: Any) -> Timekeeping:
     return found
 
 
-def figures(train: GearTrain) -> Timekeeping | None:
+def figures(train: GearTrain) -> Any | None:
     setting = train.mechanics.unfolded.load_case(None)
     assert setting is not None
     return find_timekeeping(setting)

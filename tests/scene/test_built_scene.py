@@ -14,7 +14,6 @@ from networkx.utils import UnionFind
 
 import geartrain
 from geartrain.scene import ManufacturingSizes, Scene, SolidModel, SolidPart, build_scene
-from geartrain.scene.elements import ScenePart
 
 RUNS = 0.35  # mm: maximum gap of running and press fits
 # links without parts: parallel cranks carry them, or they have no wheels, and fingers and stars have no solids
@@ -88,7 +87,7 @@ def test_every_link_is_one_solid_body_and_is_borne_by_the_one_that_bears_its_axi
             assert any(one.meets(other) for one in own for other in about), f"{links[at].id} floats"
 
 
-def of_kind(scene: Scene, kind: str) -> list[ScenePart]:
+def of_kind(scene: Scene, kind: str) -> list[Any]:
     return [part for part in scene.parts if part.kind == kind]
 
 

@@ -6,6 +6,7 @@ import re
 from functools import cache
 from itertools import pairwise
 from math import cos, degrees, hypot, sin
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ import geartrain
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.workshop import export_files, notices, wheel_file
-from geartrain.workshop.export.proof.mesh_proof import MeshProof, paired_wheels, prove_mesh, read_wheels
+from geartrain.workshop.export.proof.mesh_proof import paired_wheels, prove_mesh, read_wheels
 
 TRAINS = sorted(geartrain.shipped())
 CHORDS = 2.5e-3  # modules: backlash added by the chords of two flanks
@@ -35,7 +36,7 @@ def thinned(name: str) -> bool:
     return not any(mesh.form == "triangular" for mesh in shipped.train(name).meshes)
 
 
-def proofs(work: SolidModel) -> dict[str, MeshProof]:
+def proofs(work: SolidModel) -> dict[str, Any]:
     """Proof of each pair whose wheels are cut and placed where they mesh, by turning the written outlines."""
     paired = paired_wheels(work, read_wheels(work))
     return {pair: prove_mesh(*each) for pair, each in paired.items() if pair not in work.layout.apart}

@@ -7,6 +7,7 @@ import struct
 from fractions import Fraction
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from shipped import train as load
 import geartrain
 from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.triangle_solids import Solid, approximation_solid, fill
+from geartrain.scene.solids.triangle_solids import approximation_solid, fill
 from geartrain.workshop import train_file, wheel_file
 
 shapely = pytest.importorskip("shapely")
@@ -29,7 +30,7 @@ def workpiece(name: str, state: str | None = None, **making: float) -> SolidMode
     return SolidModel(load(name), ManufacturingSizes(**making), state)
 
 
-def volume(solid: Solid) -> float:
+def volume(solid: Any) -> float:
     """Within a closed surface: tetrahedra from the origin, by the divergence theorem."""
     a, b, c = (solid.vertices[solid.faces[:, k]] for k in range(3))
     return float((a * np.cross(b, c)).sum()) / 6
@@ -270,7 +271,7 @@ def test_a_wheel_of_more_teeth_than_are_cut_is_its_pitch_circle(internal: str) -
     assert float(abs(across - wheel.radius).min()) < 1e-9 * wheel.radius
 
 
-def box(solid: Solid) -> tuple[np.ndarray, np.ndarray]:
+def box(solid: Any) -> tuple[np.ndarray, np.ndarray]:
     return solid.vertices.min(axis=0), solid.vertices.max(axis=0)
 
 

@@ -3,43 +3,26 @@
 from __future__ import annotations
 
 import re
-from functools import cache
 from itertools import pairwise
 from math import cos, degrees, hypot, sin
-from typing import Any
 
 import numpy as np
 import pytest
 import shipped
+from workpieces import proofs, workpiece
 
 import geartrain
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.workshop import export_files, notices, wheel_file
-from geartrain.workshop.export.proof.mesh_proof import paired_wheels, prove_mesh, read_wheels
 
 TRAINS = sorted(geartrain.shipped())
 CHORDS = 2.5e-3  # modules: backlash added by the chords of two flanks
 
 
-@cache
-def workpiece(name: str, **making: float) -> SolidModel:
-    """A shipped train in some sizes, made once for all tests that ask for the same."""
-    train = shipped.train(name)
-    model = SolidModel(train, ManufacturingSizes(**making), train.states[0] if train.states else None)
-    vars(model)["_laid"] = shipped.layout(name)  # as the model itself would lay out the train, for each of its sizes
-    return model
-
-
 def thinned(name: str) -> bool:
     """Whether a maker's backlash applies: triangular teeth have that of their clearance."""
     return not any(mesh.form == "triangular" for mesh in shipped.train(name).meshes)
-
-
-def proofs(work: SolidModel) -> dict[str, Any]:
-    """Proof of each pair whose wheels are cut and placed where they mesh, by turning the written outlines."""
-    paired = paired_wheels(work, read_wheels(work))
-    return {pair: prove_mesh(*each) for pair, each in paired.items() if pair not in work.layout.apart}
 
 
 # ------------------------------------------------------------------------------------------------------ one source
@@ -115,7 +98,9 @@ def beside(points: np.ndarray, vertices: np.ndarray, bulges: np.ndarray) -> np.n
 # ------------------------------------------------------------------------------------------- parts that turn together
 
 
-@pytest.mark.parametrize("name", shipped.every_train(TRAINS))
+@pytest.mark.parametrize(
+    "name", shipped.every_train(TRAINS, dear={"pennestri-2002-missing", "freeth-2021", "huygens-planetarium-1682"})
+)
 def test_wheels_as_cut_turn_with_the_backlash_that_the_readme_states(name: str) -> None:
     for mesh in proofs(workpiece(name, **({"backlash": 0.08} if thinned(name) else {}))).values():
         if mesh.declared > 1e-6:
@@ -204,9 +189,6 @@ def test_the_readme_states_the_backlash_of_every_pair() -> None:
         z = {"s": 24, "p": 18, "ring": 60}
         for angle, wheel in ((first, one), (second, other)):
             assert float(angle) == pytest.approx(degrees(0.1 / z[wheel]), rel=1e-3)
-    jammed = workpiece("ferguson-paradox", backlash=0.05)
-    text = next(each for each in export_files(jammed, ["svg"]) if each.path == "README.md").make().decode()
-    assert re.search(r"^- w101~p20: -0\.3\d+ mm, .*; the pair jams$", text, re.M)
 
 
 # ------------------------------------------------------------------------------------------------ several mates

@@ -16,6 +16,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from places import TRAINS
 from shipped import train as load
+from workpieces import workpiece
 
 import geartrain
 from geartrain import GearTrainError
@@ -24,10 +25,6 @@ from geartrain.scene.solids.triangle_solids import approximation_solid, fill
 from geartrain.workshop import train_file, wheel_file
 
 shapely = pytest.importorskip("shapely")
-
-
-def workpiece(name: str, state: str | None = None, **making: float) -> SolidModel:
-    return SolidModel(load(name), ManufacturingSizes(**making), state)
 
 
 def volume(solid: Any) -> float:
@@ -443,7 +440,7 @@ def test_more_turns_than_key_frames_can_show_are_refused() -> None:
 
 
 def test_the_same_train_is_the_same_file() -> None:
-    works = [workpiece("planetary-24-18-60") for _ in range(2)]
+    works = [SolidModel(load("planetary-24-18-60"), ManufacturingSizes()) for _ in range(2)]
     for make in (lambda work: train_file(work, "glb"), lambda work: wheel_file(work, "s", ".dxf")):
         first, second = map(make, works)
         assert first == second

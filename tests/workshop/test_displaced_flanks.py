@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from sampling import first_few
 
 import geartrain
 from geartrain import GearTrainError
@@ -35,8 +34,8 @@ ARCS = {f"arcs {z1}/{z2}": (z1, z2) for z1, z2 in ((60, 8), (48, 12))}
 BOTH = pytest.mark.parametrize(("name", "driver"), [(name, driver) for name in PAIRS for driver in (1, 2)])
 DRAWN = pytest.mark.parametrize(
     ("name", "driver"),
-    [("involute", 1), ("involute ring", 2), ("cycloidal", 1), ("cycloidal", 2), ("lantern", 1)]
-    + [(name, driver) for name in ARCS for driver in (1, 2)],
+    [("involute", 1), ("involute ring", 2), ("cycloidal", 2), ("lantern", 1)]
+    + [(name, 1 + at % 2) for at, name in enumerate(ARCS)],
 )
 RNG = np.random.default_rng(20)
 
@@ -357,12 +356,11 @@ def test_arcs_without_errors_turn_as_their_transmission_says(name: str, driver: 
 
 
 @ARC_PAIRS
-@pytest.mark.parametrize("moved", first_few(1, [0.02, 0.005]))
-def test_contact_does_not_jump_where_round_tips_stand_still(name: str, driver: int, moved: float) -> None:
+def test_contact_does_not_jump_where_round_tips_stand_still(name: str, driver: int) -> None:
     """The radius of a round tip has no slope at its end; what a slope of rounding says there must not count."""
     at, (one, two), distance = contact_of(name, driver)
-    S = np.linspace(0, two.z * one.pitch, 4001)
-    turned = solve(one, two.displaced(-moved * np.sin(0.7), moved * np.cos(0.7)), distance, S).front.angle
+    S = np.linspace(0, two.z * one.pitch, 2001)
+    turned = solve(one, two.displaced(-0.02 * np.sin(0.7), 0.02 * np.cos(0.7)), distance, S).front.angle
     assert np.diff(turned) == pytest.approx(float(at.ratio) * np.diff(S), rel=1.0)
 
 

@@ -58,7 +58,7 @@ class AssemblyMesh:
     measure: Measure
     """Unit of the common module of the two wheels; empty if no module is declared."""
     module: Fraction | None
-    """Common module of the two wheels [`measure`]; 1 if none is declared, None if different modules are."""
+    """Common module of the two wheels [`measure`]; 1 if none is declared, None if the declared modules differ."""
 
     @property
     def is_free(self) -> bool:

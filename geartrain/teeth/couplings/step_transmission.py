@@ -65,7 +65,7 @@ class _GenevaDeviation(PeriodicFunction):
         self.breakpoints, self.resolution = np.array(kinks), period / 32
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative at given positions, for an order from 0 (the function itself) to 3."""
+        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
         x = np.asarray(x, dtype=float)
         u = x - self.period * np.rint(x / self.period)
         # at rest the angle is the angle at the end of the step

@@ -83,7 +83,7 @@ def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) ->
     delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
     # the determinant is 1 for ideal teeth and changes sign at a dead centre
-    if not (np.linalg.det(jacobian) > 0).all():
+    if not (_determinants(jacobian) > 0).all():
         raise _refusal(pairs.names, _DEAD_CENTRE)
     rate = _solve_coupled(jacobian, slope * turning)
     return delta, rate, turning + pairs.gain @ rate
@@ -147,7 +147,7 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
     """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
-    dead = np.linalg.det(matrices) == 0
+    dead = _determinants(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
     step = np.zeros_like(right)
@@ -158,7 +158,13 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
     """Return the solutions of n small linear systems, shape (pairs, n)."""
+    if len(right) == 1:  # the usual case; LAPACK would take half of the time of the motion
+        return np.asarray(right / matrices[:, 0, 0])
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
+
+
+def _determinants(matrices: Floats) -> Floats:
+    return np.asarray(matrices[:, 0, 0] if matrices.shape[1] == 1 else np.linalg.det(matrices))
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:

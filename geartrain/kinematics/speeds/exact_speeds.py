@@ -89,7 +89,10 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
     """Return a linear form with its solved unknowns replaced by their values."""
     resolved: LinearForm = {}
     for column, coefficient in row.items():
-        add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
+        if column in forms:
+            add_into(resolved, forms[column], coefficient)
+        else:
+            add_into(resolved, {column: coefficient}, 1)
     return resolved
 
 
@@ -535,7 +538,12 @@ def _determined_speeds(
     determined = [
         link for link in index if known.issuperset(reduced.unknowns_of(index[link])) or speed(link) is not None
     ]
-    speeds = ItemwiseMapping(determined, lambda link: (speed(link) or _ZERO) * signs.get(link, 1), keep=False)
+
+    def about_own_axis(link: str) -> Fraction:
+        found = speed(link) or _ZERO
+        return -found if signs.get(link, 1) < 0 else found
+
+    speeds = ItemwiseMapping(determined, about_own_axis, keep=False)
     return speeds, [link for link in index if link not in speeds]
 
 

@@ -6,8 +6,7 @@ that a run killed at any moment can be resumed with the same result. Journals ar
 they are not results, and are removed when the run is complete.
 """
 
-from geartrain.numerics.work.executors import cores, open_executor
 from geartrain.numerics.work.journal import Journal, another_question
-from geartrain.numerics.work.task_runner import Execution, run
+from geartrain.numerics.work.task_runner import Execution, cores, open_executor, run
 
 __all__ = ["Execution", "Journal", "another_question", "cores", "open_executor", "run"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.arrays import blocks, remainder
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
 from geartrain.teeth.tooth_transmission import ToothTransmission
@@ -139,7 +140,7 @@ class TriangularTransmission(ToothTransmission):
         """Return the transmission error [rad of the driven wheel] and the speed ratio tau, with one search of the path
         for both.
         """
-        lag, tau = self._map_all(S, lambda interval, x: (self._lag(interval, x), self._tau(interval, x)), 2)
+        lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
     def _driven(self, driver: int, direction: int) -> TriangularTransmission:
@@ -176,18 +177,25 @@ class TriangularTransmission(ToothTransmission):
         and alpha_1.
         """
         S = np.asarray(S, dtype=float)
+        flat = S.ravel()
+        found = [np.empty_like(flat) for _ in range(count)]
+        for block in blocks(len(flat)):
+            self._map_block(flat[block], what, [each[block] for each in found])
+        return [each.reshape(S.shape) for each in found]
+
+    def _map_block(
+        self, S: Floats, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], found: Sequence[Floats]
+    ) -> None:
         edges = self._edges
-        gone = np.mod(self.direction * S, self.period) + self._start
+        gone = remainder(self.direction * S, self.period) + self._start
         # both terms are within one period, so one subtraction is sufficient
         gone -= np.where(gone < self.period, 0.0, self.period)
         which = np.searchsorted(edges[1:-1], gone, side="right")
-        found = [np.empty_like(S) for _ in range(count)]
         for at, interval in enumerate(self.intervals):
-            chosen = which == at
+            chosen = np.flatnonzero(which == at) if len(self.intervals) > 1 else slice(None)
             x = interval.start - (gone[chosen] - edges[at])
             for each, value in zip(found, what(interval, x), strict=True):
                 each[chosen] = value
-        return found
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
@@ -221,6 +229,12 @@ class TriangularTransmission(ToothTransmission):
 
     def _tau(self, interval: DriveInterval, x: Any) -> Any:
         return self.contact.speed(interval, x, np)
+
+    def _lag_and_tau(self, interval: DriveInterval, x: Any) -> tuple[Any, Any]:
+        if interval.held is not None:
+            return self._lag(interval, x), 0.0
+        alpha2, tau = self.contact.path.tooth_pair.angle_and_speed(interval.phase, x, np)
+        return alpha2 - self.sizes.ratio * x, tau
 
     # ----------------------------------------------------------------------------------------- values over the pitch
 

@@ -496,7 +496,7 @@ def _distinct(numbers: Floats) -> Floats:
 
 
 def _contain(table: Floats | None, bounds: Bounds) -> Bools:
-    """Return whether each range contains an entry of a table; True for all ranges without a table."""
+    """Return whether each range contains an entry of a table; True for all ranges if there is no table."""
     low, high = bounds
     if table is None:
         return np.ones(low.shape, dtype=bool)

@@ -18,7 +18,7 @@ Indices = NDArray[np.intp]
 def packed(values: NDArray[Any], kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> str:
     """Return an array as base64 text of little-endian numbers, row by row.
 
-    Conversion is lossless, and the text is a third as long as decimal numbers.
+    The conversion is lossless, and the text has about a third of the length of decimal numbers.
     """
     return b64encode(values.astype(kind).tobytes()).decode("ascii")
 
@@ -46,16 +46,14 @@ NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
 
 
 def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
-    """Return a named tuple of arrays with the entries that an index or a mask selects along the last axis of each
-    array.
-    """
+    """Return a named tuple of arrays with the entries that an index or mask selects along the last axis."""
     kind: Any = type(columns)
     found: NamedArrays = kind(*(each[..., which] for each in columns))
     return found
 
 
 def joined(sets: Sequence[NamedArrays]) -> NamedArrays:
-    """Join several named tuples of arrays, field by field, along the last axis."""
+    """Join several named tuples of arrays along the last axis, field by field."""
     kind: Any = type(sets[0])
     found: NamedArrays = kind(*(np.concatenate(each, axis=-1) for each in zip(*sets, strict=True)))
     return found

@@ -130,7 +130,7 @@ def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: in
 
 
 def circle(radius: float, centre: Point = (0.0, 0.0), start: float = 0.0, sweep: float = 2 * pi) -> list[Point]:
-    """Return points on a circle; on an arc of `sweep` from `start` [rad] both ends are included."""
+    """Return points on a circle, or on an arc of `sweep` from `start` [rad] including both ends."""
     whole = abs(abs(sweep) - 2 * pi) < _NONE
     count = max(ceil(abs(sweep) / _ARC), 2)
     angles = [start + sweep * at / count for at in range(count + (not whole))]
@@ -186,8 +186,8 @@ def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier; a belt
-    with an idle pulley is off.
+    """Yield the pulleys of a belt, and the straight parts and arcs of the belt, which are fixed to the carrier; the
+    belt is omitted if a pulley idles.
     """
     first = places[0]
     ends = (first.circuit.j, *(place.circuit.i for place in places))
@@ -240,8 +240,8 @@ def belt_outlines(
 ) -> Iterator[list[Point]]:
     """Yield the outlines of the parts of a closed belt: for each pulley its arc, then the straight part to the next.
 
-    The belt passes the pulleys in the order given. `senses` is 1 for pulleys that turn as the first, -1 for pulleys
-    touched by the other side of the belt. Straight parts are common tangents of two circles.
+    The belt passes the pulleys in the order given. `senses` is 1 for pulleys that turn in the sense of the first
+    pulley, and -1 for pulleys touched by the other side of the belt. Straight parts are common tangents of two circles.
     """
     count = len(centres)
     # centres in order of a positive turn about the first pulley, otherwise the belt would run round them backwards
@@ -276,7 +276,8 @@ def belt_outlines(
 def _rolling(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     """Yield two non-circular wheels that roll on each other without slip, from their transmission function.
 
-    At the driver's angle S the speed ratio q' gives the radii C q'/(1 + q') and C/(1 + q') with the axis distance C.
+    At the driver's angle S, the radii are C q'/(1 + q') and C/(1 + q'), with the axis distance C and the speed ratio
+    q'.
     """
     import numpy as np
 

@@ -98,8 +98,8 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return values of a contact in recess: arm, cosine and sine of beta2 - x - y, sine and cosine of beta2 - y,
-        and sine of x.
+        """Return values of a contact in recess: the arm, the cosine and sine of beta2 - x - y, the sine and cosine of
+        beta2 - y, and the sine of x.
 
         The angles of the apices are x and y, and beta2 is the half aperture angle of the driven wheel.
         """
@@ -110,8 +110,8 @@ class ToothPair:
     # -------------------------------------------------------------------------------------------- motion and friction
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad] in a phase: Eq. (7) in approach, Eq.
-        (17) in recess and slip.
+        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad] by Eq. (7) in approach and by Eq. (17)
+        in recess and slip.
 
         In the return phase it is the second root of Eq. (7).
         """
@@ -137,7 +137,9 @@ class ToothPair:
         return self.mirror * self.R1 * q, self.sign2 * arm
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau = d alpha_2 / d alpha_1, Eqs. (12) and (19); negative in the return phase."""
+        """Return the speed ratio tau = d alpha_2 / d alpha_1 by Eqs. (12) and (19); it is negative in the
+        return phase.
+        """
         if phase == RETURN:
             _, _, cos_psi, _, q, _ = self._flank_line(-x, m)
             return -1 - self.D * cos_psi / (self.R2 * q)
@@ -191,7 +193,7 @@ class ToothPair:
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:
-        """Return the sliding efficiency at the friction coefficient f, Eqs. (32) and (33), corrected."""
+        """Return the sliding efficiency at the friction coefficient f by the corrected Eqs. (32) and (33)."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
 
@@ -210,7 +212,7 @@ class ToothPair:
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
         """Return the distances b1 and b2 of both wheel centres from the line of the contact force at the friction
-        coefficient f, Eqs. (28) to (31), corrected.
+        coefficient f, by the corrected Eqs. (28) to (31).
 
         That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
         centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).

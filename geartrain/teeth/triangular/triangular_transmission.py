@@ -121,7 +121,7 @@ class TriangularTransmission(ToothTransmission):
         Parameters
         ----------
         phase, x
-            As in `sliding`.
+            Same as in `sliding`.
         by : PairFriction or None
             Friction as a function of sliding speed; None for the constant coefficient of this function.
         """
@@ -207,7 +207,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle of the driver's tooth from the line of centres at the start of the first interval, modulo the pitch
+        """Angle of the driver's tooth from the line of centres at the start of the first interval, within a pitch
         [rad].
         """
         first = self._drive_intervals[0]
@@ -240,8 +240,8 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals of the path (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of
-        the speed ratio and the line of centres.
+        """Smooth intervals of the path, each as (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks,
+        extrema of the speed ratio and the line of centres.
         """
         return [
             (interval, high, low)
@@ -344,9 +344,7 @@ class TriangularTransmission(ToothTransmission):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of contact over one pitch in order of time, with one row for each sample; ends of intervals are
-    included.
-    """
+    """Table of contact over one pitch in order of time, one row for each sample; ends of intervals are included."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -371,9 +369,7 @@ class ContactCourse(Result):
     driven_arm: Floats
     """Moment arm b2 of the force about the driven wheel's axis, in the unit of the sizes; NaN during a dwell."""
     efficiency: Floats
-    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN during a dwell and where friction
-    locks.
-    """
+    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell and where friction locks."""
 
 
 def contact_course(

@@ -161,7 +161,7 @@ class BearingLoads:
     # -------------------------------------------------------------------------------------------------------- supports
 
     @cached_property
-    def _supports(self) -> tuple[tuple[int, float | None, float | None], ...]:
+    def supports(self) -> tuple[tuple[int, float | None, float | None], ...]:
         """Number of the link, own position and position of the other bearing [m] of each bearing; None without `at`."""
         found: list[tuple[int, float | None, float | None]] = []
         for number, link in enumerate(self.links):
@@ -171,10 +171,10 @@ class BearingLoads:
         return tuple(found)
 
     @cached_property
-    def _shares(self) -> Floats:
+    def shares(self) -> Floats:
         """Part of each force that presses on each bearing, shape (bearings, forces)."""
-        found = np.zeros((len(self._supports), len(self.forces)))
-        for row, (number, own, other) in enumerate(self._supports):
+        found = np.zeros((len(self.supports), len(self.forces)))
+        for row, (number, own, other) in enumerate(self.supports):
             for column, force in enumerate(self.forces):
                 for sign, end, place in zip((-1, 1), force.links, force.places, strict=True):
                     if self._inside(self.links[number], end):
@@ -189,15 +189,15 @@ class BearingLoads:
         return {link: None if mass is None else mass.si for link, mass in carried.items()}
 
     @cached_property
-    def _weights(self) -> Floats:
+    def weights(self) -> Floats:
         """Weight on each bearing [N], shape (bearings, 3, 1)."""
-        found = np.zeros((len(self._supports), 3, 1))
-        for row, (number, own, other) in enumerate(self._supports):
+        found = np.zeros((len(self.supports), 3, 1))
+        for row, (number, own, other) in enumerate(self.supports):
             mass = sum(mass or 0.0 for link, mass in self.masses.items() if self._inside(self.links[number], link))
             found[row, :, 0] = np.array(self._down or (0.0,) * 3) * GRAVITY * mass * _share(own, other, None)
         return found
 
-    def _ways(self, links: Iterable[str]) -> Floats:
+    def ways(self, links: Iterable[str]) -> Floats:
         """Return the reference directions of the axes of links, shape (links, 3, 1)."""
         labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
         ways = [scaled(self.setting.train.axes.get(label, Axis()).way, axes.sign(label)) for label in labels]
@@ -219,16 +219,16 @@ class BearingLoads:
         vectors = reactions[:, None] * along + (np.abs(reactions) * leans)[:, None] * apart
         if angles is not None:
             vectors = self._turned(vectors, angles)
-        total = np.einsum("bf,fdn->bdn", self._shares, vectors) + self._weights
-        ways = self._ways(self.links[number] for number, _, _ in self._supports)
+        total = np.einsum("bf,fdn->bdn", self.shares, vectors) + self.weights
+        ways = self.ways(self.links[number] for number, _, _ in self.supports)
         total = total - ways * (total * ways).sum(axis=1, keepdims=True)
         found = np.zeros((len(self.links), reactions.shape[1]))
-        np.add.at(found, [number for number, _, _ in self._supports], np.sqrt((total**2).sum(axis=1)))
+        np.add.at(found, [number for number, _, _ in self.supports], np.sqrt((total**2).sum(axis=1)))
         return found
 
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
         """Return forces rotated about the axes of their carriers by Rodrigues' formula, shape (forces, 3, n)."""
-        way = self._ways(force.carrier for force in self.forces)
+        way = self.ways(force.carrier for force in self.forces)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
         found: Floats = (vectors - inside) * np.cos(turn) + np.cross(way, vectors, axis=1) * np.sin(turn) + inside

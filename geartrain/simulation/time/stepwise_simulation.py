@@ -108,7 +108,7 @@ class Simulation(Shown):
             self._system.spring_rate[0] = self.drive
         self._state = start_state(model, self._system)
         self._names = list(self.restitution)
-        self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops))
+        self._room = empty_equations(model)
         self._rigid = compliant_teeth(len(model.pairs), None)
         self._run = run_steps.chosen(fast)
         self._torque = np.array(self._system.torque)

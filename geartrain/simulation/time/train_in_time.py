@@ -26,6 +26,7 @@ from geartrain.simulation.time.run_figures import RunFigures
 from geartrain.simulation.time.time_run import TimeRun
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.labelled_array import LabelledArray
@@ -114,6 +115,8 @@ def model_in_time(
 
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
+    # vibration modes, for which no rate is needed, do not depend on friction
+    loads = None if scale is not None else _bearing_loads(train.unfolded, state)
     train = train.planets_as_one
     declared, case, problem = (
         train.declaration,
@@ -132,8 +135,18 @@ def model_in_time(
     inertia = {each.link: each.value for each in find_link_inertias(train, state, with_inputs=True) if each.value}
     found = find_time_case(declared, case, problem, train.tree, inertia, rate, restitution, scale)
     if yields:
-        return CompliantTrain(declared, problem, found, train.tree, case.state, restitution=restitution)
-    return TrainModel(declared, problem, found, train.tree, case.state)
+        return CompliantTrain(declared, problem, found, train.tree, case.state, loads, restitution)
+    return TrainModel(declared, problem, found, train.tree, case.state, loads)
+
+
+def _bearing_loads(train: TrainMechanics, state: str | None) -> BearingLoads | None:
+    """Return the loads of the bearings whose friction depends on them; None if there are none."""
+    if not any(part.friction_radius for part in train.declaration.links.values()):
+        return None
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
+
+    setting = train.load_case(state)
+    return None if setting is None else BearingLoads(setting)
 
 
 def find_vibration_modes(

@@ -143,11 +143,10 @@ class StepEquations(NamedTuple):
     forces: Floats
     """Force of each pair on a bearing for a unit torque on its carrier, along and apart, shape (forces, 2, 3)."""
     direction: Floats
-    """Direction of the load on each support in the last solution, shape (supports, 3)."""
-    pressing: Floats
-    """Friction torque of each bearing by its load, used in the last solution, and by its load in that solution, shape
-    (bearings, 2) [N m].
+    """Direction of the load on each support, shape (supports, 2, 3), and friction torque of each bearing by its load
+    [N m], shape (bearings, 2): as used in the last solution, and as in that solution.
     """
+    pressing: Floats
 
 
 class StepRules(NamedTuple):
@@ -234,7 +233,7 @@ def press(system: ContactSystem, state: ContactState, here: StepEquations, step:
 
     This is the linearisation of rho |R| in Newton's method: its error is of second order in the change of direction.
     """
-    loaded, e, n = system.loaded, here.direction[support], len(here.v)
+    loaded, e, n = system.loaded, here.direction[support, 0], len(here.v)
     m, row = loaded.bearing[support], loaded.supports[support]
     if state.turning[m] == 0:
         return
@@ -278,7 +277,7 @@ def turn_forces(system: ContactSystem, state: ContactState, here: StepEquations,
 
 @kernel
 def find_bearing_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> bool:
-    """Update the loads on all bearings from the impulses; return True if the friction used differs from theirs."""
+    """Compute the loads on all bearings from the impulses; return True if their friction differs from that used."""
     loaded, differs = system.loaded, False
     for m in range(len(here.pressing)):
         here.pressing[m, 0] = here.pressing[m, 1] if state.turning[m] == 0 else 0.0
@@ -302,14 +301,16 @@ def find_bearing_loads(system: ContactSystem, state: ContactState, here: StepEqu
         for x in range(3):
             R[x] -= inside * row[3 + x]
         if state.turning[m] != 0:
-            here.pressing[m, 0] += row[6] * (e[0] * R[0] + e[1] * R[1] + e[2] * R[2]) / step
+            here.pressing[m, 0] += row[6] * (e[0, 0] * R[0] + e[0, 1] * R[1] + e[0, 2] * R[2]) / step
         length = sqrt(R[0] * R[0] + R[1] * R[1] + R[2] * R[2])
         here.pressing[m, 1] += row[6] * length / step
         if length > 0.0:
             for x in range(3):
-                e[x] = R[x] / length
+                e[1, x] = R[x] / length
     for m in range(len(here.pressing)):
-        if abs(here.pressing[m, 1] - here.pressing[m, 0]) * step > SAME_FRICTION * size[m]:
+        # the forces of a train at rest are not determined: stuck bearings keep the loads of the last solution
+        off = abs(here.pressing[m, 1] - here.pressing[m, 0]) * step
+        if state.turning[m] != 0 and off > SAME_FRICTION * size[m]:
             differs = True
     return differs
 
@@ -395,9 +396,12 @@ def correct_bearings(
         now = state.turning[m]
         want = now
         if now == 0:
-            if rate > creep:
+            limit, used = creep, system.sticking[m] + here.pressing[m, 0]
+            if used > 0.0 and here.pressing[m, 0] != here.pressing[m, 1]:
+                limit *= (system.sticking[m] + here.pressing[m, 1]) / used
+            if rate > limit:
                 want = 1
-            elif rate < -creep:
+            elif rate < -limit:
                 want = -1
         elif rate * now < 0.0:
             # a fast reversal changes the sense at once; with `single` the bearing sticks first

@@ -243,7 +243,7 @@ def empty_equations(model: ContactModel) -> StepEquations:
     both, size = (contacts, 2), n + contacts
     shapes: list[Any] = [n, both, both, both, (size, size), size, n, contacts, n, n, n, flanks, flanks, stops]
     pressed = (0, 0) if model.loaded is None else (len(model.loaded.pair), len(model.loaded.bearing))
-    loads: list[Any] = [(pressed[0], 2, 3), (pressed[1], 3), (len(model.bearings), 2)]
+    loads: list[Any] = [(pressed[0], 2, 3), (pressed[1], 2, 3), (len(model.bearings), 2)]
     integers = np.zeros(contacts, dtype=np.int64)
     return StepEquations._make([*map(np.zeros, shapes), integers, *map(np.zeros, loads)])
 

@@ -117,6 +117,10 @@ class BearingFriction(Declared):
     radii: tuple[_Radius, _Radius] | None = Field(
         None, description="Minimum and maximum of the uniform distribution of `radius` in Monte Carlo runs"
     )
+    shared: tuple[Literal["coefficient", "radius"], ...] = Field(
+        ("coefficient", "radius"),
+        description="Quantities drawn once per trial for all bearings, in Monte Carlo runs; others are drawn for each",
+    )
     at: tuple[MeasuredLength, MeasuredLength] | None = Field(
         None,
         description="Positions of two bearings along the axis, as `along` of the wheels; default one bearing in the "

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import isinf, sqrt
+from math import isinf, pi, radians, sin, sqrt
 from pathlib import Path
 from statistics import NormalDist
 from typing import Any
 
 import numpy as np
 import pytest
+from sorge import Pair
 
 from geartrain import GearTrain, load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.numerics import Execution, Journal
+from geartrain.numerics.arrays import Floats
 from geartrain.train.states import HandDrive
 from geartrain.workshop import FeasibilityResult, find_feasibility_plan, read_error_overrides, run_feasibility
 from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan, LoadedPart, wedge_torque
+from geartrain.workshop.monte_carlo.friction_trials import draw_friction
 
 NORMAL = NormalDist()
 MOON = """
@@ -89,12 +92,26 @@ def test_a_held_train_yields_first_at_the_tooth_with_the_largest_force() -> None
 
 
 def test_a_pair_that_jams_is_a_wedge() -> None:
-    front, back = (0.533303317, 0.986484388), (0.477005708, 0.932847613)
-    assert wedge_torque(1, front, back) == pytest.approx(10.4562747, rel=1e-8)
-    assert wedge_torque(front[0], front, back) == pytest.approx(5.57636597, rel=1e-8)
-    front, back = (0.500747886, 0.965080391), (0.522902827, 0.9731)
-    opens = wedge_torque(1, (front[0], 1.0), (back[0], 1.0))
-    assert opens == 0, "without friction the pair releases itself where the backlash opens"
+    """Cases of triangular 48/96 at a clearance factor of 1.01, friction 0.2, by the closure equations of the source."""
+    lean, z = pi / 6, (48, 96)
+    depths = [1 - sin(lean) / sin(lean + pi / each) for each in z]
+    pair = Pair(*z, 1, depths[0] / depths[1], lean, lean, 0.01)
+
+    def front(degrees: float) -> tuple[float, float]:
+        x = radians(degrees)
+        return float(pair.speed(x)), float(pair.efficiency(x, 0.2))
+
+    def back(degrees: float) -> tuple[float, float]:
+        """The mirror image of a front flank; the driven wheel drives, so that friction has the opposite sign."""
+        x = radians(degrees)
+        return float(pair.speed(x)), 1 / float(pair.efficiency(x, -0.2))
+
+    assert back(-7) == pytest.approx((0.477005708, 0.932847613), abs=1e-9)
+    assert wedge_torque(1, front(-2), back(-7)) == pytest.approx(10.4562747, rel=1e-8)
+    assert wedge_torque(front(-2)[0], front(-2), back(-7)) == pytest.approx(5.57636597, rel=1e-8)
+    # past the narrowest place backlash opens: friction alone holds the pair
+    assert wedge_torque(1, front(-5), back(-3)) == pytest.approx(100.710907, rel=1e-8)
+    assert wedge_torque(1, (front(-5)[0], 1), (back(-3)[0], 1)) == 0
     for efficiency, gain in ((0.99, 49.748744), (0.97, 16.412860), (0.95, 9.743590), (0.9, 4.736842)):
         assert wedge_torque(1, (1, efficiency), (1, efficiency)) == pytest.approx(gain, abs=5e-7)
     assert isinf(wedge_torque(1, (1, 1), (1, 1)))
@@ -116,6 +133,104 @@ def test_the_mean_torque_is_that_of_gauss_quadrature_over_the_friction() -> None
     own = np.array([apart.drawn_loads(1, trial).crank for trial in range(48)])  # type: ignore[union-attr]
     assert own.mean() == pytest.approx(mean, abs=4 * sd / sqrt(48))
     assert own.std() / drawn.std() == pytest.approx(sqrt(np.sum(shares**2)) / shares.sum(), rel=0.25)
+
+
+FACTORS = (0.241249, 0.252230, 0.408495, 0.333820)
+"""Loss of each pair per unit of the coefficient of friction."""
+
+
+def crank_of_the_moon(
+    mu: Floats, pivot: Floats, radii: Sequence[Floats], angle: float = 20.0, pitch_points: bool = False
+) -> Floats:
+    """Torque at the crank for 1 N mm on the Moon, from the forces of one pair after the other.
+
+    A pair with the efficiency eta has its force through the point of the line of centres that divides it by eta z2/z1;
+    with `pitch_points` through the pitch point, and the torque of the driver is z1/z2 of that of the driven wheel over
+    eta.
+    """
+    axes = np.array([(-67.5, 0), (0, 0), (25.5, 0), (37.37867647, 13.52394341), (0, 0)])
+    circles = [radius * pivot / np.hypot(1, pivot) for radius in radii]
+    torque, other, slope = np.ones_like(mu), np.zeros((2, len(mu))), np.radians(angle)
+    for pair, (z1, z2) in reversed([*enumerate(((45, 225), (64, 38), (48, 24), (127, 32)))]):
+        line = axes[pair + 1] - axes[pair]
+        length = np.hypot(*line)
+        across = (-1) ** pair * np.array([-line[1], line[0]]) / length
+        way = (np.cos(slope) * across + np.sin(slope) * line / length)[:, None]
+        eta = 1 - FACTORS[pair] * mu
+        ratio = z2 / z1 * (np.ones_like(mu) if pitch_points else eta)
+        force = np.zeros_like(mu)
+        for _ in range(100):
+            friction = circles[pair + 1] * np.hypot(*(force * way + other))
+            force = (torque + friction) / (length * ratio / (1 + ratio) * np.cos(slope))
+        other = -force * way
+        torque = force * length / (1 + ratio) * np.cos(slope) / (eta if pitch_points else 1)
+    return torque + circles[0] * np.hypot(*other)
+
+
+def spread_of_the_crank(angle: float, pitch_points: bool = False) -> tuple[float, float]:
+    """Mean and standard deviation over frictions U(.1, .3), U(.1, .2) and five radii U(1, 3) by Gauss's rule."""
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    grid = np.array(np.meshgrid(*[nodes] * 7)).reshape(7, -1)
+    weight = np.prod(np.array(np.meshgrid(*[weights / 2] * 7)).reshape(7, -1), axis=0)
+    found = crank_of_the_moon(0.2 + 0.1 * grid[0], 0.15 + 0.05 * grid[1], 2 + grid[2:], angle, pitch_points)
+    mean = float(weight @ found)
+    return mean, sqrt(weight @ (found - mean) ** 2)
+
+
+PIVOTS = """
+extends: moon-triangular
+name: moon-with-pivots
+links: {LINKS}
+axes:
+  A: {position: [-67.5 mm, 0 mm, 0 mm]}
+  B: {position: [0 mm, 0 mm, 0 mm]}
+  C: {position: [25.5 mm, 0 mm, 0 mm]}
+  D: {position: [37.37867647 mm, 13.52394341 mm, 0 mm]}
+  E: {position: [0 mm, 0 mm, 0 mm]}
+tooth_form: null
+friction: {sliding: 0.2, range: [0.1, 0.3]}
+loads: {moon: -1 N mm}
+"""
+
+
+def test_each_pivot_has_its_own_radius_and_the_workshop_one_friction() -> None:
+    """Case B2: forces through pitch points give the published 4.27470691 and .38586384; moments balance exactly with
+    the exact points.
+    """
+    assert spread_of_the_crank(30, pitch_points=True) == (
+        pytest.approx(4.27470691, abs=1e-7),
+        pytest.approx(0.38586384, abs=2e-6),
+    )
+    mean, deviation = spread_of_the_crank(20)
+    own = "bearing: {coefficient: 0.15, range: [0.1, 0.2], radius: 2 mm, radii: [1 mm, 3 mm], shared: [coefficient]}"
+    links = ", ".join(f"{link}: {{{own}}}" for link in ("crank", "sun", "c", "d", "moon"))
+    declared, trials = load(PIVOTS.replace("LINKS", links)).declaration, 120
+    found, radii = [], []
+    for trial in range(trials):
+        drawn = draw_friction(declared, 1, trial)
+        bearings = [link.bearing for link in drawn.links.values() if link.bearing is not None]
+        assert len({each.coefficient for each in bearings}) == 1
+        radii.append([each.radius.si for each in bearings if each.radius is not None])
+        mu = float(drawn.friction.sliding.value)  # type: ignore[union-attr]
+        gears = tuple(
+            gear.changed(efficiency=repr(1 - loss * mu)) for gear, loss in zip(drawn.gears, FACTORS, strict=True)
+        )
+        found.append(1e3 * abs(float(GearTrain(drawn.changed(gears=gears)).torques().external["crank"])))
+        if trial == 0:
+            pivot = float(bearings[0].coefficient.value)  # type: ignore[union-attr]
+            alone = crank_of_the_moon(np.array([mu]), np.array([pivot]), [np.array([1e3 * each]) for each in radii[0]])
+            assert found[0] == pytest.approx(alone[0], rel=1e-9)
+    assert np.abs(np.corrcoef(np.array(radii).T) - np.eye(5)).max() < 4 / sqrt(trials)
+    assert np.mean(found) == pytest.approx(mean, abs=4 * deviation / sqrt(trials))
+    assert np.std(found) == pytest.approx(deviation, rel=4 / sqrt(2 * trials))
+    together = declared.changed(
+        links={
+            name: link.changed(bearing=link.bearing and link.bearing.changed(shared=("coefficient", "radius")))
+            for name, link in declared.links.items()
+        }
+    )
+    one = [link.bearing for link in draw_friction(together, 1, 0).links.values() if link.bearing is not None]
+    assert len({each.radius for each in one}) == 1
 
 
 # -------------------------------------------------------------------------------------------------------- probabilities

@@ -67,12 +67,11 @@ class BearingForces:
         problem, wheels = self.model.problem, self.model.train.wheels
         rows = {row.label for row in problem.system.equations}
         own = {each.wheels: each.id for each in problem.circuits if each.kind == "gear" and each.id in rows}
-        found = {}
-        for circuit in self.loads.setting.circuits:
-            name = own.get(tuple(original(wheel, wheels) for wheel in circuit.wheels))
-            if circuit.kind == "gear" and name is not None:
-                found[circuit.id] = name
-        return found
+        gears = (each for each in self.loads.setting.circuits if each.kind == "gear")
+        found = {
+            each.id: own.get((original(each.wheels[0], wheels), original(each.wheels[1], wheels))) for each in gears
+        }
+        return {copy: pair for copy, pair in found.items() if pair is not None}
 
     @cached_property
     def forces(self) -> Mapping[int, AxisForce]:
@@ -129,9 +128,8 @@ class BearingForces:
         return [part * driver, part * driven, *force.along, *(force.lean * each for each in force.apart)]
 
     def _turn(self, carrier: str) -> Floats:
-        declared = self._declared(carrier)
-        sense = self.loads.setting.sense(carrier)
-        return sense * self.model.speeds[self.model.index[declared]]
+        own: Floats = self.model.speeds[self.model.index[self._declared(carrier)]]
+        return self.loads.setting.sense(carrier) * own
 
     @cached_property
     def constant(self) -> Floats:

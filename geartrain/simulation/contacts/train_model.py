@@ -358,11 +358,10 @@ class TrainModel:
             # bearings with proportional forms have one relative speed, so their friction adds up
             scale = float(first)
             key = tuple((at, round(value / scale, 12)) for at, value in _sparse(form).items())
-            joined.setdefault(key, []).append((link, *(abs(scale) * each for each in (sliding, sticking, radius))))
+            joined.setdefault(key, []).append((link, abs(scale) * sliding, abs(scale) * sticking, abs(scale) * radius))
         for key, parts in joined.items():
-            links, sliding, sticking, radii = zip(*parts, strict=True)
-            loaded = {link: radius for link, radius in zip(links, radii, strict=True) if radius}
-            yield Bearing(", ".join(links), dict(key), sum(sliding), sum(sticking), loaded)
+            links, radii = ", ".join(part[0] for part in parts), {part[0]: part[3] for part in parts if part[3]}
+            yield Bearing(links, dict(key), sum(each[1] for each in parts), sum(each[2] for each in parts), radii)
 
     @cached_property
     def _bearing_forces(self) -> BearingForces | None:
@@ -415,7 +414,7 @@ class TrainModel:
             bearings,
             tuple(self._stops()),
             tuple(self._springs()),
-            pressing and pressing.arrays(bearings, senses),
+            None if pressing is None else pressing.arrays(bearings, senses),
         )
 
 

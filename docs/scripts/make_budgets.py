@@ -26,7 +26,7 @@ DRAG = "1 N mm"
 def main() -> None:
     """Compute the budget and draw it."""
     text = "\n".join((ASSUMED, *bearings(geartrain.load(TRAIN))))
-    question = BudgetQuestion(samples=10_000, clearances=(0.3, 0.5, 0.7))
+    question = BudgetQuestion(samples=10_000)
     PICTURE.write_bytes(render(budget_figure(find_budget(geartrain.load(text), question)), ".svg"))
 
 

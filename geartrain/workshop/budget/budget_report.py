@@ -6,10 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, cut, ppm
-from geartrain.workshop.monte_carlo.monte_carlo_report import clearance_table
 
 if TYPE_CHECKING:
-    from geartrain.workshop.budget.crank_load import CrankLoad
     from geartrain.workshop.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
 
 NOT_DECLARED = "not declared"
@@ -53,8 +51,6 @@ def _sections(found: TrainBudget) -> Iterator[Section]:
     yield _drifts(found)
     for pointer in found.pointers:
         yield _pointer(pointer)
-    yield _crank(found)
-    yield _jams(found)
     if found.reversing_drivers:
         names = ", ".join(found.reversing_drivers)
         text = f"Drivers that reverse temporarily; the effect of a reversal is not included in lost motion: {names}."
@@ -121,70 +117,3 @@ def _pointer(pointer: PointerBudget) -> Section:
         sizes = [(name, f"{size:.3g}") for name, size in pointer.pairs.items()]
         tables.append(Table(("single pair", "deg peak to peak"), cut(sizes, most=_PAIRS)))
     return Section(f"Ranked: {pointer.name}", (), tables)
-
-
-def _crank(found: TrainBudget) -> Section:
-    crank = found.crank
-    tables = []
-    if crank.torque is not None or crank.over_turn is not None or crank.weight is None:
-        rows = [(crank.link, _or_undeclared(crank.torque), _efficiency(crank.efficiency), crank.note)]
-        tables = [Table(("link", f"torque{_unit(crank)}", "efficiency", "basis"), rows), *_over_turn(crank)]
-    alone = [(name, f"{each:.4g}") for name, each in crank.pointers.items()]
-    if alone:
-        tables.append(Table(("only this pointer driven", "efficiency"), cut(alone)))
-    return Section("Crank", tuple(_weight(crank)), tables)
-
-
-def _over_turn(crank: CrankLoad) -> Iterator[Table]:
-    """Yield the table of the torque over the run, if loads are declared."""
-    found = crank.over_turn
-    if found is None:
-        return
-    if found.turns is None or found.mean is None:
-        yield Table(("over the run", "torque"), [("-", found.verdict.text)])
-        return
-    torques = (found.mean, found.maximum_torque, found.minimum_torque, found.starting_torque)
-    header = ("turns of the input", f"mean{_unit(crank)}", "maximum", "minimum", "starting", "efficiency")
-    whole = " (one period)" if found.span == found.period else ""
-    row = (f"{found.span:.6g}{whole}", *map(_or_undeclared, torques), _efficiency(found.efficiency))
-    yield Table(header, [row])
-
-
-def _unit(crank: CrankLoad) -> str:
-    """Return the unit of the torques in parentheses; empty if they were not computed over a run."""
-    return f" ({crank.over_turn.unit})" if crank.over_turn is not None and crank.over_turn.unit else ""
-
-
-def _efficiency(value: float | None) -> str:
-    return "0 (no output power)" if value == 0 else _or_undeclared(value)
-
-
-def _weight(crank: CrankLoad) -> Iterator[str]:
-    """Yield a sentence on the weight or the equalised fusee that drives the train, if there is one."""
-    weight = crank.weight
-    if weight is None:
-        return
-    text = f"The drive gives {weight.torque:.4g} {weight.unit} at '{weight.link}'."
-    if weight.needed is not None:
-        word = "the drive suffices" if weight.suffices else "the drive does not suffice"
-        text += f" The train needs up to {weight.needed:.4g} {weight.unit} to start; {word}."
-    if weight.mean is not None and weight.minimum is not None:
-        text += f" The torque at '{weight.wheel}' is {weight.mean:.4g} N m on average and at least {weight.minimum:.4g}"
-        text += "" if weight.efficiency is None else f"; {100 * weight.efficiency:.4g} % of the energy arrives there"
-        text += "."
-    yield text
-
-
-def _or_undeclared(value: float | None) -> str:
-    return NOT_DECLARED if value is None else f"{value:.4g}"
-
-
-def _jams(found: TrainBudget) -> Section:
-    if not found.jams:
-        return Section("Jams over clearance", (f"Not known: {found.jams_note}.",))
-    trials = found.jams[0].events["jam"].of
-    text = (
-        f"Probability of each event in any pair, from {trials} trials each, with 95 % intervals. Clearances below 1 "
-        "are fractions of the clearance window of each pair."
-    )
-    return Section("Jams over clearance", (text,), (clearance_table(found.jams, ("jam", "clash", "dwell")),))

@@ -35,6 +35,7 @@ __getattr__, _names = public_names(
         "kinematics.answer": "Answer Verdict",
         "train.declaration_files": "shipped",
     },
+    "analysis drawing dynamics kinematics report scene search simulation spherical teeth train workshop",
 )
 __all__ = [*_names, "__version__"]
 

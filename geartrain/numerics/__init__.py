@@ -24,7 +24,6 @@ Values with names and units, and their forms
     arrays, labelled_array                array types, named tuples of arrays; arrays with labelled axes
     results                               results as JSON, as tables, as pictures
     containers                            immutable mappings
-    markdown_text                         text that Markdown takes literally
 Files, work, modules
     files                                 atomic output of finished texts and tables
     work                                  independent tasks, their journal, and their executors
@@ -44,10 +43,10 @@ if TYPE_CHECKING:
     from geartrain.numerics.labelled_array import LabelledArray as LabelledArray
     from geartrain.numerics.quantity import Figure as Figure
     from geartrain.numerics.quantity import Quantity as Quantity
-    from geartrain.numerics.work.executors import open_executor as open_executor
     from geartrain.numerics.work.journal import Journal as Journal
     from geartrain.numerics.work.task_runner import Execution as Execution
     from geartrain.numerics.work.task_runner import run as run
+    from geartrain.numerics.work.worker_pool import open_executor as open_executor
 
 __getattr__, __all__ = public_names(
     __name__,
@@ -56,7 +55,7 @@ __getattr__, __all__ = public_names(
         "exact": "decimal",
         "labelled_array": "LabelledArray",
         "quantity": "Figure Quantity",
-        "work.executors": "open_executor",
+        "work.worker_pool": "open_executor",
         "work.journal": "Journal",
         "work.task_runner": "Execution run",
     },

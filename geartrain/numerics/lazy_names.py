@@ -7,15 +7,21 @@ from importlib import import_module
 from typing import Any
 
 
-def public_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], list[str]]:
+def public_names(
+    package: str, modules: Mapping[str, str], subpackages: str = ""
+) -> tuple[Callable[[str], Any], list[str]]:
     """Return the function `__getattr__` and the sorted names `__all__` of a package.
 
-    modules   module below `package` -> names that it defines, separated by blanks; with leading dots, relative to a
-              package above it
+    modules       module below `package` -> names that it defines, separated by blanks; with leading dots, relative to a
+                  package above it
+    subpackages   names of packages below `package` that are attributes of it without an import statement, separated by
+                  blanks; they are not part of `__all__`
     """
     homes = {name: module for module, names in modules.items() for name in names.split()}
 
     def find(name: str) -> Any:
+        if name in subpackages.split():
+            return import_module(f".{name}", package)
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         return getattr(import_module(f".{homes[name]}", package), name)

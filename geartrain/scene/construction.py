@@ -28,7 +28,6 @@ from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, size
 from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.coupling_shapes import find_shapes
 from geartrain.scene.dial_pointers import (
     angles_at_start,
@@ -44,7 +43,7 @@ from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
 from geartrain.scene.movement import MovementStart, find_movement
 from geartrain.scene.scene_run import find_run
-from geartrain.scene.train_scene import Scene, TourStop
+from geartrain.scene.train_scene import CountCondition, CountFormula, Scene, SceneFormulas, TourStop
 from geartrain.train import Output
 
 if TYPE_CHECKING:

@@ -46,7 +46,7 @@ from geartrain.train.fields import (
     Nothing,
     short_for,
 )
-from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
+from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture, material_table
 from geartrain.train.mechanism import (
     Axis,
     Direction,
@@ -693,3 +693,22 @@ class Train(Declared):
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
         """Yield the name and the wheel of every tooth count that is declared with a range or choices."""
         return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.uncertainty)
+
+
+def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
+    """Return the thickness of a wheel along its axis: its declared thickness, else its face width, else the thickness
+    or face width declared for the train; None if none is declared.
+    """
+    return wheel.thickness or wheel.face_width or train.thickness or train.face_width
+
+
+def face_width(train: Train, wheel: Wheel) -> Quantity | None:
+    """Return the face width of a wheel: its declared face width, else its thickness, else the face width or thickness
+    declared for the train; None if none is declared.
+    """
+    return wheel.face_width or wheel.thickness or train.face_width or train.thickness
+
+
+def material_named(train: Train, name: str) -> Material:
+    """Return a material by its name in the train, else in the table of materials that is shipped with geartrain."""
+    return train.materials.get(name) or material_table()[name]

@@ -6,6 +6,8 @@ import dataclasses
 import importlib
 import inspect
 import re
+import subprocess
+import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -163,3 +165,9 @@ def test_a_gap_is_found() -> None:
     assert len(list(gaps("bare", bare))) == 3
     assert list(gaps("full", full)) == []
     assert len(list(gaps("Bare", Bare))) == 3
+
+
+def test_the_packages_are_attributes_of_geartrain_without_an_import_statement() -> None:
+    code = "import geartrain; print(geartrain.teeth.Involute.__name__, hasattr(geartrain, 'tooth'))"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.split() == ["Involute", "False"]

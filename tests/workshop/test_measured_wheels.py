@@ -27,8 +27,8 @@ from geartrain.workshop import (
     run_course,
 )
 from geartrain.workshop.cutting.measured_motion import measured_motion
+from geartrain.workshop.cutting.verb import find_measured_wheels
 from geartrain.workshop.cutting.wheel_estimate import closed_steps, stepped_covariance
-from geartrain.workshop.cutting.wheel_report import find_measured_wheels
 from geartrain.workshop.monte_carlo.trial_block import JAM, RandomStreams, draw_trial_wheels, judge_trial_pairs
 
 FIFTEEN = [

@@ -6,8 +6,8 @@ that a run killed at any moment can be resumed with the same result. Journals ar
 they are not results, and are removed when the run is complete.
 """
 
-from geartrain.numerics.work.executors import cores, open_executor
 from geartrain.numerics.work.journal import Journal, another_question
 from geartrain.numerics.work.task_runner import Execution, run
+from geartrain.numerics.work.worker_pool import cores, open_executor
 
 __all__ = ["Execution", "Journal", "another_question", "cores", "open_executor", "run"]

@@ -22,9 +22,8 @@ from zlib import crc32
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.work.executors import cores
 from geartrain.numerics.work.journal import Journal
-from geartrain.numerics.work.worker_pool import WorkerPool
+from geartrain.numerics.work.worker_pool import WorkerPool, cores
 
 TaskFunction = Callable[[Any], Any]
 ProgressReport = Callable[[int, int], None]

@@ -17,8 +17,8 @@ from geartrain.kinematics.circuits.joint_tree import Axes
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
+from geartrain.train.declaration import wheel_thickness
 from geartrain.train.outputs import looks_away
-from geartrain.train.wheel_stock import wheel_thickness
 
 if TYPE_CHECKING:
     from geartrain.teeth.coupling import Coupling

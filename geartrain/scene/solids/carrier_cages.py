@@ -31,7 +31,7 @@ from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.scene.solids.solid_part import SolidPart, turned_about
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.train.wheel_stock import material_named
+from geartrain.train.declaration import material_named
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

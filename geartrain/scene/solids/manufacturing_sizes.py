@@ -19,7 +19,7 @@ from geartrain.scene.layout.wheel_modules import WIDE
 from geartrain.scene.parts.processes import process_named
 from geartrain.teeth.standard_teeth import BACKLASH, DEDENDUM
 from geartrain.train import GearPair, Train
-from geartrain.train.wheel_stock import wheel_thickness
+from geartrain.train.declaration import wheel_thickness
 
 _SAME_LEVEL = 1e-3  # mm: tolerance for equal thicknesses
 _STOCK = (

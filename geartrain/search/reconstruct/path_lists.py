@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from geartrain.errors import QuestionError
 from geartrain.numerics.arrays import Bools, Floats
-from geartrain.search.reconstruct.quotient_tables import Bounds, QuotientTables, prime_powers
+from geartrain.search.reconstruct.added_counts import Bounds, QuotientTables, prime_powers
 from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     PlacedWheel,

@@ -16,11 +16,10 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.arrays import Bools
 from geartrain.numerics.work import Execution
-from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts
+from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts, QuotientTables
 from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, arranged
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import (
     Arbor,
     ReconstructionProblem,

@@ -16,7 +16,7 @@ from geartrain.simulation.strength.strength_results import WheelForce
 from geartrain.simulation.strength.virtual_spurs import ConeMiddle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
-from geartrain.train.wheel_stock import face_width
+from geartrain.train.declaration import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase

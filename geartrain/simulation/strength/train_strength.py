@@ -29,7 +29,7 @@ from geartrain.simulation.strength.virtual_spurs import SkewPair, VirtualSpurs
 from geartrain.teeth.couplings.pins import PinsInHoles
 from geartrain.teeth.cycloidal_disc import DiscMesh
 from geartrain.train import Train
-from geartrain.train.wheel_stock import face_width, material_named
+from geartrain.train.declaration import face_width, material_named
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase

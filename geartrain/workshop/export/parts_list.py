@@ -10,7 +10,7 @@ import numpy as np
 
 from geartrain.numerics.files import csv_text
 from geartrain.numerics.results import Shown
-from geartrain.train.wheel_stock import material_named
+from geartrain.train.declaration import material_named
 
 if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel

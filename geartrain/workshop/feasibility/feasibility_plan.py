@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.errors import GearTrainError
-from geartrain.train.wheel_stock import material_named
+from geartrain.train.declaration import material_named
 from geartrain.workshop.cutting.declared_errors import ErrorOverride, ErrorSpecification
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction, friction_spreads
 from geartrain.workshop.monte_carlo.trial_block import BLOCK, HAND, STRENGTH, RandomStreams

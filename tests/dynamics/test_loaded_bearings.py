@@ -86,6 +86,39 @@ def test_a_weight_that_relieves_the_bearing_frees_an_arbor_that_would_lock() -> 
     assert "bearings of b" in locked.text
 
 
+VERTICAL = """
+links: {frame: {}, a: {wheels: {w: 20}}, b: {wheels: {v: 20}, mass: MASS kg, BEARING}}
+revolutes: {A: [frame, a], B: [frame, b]}
+axes: {A: {position: [20 mm, 0 mm, 0 mm]}, B: {position: [0 mm, 0 mm, 0 mm]}}
+gears: [w ~ v]
+gravity: [0, 0, -1]
+inputs: {a: 1}
+loads: {b: 0 N mm}
+rate: 1 turn/s
+"""
+SHOULDER = "bearing: {coefficient: 0.15, radius: 1 mm, shoulder: [1 mm, 3 mm]}"
+
+
+def test_a_vertical_arbor_rubs_on_its_shoulder_as_in_case_a4() -> None:
+    train = geartrain.load(VERTICAL.replace("MASS", repr(2 / STANDARD)).replace("BEARING", SHOULDER))
+    (found,) = train.torques().bearings
+    pivot = friction_circle(MU, 1e-3) * found.load
+    assert 1e3 * (abs(float(found.torque)) - pivot) == pytest.approx(0.65, rel=1e-9)
+    # the force of the pair turns the arbor against both: the arm is 10 mm, and the pivot is pressed by it alone
+    assert found.load * 10e-3 * cos(radians(20)) == pytest.approx(0.65e-3 + pivot, rel=1e-9)
+    # the pressure 2 N/(area) times mu times the arm, summed over rings
+    edges = np.linspace(1, 3, 100_001)
+    middle, area = (edges[1:] + edges[:-1]) / 2, np.diff(edges**2)
+    assert np.sum(0.15 * 2 * middle * area) / 8 == pytest.approx(0.65, rel=1e-9)
+    run = with_inertia(train).dynamics(turns=0.1, skip=0.1, steps=200, fast=False)
+    assert run.torque == pytest.approx(0.65e-3 + pivot, rel=1e-9)
+
+
+def test_a_shoulder_with_exchanged_radii_is_refused() -> None:
+    with pytest.raises(geartrain.GearTrainError, match="inner radius"):
+        geartrain.load(VERTICAL.replace("MASS", "1").replace("BEARING", SHOULDER.replace("1 mm, 3 mm", "3 mm, 1 mm")))
+
+
 # ------------------------------------------------------------------------------------------------------- three arbors
 
 TRAIN = """

@@ -107,6 +107,10 @@ class BearingLoads:
             end = self.setting.tree.above(end)
         return end is not None
 
+    def _has_shoulder(self, end: str) -> bool:
+        links = self.setting.train.links
+        return any(links[link].shoulder_friction and self._inside(link, end) for link in self.links)
+
     def _pairs(self) -> Iterator[AxisForce]:
         setting, train = self.setting, self.setting.train
         for circuit in setting.circuits:
@@ -124,6 +128,13 @@ class BearingLoads:
                 continue
             first, second = (point for point in points if point is not None)
             # about the reference direction of parallel axes, as the signs of the torques
+            if any(
+                train.wheels[name][1].is_helical and self._has_shoulder(train.wheels[name][0])
+                for name in circuit.wheels
+            ):
+                self._left_out.setdefault("thrusts of helical teeth on shoulders are not included", []).append(
+                    circuit.id
+                )
             way = scaled((axes[0] or Axis()).way, setting.axes.sign(labels[0]))
             line = across(scaled(minus(second, first), _MM), way)
             i, j = (train.wheels[name][1] for name in circuit.wheels)
@@ -197,6 +208,15 @@ class BearingLoads:
             found[row, :, 0] = np.array(self._down or (0.0,) * 3) * GRAVITY * mass * _share(own, other, None)
         return found
 
+    @cached_property
+    def thrust(self) -> Floats:
+        """Friction torque of the shoulder of each link by the weights along its axis [N m], shape (links, 1)."""
+        down = self._down or (0.0,) * 3
+        along = np.abs(self.ways(self.links)[:, :, 0] @ down)
+        carried = [sum(m or 0.0 for end, m in self.masses.items() if self._inside(link, end)) for link in self.links]
+        shoulders = [self.setting.train.links[link].shoulder_friction for link in self.links]
+        return np.array(shoulders * along * carried)[:, None] * GRAVITY
+
     def ways(self, links: Iterable[str]) -> Floats:
         """Return the reference directions of the axes of links, shape (links, 3, 1)."""
         labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
@@ -239,7 +259,7 @@ class BearingLoads:
 
         Equal planets have equal torques, also if weights or rounding make their loads differ.
         """
-        own = np.array([[self.setting.train.links[link].friction_radius] for link in self.links]) * loads
+        own = np.array([[self.setting.train.links[link].friction_radius] for link in self.links]) * loads + self.thrust
         like, row = equal_planets(balance), {link: at for at, link in enumerate(self.links)}
         return np.array([own[[row[peer] for peer in like.get(link, (link,))]].mean(axis=0) for link in self.links])
 

@@ -83,6 +83,14 @@ class BearingForces:
         """Names of the pairs of the simulated train that press on loaded bearings."""
         return {self.pairs[force.name] for force in self.forces.values()}
 
+    @cached_property
+    def thrust(self) -> Mapping[str, float]:
+        """Friction torque of shoulders by the weights along their axes [N m], by link; equal planets add up."""
+        found: Counter[str] = Counter()
+        for link, torque in zip(self.loads.links, self.loads.thrust[:, 0].tolist(), strict=True):
+            found[self._declared(link)] += torque
+        return found
+
     @property
     def notes(self) -> list[str]:
         """Notes on forces that are not included."""

@@ -350,6 +350,8 @@ class TrainModel:
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
             radius = 0.0 if self.loads is None else self.train.links[link].friction_radius
+            thrust = 0.0 if self._bearing_forces is None else self._bearing_forces.thrust.get(link, 0.0)
+            sliding, sticking = sliding + thrust, sticking + thrust
             form = self._form(link, self.tree.borne_by(link))
             scale = float(np.max(np.abs(form), initial=0.0))
             if not scale or not (sticking or radius):

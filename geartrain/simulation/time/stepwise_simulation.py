@@ -204,6 +204,8 @@ class Simulation(Shown):
     def set_drive(self, value: float) -> None:
         """Set the control value of the drive: a speed or a torque, which applies from the present time.
 
+        The line of a weight continues to press on bearings with its declared force.
+
         Parameters
         ----------
         value : float

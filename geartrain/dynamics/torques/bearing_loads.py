@@ -214,8 +214,9 @@ class BearingLoads:
         down = self._down or (0.0,) * 3
         along = np.abs(self.ways(self.links)[:, :, 0] @ down)
         carried = [sum(m or 0.0 for end, m in self.masses.items() if self._inside(link, end)) for link in self.links]
-        shoulders = [self.setting.train.links[link].shoulder_friction for link in self.links]
-        return np.array(shoulders * along * carried)[:, None] * GRAVITY
+        shoulders = np.array([self.setting.train.links[link].shoulder_friction for link in self.links])
+        found: Floats = GRAVITY * shoulders * along * carried
+        return found[:, None]
 
     def ways(self, links: Iterable[str]) -> Floats:
         """Return the reference directions of the axes of links, shape (links, 3, 1)."""

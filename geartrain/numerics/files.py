@@ -36,10 +36,10 @@ _KINDS = (
 
 
 def destination(path: Path, force: bool = False) -> Path:
-    """Return the file to which a result for `path` is written, after symbolic links are resolved.
+    """Return the file to which a result for `path` will be written, with symbolic links resolved.
 
-    Existing files are overwritten only with `force`, and only if they are regular files whose permissions allow
-    writing, even for root. Otherwise `GearTrainError` is raised. The function does not change the disk.
+    An existing file may only be overwritten with `force`, and only if it is a regular file whose permissions allow
+    writing (also for root). Otherwise `GearTrainError` is raised. The function does not write anything.
     """
     try:
         real, mode = _target(path)
@@ -85,7 +85,8 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
 def place(temporary: Path, path: Path, force: bool = False) -> None:
     """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`.
 
-    The permissions of an overwritten file are kept. Raises `GearTrainError`, or `OSError` for disk errors.
+    The permissions of an overwritten file are kept. Raises `GearTrainError` if a check fails, and `OSError` for disk
+    errors.
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
@@ -99,7 +100,7 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
-    """Return the `GearTrainError` for a file that could not be written because of a disk error."""
+    """Return the `GearTrainError` that reports that a disk error prevented writing a file."""
     why = getattr(error, "strerror", None) or str(error)
     fix = "free disk space, or check the folder and its permissions"
     return GearTrainError(Problem("the file cannot be written", why, fix, str(path)))
@@ -116,7 +117,7 @@ def umask() -> int:
 
 
 def _target(path: Path) -> tuple[Path, int | None]:
-    """Return the target of a path after resolving symbolic links, and its mode; None if it does not exist."""
+    """Return the target of a path with symbolic links resolved, and its mode; None if it does not exist."""
     try:
         mode = os.stat(path).st_mode
     except (FileNotFoundError, NotADirectoryError):
@@ -157,7 +158,7 @@ def _unwritable(folder: Path) -> Problem:
 
 
 def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return the problem to report if an existing file must not be overwritten; None if it may be."""
+    """Return the problem that prevents overwriting an existing file; None if it may be overwritten."""
     if not force:
         return _exists(path)
     if not mode & 0o222 or not os.access(real, os.W_OK):
@@ -179,7 +180,7 @@ def _invalid_name(path: Path, why: str) -> Problem:
 
 
 def _copy_permissions(old: Path, new: Path) -> None:
-    """Copy the permissions of the old file to the new file, and the owner if that is allowed."""
+    """Copy the permissions of the old file to the new file, and its owner if the system allows it."""
     found = old.stat()
     if hasattr(os, "chown"):
         with suppress(OSError):
@@ -188,9 +189,9 @@ def _copy_permissions(old: Path, new: Path) -> None:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Give a file an unused name in one step by a hard link; return False if the disk does not support it.
+    """Give a file a new name in one step by a hard link; return False if the file system does not support hard links.
 
-    Unlike renaming, this fails if another process has created the file in the meantime.
+    Unlike renaming, this fails if another process has created a file with this name in the meantime.
     """
     try:
         os.link(temporary, real)
@@ -203,7 +204,7 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Write a folder to disk (fsync), so that a new name survives a power failure, on systems that support this."""
+    """Write a folder to disk (fsync) on systems that support it, so that a new name survives a power failure."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -215,7 +216,7 @@ def _sync_folder(folder: Path) -> None:
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
     """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written to a folder.
 
-    Without `force`, the error is also raised for existing files.
+    Without `force`, the error is also raised if a file exists.
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
@@ -238,9 +239,9 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
     """Write named files to a folder and return their number.
 
-    The files are created in a temporary folder next to the destination and moved when all files are complete, so that
-    an error in creating them leaves the destination unchanged. Existing files are overwritten only with `force`. Raises
-    `GearTrainError`.
+    The files are created in a temporary folder next to the destination and moved when all are complete, so that an
+    error leaves the destination unchanged. Existing files are overwritten only with `force`. Raises `GearTrainError` if
+    a file cannot be written.
     """
     made: list[str] = []
     try:
@@ -286,10 +287,10 @@ def partial_name(path: Path) -> Path:
 
 
 def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
-    """Return the partial file of a table for `path`, after resolving the symbolic links of the path.
+    """Return the partial file of the table `path`, with the symbolic links of the path resolved.
 
-    An existing partial file belongs to an interrupted run: `resume` continues the run, and `force` overwrites the file.
-    Raises `GearTrainError` if it or the table cannot be written.
+    An existing partial file is from an interrupted run: `resume` continues the run, and `force` overwrites the file.
+    Raises `GearTrainError` if the partial file or the table cannot be written.
     """
     found = partial_name(destination(path, force))
     if found.is_symlink():
@@ -331,7 +332,7 @@ class LongTable:
             raise unfinished_file(self.partial, error) from None
 
     def _truncate_to_whole_rows(self) -> int:
-        """Cut the partial file off after its last complete row; return the number of complete rows."""
+        """Remove an incomplete row at the end of the partial file; return the number of complete rows."""
         # -1, because the first line is the header
         rows, end = -1, 0
         with self.partial.open("rb") as file:
@@ -355,7 +356,7 @@ class LongTable:
         return lines[-1].decode("utf-8") if self.rows else ""
 
     def write(self, rows: list[str]) -> None:
-        """Append rows to the file. Raises `GearTrainError`."""
+        """Append rows to the file. Raises `GearTrainError` if that fails."""
         try:
             self._file.write(("\n".join(rows) + "\n").encode("utf-8"))
         except OSError as error:
@@ -366,7 +367,7 @@ class LongTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Rename the complete file; mark an interrupted file as partial in its last line."""
+        """Rename the file if it is complete; append a line to an interrupted file that marks it as partial."""
         try:
             if kind is not None:
                 self._file.write(f"{PARTIAL_SUFFIX}stopped after {self.rows} rows\n".encode())
@@ -378,14 +379,14 @@ class LongTable:
 
 
 class ColumnTable:
-    """Parquet file that is written by row groups as `name.partial.parquet` and renamed when it is complete.
+    """Parquet file that is written in row groups as `name.partial.parquet` and renamed when it is complete.
 
     about    metadata of the file, by key
     force    True to overwrite an existing table
     replay   True to overwrite the partial file of an interrupted run
 
-    After an interrupt the partial file is closed and readable. Raises `MissingExtraError` if pyarrow is not installed,
-    and `GearTrainError` if the file cannot be written.
+    After an interrupt, the partial file is closed and can be read. Raises `MissingExtraError` if pyarrow is not
+    installed, and `GearTrainError` if the file cannot be written.
     """
 
     def __init__(self, path: Path, about: Mapping[str, str], force: bool = False, replay: bool = False) -> None:
@@ -399,7 +400,7 @@ class ColumnTable:
         self.about, self.rows = dict(about), 0
 
     def write(self, columns: Mapping[str, Any]) -> None:
-        """Append arrays of equal length as one row group. Raises `GearTrainError`."""
+        """Append arrays of equal length as one row group. Raises `GearTrainError` if that fails."""
         table = self._arrow.table(dict(columns))
         try:
             if self._writer is None:
@@ -414,7 +415,7 @@ class ColumnTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Rename the complete file; an interrupted file keeps its partial name."""
+        """Rename the file if it is complete; an interrupted file keeps its partial name."""
         if self._writer is None:
             return
         try:
@@ -431,11 +432,11 @@ _FORMULA = ("=", "@", "+", "-", "\t", "\r", "\n")
 
 
 def csv_line(cells: Iterable[object]) -> str:
-    r"""Format one row as CSV without a line end; cells are quoted where necessary.
+    r"""Format one row as CSV without a line end. Cells are quoted if necessary.
 
     None is written as an empty cell, and floats with all digits.
 
-    Text that a spreadsheet would interpret as a formula is preceded by an apostrophe, except numbers and fractions.
+    An apostrophe is put before text that a spreadsheet would interpret as a formula, except numbers and fractions.
     Control characters are escaped, so that a row is always one line of the file.
 
     >>> csv_line(["a,b", "=1+1", "-254/19", -0.5, None])
@@ -452,7 +453,7 @@ def csv_lines(rows: Iterable[Iterable[object]]) -> list[str]:
 
 
 def csv_text(header: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    """Format a table as CSV, each row ended by a line feed."""
+    """Format a table as CSV in which each row ends with a line feed."""
     return "\n".join((csv_line(header), *csv_lines(rows), ""))
 
 
@@ -469,7 +470,7 @@ def _cell(cell: object) -> object:
 def read_points(path: Path) -> list[tuple[float, float, float]]:
     """Read points from a file with three numbers per line, separated by blanks or commas.
 
-    `#` begins a comment. Raises `GearTrainError` with the invalid lines.
+    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
     """
 
     def point(words: list[str]) -> tuple[float, float, float]:
@@ -482,7 +483,7 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 def read_edges(path: Path) -> list[tuple[str, str]]:
     """Read edges from a file with two names per line, separated by blanks or commas.
 
-    `#` begins a comment. Raises `GearTrainError` with the invalid lines.
+    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
     """
 
     def edge(words: list[str]) -> tuple[str, str]:

@@ -1,4 +1,4 @@
-"""Recognition of rational angles, in turns: exactly for integer vectors, and from the digits of a float."""
+"""Recognition of rational fractions of a turn, exactly for integer vectors, or from the digits of a float."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ _DENSITY = 3 / math.pi**2  # about this times q squared reduced fractions below 
 
 
 def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction | None:
-    """Return the angle [turn] from u to v if it is a rational number, else None; exact for integer vectors.
+    """Return the angle from the integer vector u to v if it is a rational fraction of a turn, else None [turn].
 
-    The square of the cosine, (u.v)^2 / (u.u v.v), is rational. By Niven's theorem (cos 2x rational and x a rational
-    fraction of a turn only for cos 2x = 0, +-1/2, +-1) it must then be 0, 1/4, 1/2, 3/4 or 1. The angle is therefore a
-    multiple of 1/24 turn or irrational. `turn` is the angle in floats, with an error below 1/48.
+    The square of the cosine, (u.v)^2 / (u.u v.v), is rational. If the angle is a rational fraction of a turn, Niven's
+    theorem requires this square to be 0, 1/4, 1/2, 3/4 or 1. The angle is therefore a multiple of 1/24 turn or
+    irrational. `turn` is the angle in floats, with an error below 1/48.
     """
     along = dot(u, v)
     square = dot(u, u) * dot(v, v)
@@ -28,8 +28,8 @@ def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction 
 def recognised_angle(turn: float, slack: float) -> Fraction | None:
     """Return the fraction of a turn within `slack` of an angle [turn]; None if such a fraction could be a coincidence.
 
-    Fractions with denominators up to q match a random angle with probability 0.6 q^2 slack, which bounds q. At most one
-    such fraction exists, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
+    Fractions with denominators up to q match a random angle with the probability 0.6 q^2 slack, which limits q. At most
+    one such fraction exists, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
 
     >>> recognised_angle(0.3333, 1e-4), recognised_angle(0.3679, 1e-4)
     (Fraction(1, 3), None)
@@ -49,5 +49,5 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
 
 
 def centred_residue(value: Fraction) -> Fraction:
-    """Return a number modulo 1 in the interval -1/2 (excluded) to 1/2 (included)."""
+    """Return the difference between a number and an integer that is in the interval (-1/2, 1/2]."""
     return value - math.ceil(value - Fraction(1, 2))

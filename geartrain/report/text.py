@@ -183,16 +183,15 @@ def _rich_table(table: Table, width: int) -> RenderableType:
 _TAG = re.compile(r"<(?=[A-Za-z/!?])")
 _ENTITY = re.compile(r"&(?=#?\w+;)")
 _LINK = re.compile(r"\](?=(?:\(\s*<?([^)>]*)|:\s*<?(\S*)))")
-"""Pattern of the bracket before the address of an inline link, an image or a reference definition."""
+"""Pattern of the closing bracket before the address of an inline link, an image or a reference definition."""
 _IGNORED = re.compile(r"[\x00-\x20\\]")
-"""Pattern of characters that Markdown or a browser ignores in an address: escapes, blanks, control characters."""
+"""Pattern of characters that Markdown or a browser ignores in an address: backslashes, blanks, control characters."""
 _SCHEME = re.compile(r"([a-z][a-z0-9+.-]*):", re.IGNORECASE)
 _FOLLOWED = {"http", "https", "mailto"}
 
 
 def markdown_text(text: str) -> str:
-    r"""Return the text with escaped HTML, and with links escaped unless they are relative or http, https or mailto
-    links.
+    r"""Return the text with HTML and links escaped, except links that are relative or use http, https or mailto.
 
     >>> markdown_text("<b> [worn](JavaScript:alert(1)), see [the paper](https://example.org)")
     '&lt;b> [worn]\\(JavaScript:alert(1)), see [the paper](https://example.org)'
@@ -201,6 +200,6 @@ def markdown_text(text: str) -> str:
 
 
 def _bracket(found: re.Match[str]) -> str:
-    """Return the bracket before an address; a backslash is added if the address is not allowed."""
+    """Return the bracket before an address; it is preceded by a backslash if the address is not allowed."""
     scheme = _SCHEME.match(_IGNORED.sub("", found[1] or found[2] or ""))
     return "]" if scheme is None or scheme[1].lower() in _FOLLOWED else "]\\"

@@ -197,7 +197,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
-    """Return the train as a gearbox; None if it has no shift elements and states or is not a valid gearbox."""
+    """Return the train as a gearbox; None if it has no shift elements or no states, or is not a valid gearbox."""
     try:
         return train.gearbox() if train.declaration.clutches and train.states else None
     except GearTrainError:
@@ -251,7 +251,7 @@ def _structure(train: GearTrain) -> Iterator[Section]:
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
-    """Yield the adjacency matrix with one letter in each cell; nothing if it is wider than a line."""
+    """Yield the adjacency matrix with one letter in each cell; yield nothing if it is wider than a line."""
     links = list(train.declaration.links)
     if len(links) > _MOST_LETTERS:
         return
@@ -307,9 +307,7 @@ def _circuits(train: GearTrain) -> Section:
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return a table with one column for each fundamental circuit, and rows for its links, carrier, tooth counts and
-    ratio.
-    """
+    """Return a table with one column for each fundamental circuit: its links, carrier, tooth counts and ratio."""
     from geartrain.teeth.coupling import coupling_model
 
     wheels = declared.wheels
@@ -378,7 +376,7 @@ def mobility_document(found: Mobility) -> Document:
 
 
 def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
-    """Yield a section on phase closure; nothing if axes have no positions or the pairs form no loop."""
+    """Yield a section on phase closure; yield nothing if axes have no positions or the pairs form no loop."""
     if closure is None or closure.kind == "open":
         return
     rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
@@ -391,7 +389,9 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return the adjacency matrix of links as a table: R(axis) for a turning pair, ids for gear pairs and couplings."""
+    """Return the adjacency matrix of links as a table, with R(axis) for turning pairs and ids for gear pairs and
+    couplings.
+    """
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
@@ -445,7 +445,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Yield a table of wheels with sources, status and notes; nothing if only tooth counts are declared."""
+    """Yield a table of wheels with sources, status and notes; yield nothing if only tooth counts are declared."""
     rows = []
     for name, (link, wheel) in declared.wheels.items():
         uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None

@@ -41,9 +41,9 @@ class CountFormula(Shown):
     wheels: Sequence[int]
     """Indices in `SceneFormulas.wheels` of the counts in the formula, repeated for equal planets that share a count."""
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the numerator: a coefficient as a string, and the power of each entry of `wheels`, 0 or more."""
+    """Terms of the numerator, each as a coefficient (a string) and the power of each entry of `wheels`, 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the denominator, in the same form as the numerator."""
+    """Terms of the denominator, in the same form as the terms of the numerator."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,7 @@ class DialFace(Shown):
     """Divisions of the scale; its radii are relative to `radius`."""
     look: Literal["scale", "ball"] = "scale"
     """Appearance: a scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball,
-    `radius` is the radius of the ball, and `normal` the direction of its axis of rotation, which passes through its
+    `radius` is the radius of the ball, and `normal` is the direction of its axis of rotation, which passes through its
     centre.
     """
     note: str = ""
@@ -123,9 +123,9 @@ class DialFace(Shown):
     title: str = ""
     """Caption: the dial's name, followed in brackets by its outputs if dials on several axes share the name."""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
-    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
-    radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
-    relative to the centre, each further point to the previous point.
+    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in units of 1/4,000
+    of the radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
+    relative to the centre, and each further point is relative to the previous point.
     """
 
 
@@ -136,7 +136,7 @@ class PointerTarget(Shown):
     label: str
     """Name of the target speed."""
     speed: str
-    """Speed relative to the driving link, exact. A target without a sense of rotation takes the sense of the output."""
+    """Exact speed relative to the driving link. A target without a sense of rotation takes the sense of the output."""
     source: str = ""
     """Key of the source of the target; empty if no source is declared."""
 
@@ -160,7 +160,7 @@ class SceneEpoch(Shown):
     """Date that corresponds to a number of turns of the driving link, and the duration of one turn."""
 
     julian_day: str
-    """Julian day of the date, exact [d]."""
+    """Exact Julian day of the date [d]."""
     turns: str
     """Exact number of turns of the driving link at that date."""
     days: str
@@ -172,12 +172,14 @@ class SceneEpoch(Shown):
     note: str
     """Declared note on the date."""
     settings: Sequence[SceneSetting] = ()
-    """Pointers that are set at that date. Each pointer is listed after the pointer that sets its base."""
+    """Pointers that are set at that date. Each pointer is listed after the pointer that determines the position of its
+    base.
+    """
     unset: Sequence[str] = ()
     """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
     """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body -> longitude,
-    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty without settings.
+    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty if `settings` is empty.
     """
 
 
@@ -237,7 +239,7 @@ class Pointer(Shown):
     hand: str = "needle"
     """Declared shape of the hand."""
     ball: float = 0.0
-    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 without a sphere."""
+    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 if the hand has no sphere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -266,12 +268,12 @@ class Scene(Shown):
     driving_link: int | None
     """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None
-    """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
+    """Index of the body that is turned by hand: the declared crank, or the driving link; None if neither exists."""
     drive: Literal["hand", "motor", "spring", "weight"]
-    """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
+    """Declared drive of the crank's body; by default, a motor for a speed in real time, and a hand otherwise."""
     fusee: Sequence[float]
-    """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty without a
-    fusee."""
+    """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty if there is none.
+    """
     up: Vector
     """Upward unit vector of the picture: y, or the direction towards an observer who looks from above."""
     step: str
@@ -305,11 +307,12 @@ class Scene(Shown):
     back: Movement | None = None
     """Deviations of angles with the driving link reversed, on the coast flanks; None if equal to `movement`."""
     unit_days: str | None = None
-    """Length of the unit in days, exact, if the unit is a time; otherwise None."""
+    """Exact length of the unit in days if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order of declaration."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
+    """Declared date, expressed in turns of the driving link; None if a date, time unit or driving link is missing, or
+    for a run.
     """
     tour: Sequence[TourStop] = ()
     """Declared tour of the train."""
@@ -326,7 +329,9 @@ class Scene(Shown):
     waves: Sequence[SceneWave] = ()
     """Strain waves that deflect flexible wheels into mesh with their rings."""
     shapes: Sequence[ScenePart] = ()
-    """Parts of couplings other than pins, such as belts, cams and stars; also in a scene that is not built."""
+    """Parts of couplings other than pins, such as belts, cams and stars, which are also present in a scene that is not
+    built.
+    """
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"

@@ -114,7 +114,8 @@ class FrictionLaw(BaseModel, ABC):
 
 
 class StribeckFriction(FrictionLaw):
-    """Friction that decreases from static to kinetic with the sliding speed, and may increase again by a viscous term.
+    """Friction that decreases from static to kinetic with the sliding speed, and may increase again because of a
+    viscous term.
 
     Examples
     --------
@@ -140,7 +141,7 @@ class StribeckFriction(FrictionLaw):
     def coefficient(self, speed: Floats) -> Floats:
         """Return the coefficient of friction at sliding speeds v [m/s], docs/shapes.md (16).
 
-        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, viscous in s/m.
+        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, where viscous is in s/m.
         """
         import numpy as np
 
@@ -242,8 +243,8 @@ class TabulatedFriction(FrictionLaw):
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
             raise bad(
                 "friction",
-                "the speeds are not in rising order from 0 or more",
-                "list the speeds in rising order, from 0 or more",
+                "the speeds are negative or not in increasing order",
+                "list speeds of 0 or more in increasing order",
             )
         return self
 
@@ -253,9 +254,7 @@ class TabulatedFriction(FrictionLaw):
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at speeds [m/s], by linear interpolation; it is constant outside the
-        table.
-        """
+        """Return the coefficient of friction at speeds [m/s], by linear interpolation, constant outside the table."""
         import numpy as np
 
         found: Floats = np.interp(

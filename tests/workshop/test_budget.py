@@ -12,10 +12,7 @@ from sorge import Pair, first_of_all
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.report import to_markdown
 from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
-from geartrain.workshop.budget.budget_bars import budget_figure
-from geartrain.workshop.budget.budget_report import describe_budget
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}
@@ -279,14 +276,14 @@ def test_cutting_that_is_requested_for_and_cannot_be_tried_is_refused() -> None:
 
 
 def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(freeth: TrainBudget) -> None:
-    text = to_markdown([describe_budget(freeth)])
+    text = str(freeth)
     missing = freeth.not_declared
     assert f"theory of {missing['theory']}, teeth of {missing['teeth']}" in text
     for pointer in freeth.pointers:
-        assert f"## Ranked: {pointer.name}\n" in text
-    assert text.count("not declared") > sum(missing.values())
+        assert f"\nRanked: {pointer.name}\n" in text
+    assert freeth._repr_html_().count("not declared") > sum(missing.values())
 
 
 def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
     with pytest.raises(geartrain.GearTrainError, match="nothing to draw"):
-        budget_figure(find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on"))
+        find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on").plot()

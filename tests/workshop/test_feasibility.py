@@ -19,7 +19,7 @@ from geartrain.numerics import Execution, Journal
 from geartrain.numerics.arrays import Floats
 from geartrain.train.states import HandDrive
 from geartrain.workshop import FeasibilityResult, find_feasibility_plan, read_error_overrides, run_feasibility
-from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan, LoadedPart, wedge_torque
+from geartrain.workshop.feasibility.feasibility_plan import LoadedPart, wedge_torque
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction
 
 NORMAL = NormalDist()
@@ -55,7 +55,7 @@ materials: {sheet: {youngs_modulus: 105 GPa, strength: 140 MPa, spread: 0}}
 """
 
 
-def plan_of(text: str, cutting: str = "", **how: Any) -> FeasibilityPlan:
+def plan_of(text: str, cutting: str = "", **how: Any) -> Any:
     return find_feasibility_plan(load(text), read_error_overrides([cutting] if cutting else []), **how)
 
 

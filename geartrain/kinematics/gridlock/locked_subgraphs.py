@@ -26,15 +26,13 @@ from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 
 MOST_COUPLED = 2000
-"""Maximum number of meshes up to which a removal over several carriers is searched for, because each trial solves the
-train.
-"""
+"""Maximum number of meshes for which a removal over several carriers is searched; each trial solves the train."""
 _ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
 _TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
-    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each mesh."""
+    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each mesh in the graph."""
 
     carrier: str
     links: list[str]
@@ -44,9 +42,9 @@ class LockedNetwork(NamedTuple):
 
 @collector_paused()
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
-    """Find the parts of a train that are locked by its meshes, ignoring brakes, locks, inputs and followers.
+    """Find the parts of a train that are locked by its meshes. Brakes, locks, inputs and followers are ignored.
 
-    Followers are ignored because they only oscillate; their mean speed of 0 is not caused by meshes.
+    Followers only oscillate, and their mean speed of 0 is not caused by meshes.
     """
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
@@ -61,8 +59,8 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graph of each component with an inconsistent loop; most gains are 1 in the chosen units of
-    speed.
+    """Return the gain graph of each component with an inconsistent loop. The units of speed are chosen so that most
+    gains are 1.
     """
     size = len(parts.links)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
@@ -142,9 +140,9 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links that meshes lock for any tooth counts, after removal of the meshes `gone`.
+    """Return the links that are locked whatever the tooth counts are, after the meshes `gone` are removed.
 
-    Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links
+    For special tooth counts, a link and all links that it drives can be at rest while the train moves. So only links
     that are also at rest for other ratios are returned.
     """
     less = _without(part, gone)
@@ -163,7 +161,7 @@ def _stationary_links(part: SolvedPart) -> tuple[str, ...]:
 
 
 def _with_random_ratios(part: SolvedPart) -> SolvedPart:
-    """Return the train with a random ratio for every link and carrier; the ratio products of loops are unchanged."""
+    """Return the train with random ratios for every link and carrier; ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
         # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma)
@@ -183,16 +181,16 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
 
 
 def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
-    """Return True if removal of the meshes `gone` makes every loop consistent and every link movable."""
+    """Return True if every loop is consistent and every link can move after the meshes `gone` are removed."""
     less = _without(part, gone)
     return not less.reduced.components.breaking and not _locked_links(part, gone)
 
 
 def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return meshes of several carriers whose removal frees the train; None if no set exists, or if there are too many
-    meshes to try.
+    """Return a set of meshes, of any carriers, whose removal frees the train; None if no such set exists, or if there
+    are too many meshes to try.
 
-    The set is a smallest set if there are few meshes, else a minimal set.
+    If there are few meshes, it is a smallest set; else every mesh in it is necessary, but a smaller set may exist.
     """
     toothed = _without(part, ())
     bound = {
@@ -218,10 +216,10 @@ def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> 
 
 
 def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
-    """Return a minimal set of meshes whose removal frees the train; meshes early in the sequence are preferred.
+    """Return a minimal set of meshes whose removal frees the train; the first meshes in `gears` are preferred.
 
-    Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
-    Its last mesh is necessary, and the search continues among the meshes before it.
+    Removing more meshes never locks a train, so the shortest sufficient prefix of the list is found by bisection. Its
+    last mesh is necessary, and the search continues among the meshes before it.
     """
     needed: list[str] = []
     left = list(gears)
@@ -262,20 +260,20 @@ _STARTS = 300  # nodes from which the shortest loop is searched; in larger netwo
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes whose removal frees a locked network, with the loops that prove a lower bound on the number of meshes."""
+    """Meshes whose removal frees a locked network, and the loops that prove a lower bound on their number."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
     """Proved lower bound on the number of meshes; a set with this number of meshes is a smallest set."""
     choices: list[int]
-    """Meshes of which the removal of any one is enough, including the mesh in `meshes`; empty if there are none."""
+    """Meshes of which any one is sufficient, including the mesh in `meshes`; empty if several are required."""
     example: GainLoop
-    """Short inconsistent loop, which shows a reader the cause of the lock."""
+    """Short inconsistent loop, which is reported as the cause of the lock."""
     proof: list[GainLoop]
-    """Loops that prove the lower bound; empty if only the method proves it."""
+    """Loops that prove the lower bound; empty if it follows only from the method."""
     sharing: int = 1
-    """Maximum number of loops of the proof to which one mesh belongs."""
+    """Maximum number of loops in `proof` to which a single mesh belongs."""
 
 
 def choose_removal(network: GainGraph) -> RemovalChoice:
@@ -318,16 +316,16 @@ def choose_removal(network: GainGraph) -> RemovalChoice:
 
 
 def _packed(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> list[GainLoop]:
-    """Return as many of the loops as possible such that each mesh belongs to at most `sharing` of them."""
+    """Return a largest subset of the loops in which each mesh belongs to at most `sharing` loops."""
     found = _solve(network, loops, -sharing).x
     return [] if found is None else [loop for loop, part in zip(loops, found, strict=True) if part > 0.5]
 
 
 def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
-    """Solve one of two dual integer programs with variables 0 or 1, whose matrix has a row for each loop.
+    """Solve one of two dual binary integer programs, whose matrix has a row for each loop.
 
-    sharing   1: the smallest set with a mesh of every loop. -s: the largest set of loops such that every mesh is in at
-              most s of them
+    sharing   1 to find the smallest set that contains a mesh of every loop; -s to find the largest set of loops in
+              which every mesh belongs to at most s loops
     """
     import numpy as np
     from scipy.optimize import Bounds, LinearConstraint, milp
@@ -343,8 +341,8 @@ def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
 
 
 def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
-    """Return a minimal set of meshes that frees a connected network, most of them from `gone`: the meshes that
-    contradict the speeds of a spanning tree with as few meshes of `gone` and as many firm meshes as possible.
+    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`. They are the
+    meshes that contradict the speeds of a spanning tree that avoids `gone` and prefers firm meshes.
     """
     tree: DisjointSets[int] = DisjointSets()
     out = set(gone)
@@ -359,7 +357,7 @@ def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
 
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
-"""Closed walk in the graph, as pairs of the node at which a step starts and the mesh of the step."""
+"""Closed walk in the graph, as pairs of the node at which a step begins and the mesh of the step."""
 
 
 @dataclass(frozen=True)
@@ -368,11 +366,11 @@ class GainGraph:
 
     size: int
     ends: Sequence[tuple[int, int]]
-    """Two nodes of each mesh; several meshes may connect the same nodes."""
+    """Two nodes of each mesh; several meshes may connect the same two nodes."""
     gains: Mapping[int, Gain]
     """Gain of each mesh whose gain is not 1: speed of its second node divided by speed of its first."""
     firm: frozenset[int] = frozenset()
-    """Couplings, which cannot be disengaged."""
+    """Indices of the couplings, which cannot be disengaged."""
 
     @cached_property
     def at(self) -> list[list[int]]:
@@ -403,7 +401,7 @@ class GainGraph:
 
 
 class GainWalk(NamedTuple):
-    """Result of a search: speed of each node, consistent with a spanning forest, and the meshes (`breaking`) that
+    """Result of a search: the speed of each node, consistent with a spanning forest, and the meshes (`breaking`) that
     contradict these speeds.
     """
 
@@ -412,8 +410,8 @@ class GainWalk(NamedTuple):
 
 
 def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWalk:
-    """Search all nodes breadth first without the meshes `without`, which may nevertheless be listed in `breaking` of
-    the result.
+    """Search all nodes breadth first, using only meshes outside `without`. Meshes in `without` may be listed in
+    `breaking` of the result.
     """
     gone = bytearray(len(network.ends))
     for mesh in without:
@@ -437,15 +435,15 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWa
 
 
 def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
-    """Return True if every loop has gain product 1 after removal of the meshes `without`."""
+    """Return True if every loop has the gain product 1 after the meshes in `without` are removed."""
     return set(without).issuperset(walk_gain_graph(network, without).breaking)
 
 
 def inconsistent_loops(network: GainGraph, without: Collection[int] = ()) -> list[GainLoop]:
     """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates.
 
-    A shortest inconsistent loop of the whole network is among them, because every such loop contains one of these
-    meshes.
+    A shortest inconsistent loop of the whole network is among them, because every inconsistent loop contains one of
+    these meshes.
     """
     breaking = [mesh for mesh in walk_gain_graph(network, without).breaking if mesh not in without]
     starts = dict.fromkeys(network.ends[mesh][0] for mesh in breaking)
@@ -464,8 +462,8 @@ def shortest_loop(network: GainGraph, starts: Iterable[int]) -> GainLoop:
 
 
 def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop:
-    """Return an inconsistent loop with fewer than `below` meshes, by breadth-first search from `start`; empty if none
-    exists.
+    """Return an inconsistent loop with fewer than `below` meshes, found by breadth-first search from `start`; empty if
+    there is none.
     """
     speed: dict[int, Gain] = {start: 1}
     came: dict[int, tuple[int, int]] = {}

@@ -74,7 +74,7 @@ class WheelPosterior(Result):
 
     @property
     def bits(self) -> float:
-        """Information gained from the outputs: relative entropy of posterior and prior [bit]."""
+        """Information gained from the outputs: relative entropy of the posterior with respect to the prior [bit]."""
         return relative_entropy(map(float, self.probabilities), self.uncertainty.priors)
 
     def probability(self, count: int) -> CountProbability:

@@ -52,8 +52,8 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Exchanged counts are different
-    choices.
+    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Choices in which the counts of two
+    wheels are exchanged are different.
     """
     minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
@@ -198,7 +198,7 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
 
 
 Group = tuple[Dials, int, int]
-"""Dials whose speed a group of added wheels changes, and its numbers of driving and of driven wheels."""
+"""Group of added wheels: dials whose speed it changes, and its numbers of driving and of driven wheels."""
 Wanted = tuple[tuple[str, Quotients], ...]
 """Required bounds of the quotient of all added wheels on the path to each dial."""
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
@@ -206,8 +206,8 @@ Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 
 
 class OpenCounts(NamedTuple):
-    """Added wheels without tooth counts, with the required quotients of these counts and the limits set by rings,
-    sorted.
+    """Added wheels whose tooth counts are not yet chosen, with the required quotients of these counts and the upper
+    limits set by rings, in sorted order.
     """
 
     added: AddedWheels
@@ -281,7 +281,9 @@ class AddedCounts:
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return, for each tooth count, the number of choices in which some wheel has it, by inclusion-exclusion."""
+        """Return, for each tooth count, the number of choices in which at least one wheel has it, by
+        inclusion-exclusion.
+        """
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)
@@ -290,7 +292,7 @@ class AddedCounts:
     def _without_count(
         self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
     ) -> int:
-        """Return how many of `number` choices give no wheel of some kinds a given tooth count."""
+        """Return the number of choices, out of `number`, in which no wheel of the given kinds has a given count."""
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]
@@ -388,7 +390,7 @@ _LISTED_TOGETHER = 3
 
 
 def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Return two small groups that determine the speed of a dial of exact speed by themselves, with their total
+    """Return two small groups that together determine the speed of a dial with an exact speed, and their total
     quotient.
     """
     best, fewest = None, _LISTED_TOGETHER + 1
@@ -494,7 +496,7 @@ def _distinct(numbers: Floats) -> Floats:
 
 
 def _contain(table: Floats | None, bounds: Bounds) -> Bools:
-    """Return whether each range contains an entry of a table; True for all ranges without a table."""
+    """Return whether each range contains an entry of a table; True for all ranges if there is no table."""
     low, high = bounds
     if table is None:
         return np.ones(low.shape, dtype=bool)

@@ -307,8 +307,8 @@ class _Base:
 
 
 class _Parts:
-    """Search for the parts of a train. `loop` describes the last closed loop of meshes, because of which a part is
-    excluded.
+    """Search for the parts of a train. `loop` describes the last closed loop of meshes that was found; a part with such
+    a loop is excluded.
     """
 
     def __init__(self, train: Train) -> None:
@@ -355,7 +355,7 @@ class _Parts:
         return {base: own for base, own in found.items() if own.meshes}
 
     def _arbor(self, base: str, wheel: str, bases: dict[str, _Base] | None = None) -> str:
-        """Return the arbor of a wheel: the frame for fixed links, the first link for joined links."""
+        """Return the arbor of a wheel: the frame if its link is fixed, or the first of the links joined to its link."""
         return self._arbor_of_link(base, self.train.wheels[wheel][0], bases)
 
     def _arbor_of_link(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
@@ -484,7 +484,7 @@ def why_not(train: Train, link: str) -> str:
 
 
 def _unsupported_features(train: Train) -> Iterator[str]:
-    """Yield the features of a train that no part supports."""
+    """Yield the features of a train that a reconstruction does not support."""
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
     if any(one.kind != "pin_and_slot" for one in train.pin_couplings):

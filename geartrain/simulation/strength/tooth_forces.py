@@ -82,7 +82,7 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
-        """Return radii and tangential forces of both wheels, which are opposite: docs/strength.md (32).
+        """Return the radii and the tangential forces of both wheels; the forces are opposite: docs/strength.md (32).
 
         cosines   cosine of the angle of each pitch cone: 1 for parallel axes, -1 for a ring
         """

@@ -146,7 +146,7 @@ class StrengthQuestion:
     """Strength analysis of a train under the loads of one state."""
 
     train: TrainMechanics
-    """Train; `setting` is its load case, and `torques` are the torques of that case."""
+    """Train. `setting` is its load case, and `torques` are its torques in this load case."""
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]

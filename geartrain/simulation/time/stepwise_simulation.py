@@ -144,7 +144,7 @@ class Simulation(Shown):
         Raises
         ------
         QuestionError
-            If the time step is not positive, or a restitution is not 0 to 1.
+            If the time step is not positive, or a coefficient of restitution is not from 0 to 1.
         """
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}

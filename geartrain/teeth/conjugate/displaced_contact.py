@@ -392,9 +392,7 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
 
 
 def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return points (x, y) of a flank relative to the wheel's axle: x towards the tooth space ahead, y outwards
-    [module].
-    """
+    """Return points (x, y) of a flank in the wheel's frame [module]: x towards the tooth space ahead, y outwards."""
     points = path.flank(gear, X)
     if gear == 1:
         return np.asarray(points + np.array([0.0, path.pitch.R1]))

@@ -81,7 +81,8 @@ class BudgetQuestion:
     seed: int = 1
     """Random seed of the trials."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Body whose true motion an output represents, by output, unless its name indicates it; None if there is none."""
+    """Celestial body whose motion an output represents, by output, if its name does not identify it; None for no body.
+    """
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:
@@ -209,8 +210,8 @@ def _float(value: Fraction | None) -> float | None:
 def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
-    """Return the errors of each pointer's link and of its reference link relative to their celestial bodies, by
-    pointer.
+    """Return the errors of each pointer's link and of its reference link relative to the true motion of their celestial
+    bodies, by pointer.
     """
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)

@@ -32,7 +32,7 @@ def run(file: File, json: Json = False, out: Out = None, force: Force = False) -
 
 
 def find_measured_wheels(train: Train) -> dict[str, WheelEstimate]:
-    """Return the estimates for all wheels with measured angles, by name. Raises `QuestionError` without such wheels."""
+    """Return the estimates for all wheels with measured angles, by name. Raises `QuestionError` if there are none."""
     cut = {name: (wheel.count, wheel.cutting.measured) for name, (_, wheel) in train.wheels.items() if wheel.cutting}
     found = {name: estimate_measured(each, z) for name, (z, each) in cut.items() if z and each and each.angles}
     if not found:

@@ -8,7 +8,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.drawing import render
 from geartrain.workshop import BudgetQuestion, find_budget
-from geartrain.workshop.budget.budget_bars import budget_figure
+from geartrain.workshop.budget.budget_report import budget_figure
 
 PICTURE = Path(__file__).resolve().parents[1] / "images" / "budget.svg"
 TRAIN = "freeth-2021"

@@ -1,13 +1,16 @@
-"""Report on the error budgets of a train's pointers: causes in descending order, in degrees and in days."""
+"""Report and chart of the error budgets of a train's pointers: causes in descending order, in degrees and in days."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.report.document import Document, Section, Table, cut, ppm
+from geartrain.workshop.budget.pointer_budget import CAUSES
 
 if TYPE_CHECKING:
+    from geartrain.drawing.style import Figure, Row
     from geartrain.workshop.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
 
 NOT_DECLARED = "not declared"
@@ -117,3 +120,56 @@ def _pointer(pointer: PointerBudget) -> Section:
         sizes = [(name, f"{size:.3g}") for name, size in pointer.pairs.items()]
         tables.append(Table(("single pair", "deg peak to peak"), cut(sizes, most=_PAIRS)))
     return Section(f"Ranked: {pointer.name}", (), tables)
+
+
+# ---------------------------------------------------------------------------------------------------------------- chart
+
+_MARKERS = ("D", "^", "o", "s", "v")
+_SMALL = 1e-4
+"""Size relative to the largest cause in the chart. Smaller causes have no mark, because they would stretch the axis."""
+
+
+def budget_figure(found: TrainBudget) -> Figure:
+    """Draw a chart with a row for each pointer, and a mark for the error due to each cause. The pointer with the
+    largest error is at the top.
+    """
+    from geartrain.drawing.style import MOST_ROWS, WHITE, interval_chart
+    from geartrain.scene.palette import series_colour
+
+    pointers = [found[name] for name in found.shown]
+    ranked = sorted((each for each in pointers if each.total > 0), key=lambda each: -each.total)
+    if not ranked:
+        why = "no cause of any pointer's error is declared, or all are 0"
+        what = f"the budget of '{found.name}' has nothing to draw"
+        raise QuestionError(Problem(what, why, "declare targets of outputs, or `tooth_form` of pairs"))
+    looks: dict[str, dict[str, Any]] = {
+        cause: {"marker": marker, "markersize": 8, "color": series_colour(at), "markeredgewidth": 1.6}
+        for at, (cause, marker) in enumerate(zip(CAUSES, _MARKERS, strict=True))
+    }
+    looks |= {_part(cause): {**look, "markersize": 11, "markerfacecolor": WHITE} for cause, look in looks.items()}
+    days = any(pointer.degrees_per_day for pointer in ranked)
+    smallest = _SMALL * max(cause.degrees or 0.0 for pointer in ranked for cause in pointer.ranked)
+    rows = [_row(pointer, days, smallest) for pointer in ranked[:MOST_ROWS]]
+    counts = {cause: sum(each.name == cause for pointer in pointers for each in pointer.undeclared) for cause in CAUSES}
+    unknown = ", ".join(f"{cause} of {count}" for cause, count in counts.items() if count)
+    label = "size of each cause (deg); open marks: declared in part"
+    label += f"\nnot declared, of {len(pointers)} pointers: {unknown}" if unknown else ""
+    name = found.name if found.state is None else f"{found.name}, {found.state}"
+    return interval_chart(
+        {label: rows}, looks, ("sum", *["days"] * days), f"{name}: causes of each pointer's error", log=True
+    )
+
+
+def _part(cause: str) -> str:
+    return f"{cause}, in part"
+
+
+def _row(pointer: PointerBudget, days: bool, smallest: float) -> Row:
+    from geartrain.drawing.style import Row, figures
+
+    known = [cause for cause in pointer.ranked if (cause.degrees or 0.0) >= smallest]
+    marks = {_part(cause.name) if cause.declared == "part" else cause.name: cause.degrees or 0.0 for cause in known}
+    spans = [cause.interval for cause in known if cause.interval is not None and cause.interval[0] > 0]
+    per_day = pointer.degrees_per_day
+    time = [figures(pointer.total / per_day) if per_day else "-"] * days
+    return Row(pointer.name, marks, spans, (f"{figures(pointer.total)}°", *time))

@@ -188,7 +188,7 @@ class TrainBudget(Tabular, Pictured, Result):
 
     PAGE = "workshop.budget.budget_report:describe_budget"
 
-    FIGURE = "workshop.budget.budget_bars:budget_figure"
+    FIGURE = "workshop.budget.budget_report:budget_figure"
 
     KEYS = (
         *("name", "state", "span_days", "turns", "samples", Key("input", "driving_link"), "pointers"),

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
+from geartrain.dynamics.torques.bearing_loads import BearingLoads
 from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.labelled_array import labelled_array
@@ -26,7 +27,6 @@ from geartrain.simulation.time.run_figures import RunFigures
 from geartrain.simulation.time.time_run import TimeRun
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.torques.bearing_loads import BearingLoads
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.labelled_array import LabelledArray
@@ -116,7 +116,9 @@ def model_in_time(
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
     # vibration modes, for which no rate is needed, do not depend on friction
-    loads = None if scale is not None else _bearing_loads(train.unfolded, state)
+    rubs = scale is None and any(part.friction_radius for part in train.declaration.links.values())
+    setting = train.unfolded.load_case(state) if rubs else None
+    loads = None if setting is None else BearingLoads(setting)
     train = train.planets_as_one
     declared, case, problem = (
         train.declaration,
@@ -137,16 +139,6 @@ def model_in_time(
     if yields:
         return CompliantTrain(declared, problem, found, train.tree, case.state, loads, restitution)
     return TrainModel(declared, problem, found, train.tree, case.state, loads)
-
-
-def _bearing_loads(train: TrainMechanics, state: str | None) -> BearingLoads | None:
-    """Return the loads of the bearings whose friction depends on them; None if there are none."""
-    if not any(part.friction_radius for part in train.declaration.links.values()):
-        return None
-    from geartrain.dynamics.torques.bearing_loads import BearingLoads
-
-    setting = train.load_case(state)
-    return None if setting is None else BearingLoads(setting)
 
 
 def find_vibration_modes(

@@ -245,8 +245,8 @@ class Drive(Declared):
 
     @property
     def steady_torque(self) -> float | None:
-        """Constant torque of a drive [N m]: as declared, of an equalising fusee, or of a weight (mass, gravity and
-        descent per radian); None for other drives.
+        """Constant torque of a drive [N m]: as declared, of an equalising fusee, or of a weight (mass times
+        gravity times descent per radian); None for other drives.
 
         For a weight that is a link of the train, it is the torque equivalent to its force; see `as_torque`.
         """

@@ -7,7 +7,6 @@ Exact numbers
     exact, factored_ratios                integers and Fractions of any length, and their text
     elimination                           sparse linear systems over the rationals
     integer_lattice                       integer rows in a rational span
-    rational_angles                       angles as fractions of a turn
 Floats
     rounding_bounds, bounded_polynomials  error-free transformations; quotients of polynomials with error bounds
     roots                                 bracketed roots, one by one and vectorised

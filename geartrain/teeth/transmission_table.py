@@ -94,7 +94,7 @@ class CellTable:
             cell += u >= kink
         # clipped, since rounding may lead past the last cell and NaN anywhere
         u -= self.middles.take(cell, mode="clip")
-        found = self.coefficients[-1].take(cell, mode="clip")
+        found: Floats = self.coefficients[-1].take(cell, mode="clip")
         # Horner's method
         for coefficients in self.coefficients[-2::-1]:
             found *= u

@@ -15,12 +15,11 @@ import numpy as np
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, ReducedSystem, reduce_components
-from geartrain.kinematics.phasing.azimuths import PitchPoints, mesh_nodes
+from geartrain.kinematics.phasing.azimuths import PitchPoints, centred_residue, mesh_nodes
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.elimination import Echelon, LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.integer_lattice import saturated_lattice
-from geartrain.numerics.rational_angles import centred_residue
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices

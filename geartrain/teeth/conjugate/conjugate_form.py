@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
-    from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission
+    from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
     from geartrain.teeth.gear_mesh import GearMesh
@@ -288,7 +288,7 @@ class ConjugateToothForm(ToothForm):
         friction = friction * self.slant_pressure(wheels)
         if distance is None:
             return ConjugateTransmission(pair, friction, driver, direction)
-        from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission
+        from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
 
         return OffDesignTransmission(pair, distance, friction, driver, direction)
 

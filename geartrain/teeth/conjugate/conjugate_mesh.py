@@ -25,7 +25,8 @@ from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures,
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
-    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, OffDesignTransmission
+    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
+    from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement

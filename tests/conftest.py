@@ -24,7 +24,7 @@ for _library in ("OPENBLAS", "OMP", "MKL"):
 gc.set_threshold(100_000, 50, 100)
 
 PASSED = "geartrain/passed"  # key of pytest's cache
-FEW = 300  # random samples without --slow
+SAMPLES = {"--trains": (300, 1000), "--mutants": (150, 500)}  # random samples without and with --slow
 
 # a shell that starts tests in the background has interrupts ignored, and so would commands that tests interrupt
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -43,7 +43,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--rest", action="store_true", help="leave out what passed in the last run without --rest")
     parser.addoption("--trains", type=int, help="number of random trains for each law (300; with --slow 1000)")
     parser.addoption("--first-train", type=int, default=0, help="the seed of the first random train (0)")
-    parser.addoption("--mutants", type=int, help="number of corrupted declarations (300; with --slow 1000)")
+    parser.addoption("--mutants", type=int, help="number of corrupted declarations (150; with --slow 500)")
     parser.addoption("--first-mutant", type=int, default=0, help="the seed of the first spoilt declaration (0)")
 
 
@@ -142,14 +142,14 @@ def mutant_seeds(request: pytest.FixtureRequest) -> range:
 
 
 def _seeds(config: pytest.Config, first: str, number: str) -> range:
-    """Return seeds from the value of one option on; another option gives their number, by default 300, or 1000 with
-    `--slow`.
+    """Return seeds from the value of one option on; another option gives their number, by default that of `SAMPLES`.
 
-    With `--slow --rest`, only the seeds after the first 300 are returned.
+    With `--slow --rest`, only the seeds are returned that a run without `--slow` leaves out.
     """
     start, slow = config.getoption(first), config.getoption("--slow")
-    stop = start + (config.getoption(number) or (1000 if slow else FEW))
-    ran = FEW if slow and config.getoption("--rest") else 0
+    few, many = SAMPLES[number]
+    stop = start + (config.getoption(number) or (many if slow else few))
+    ran = few if slow and config.getoption("--rest") else 0
     return range(min(start + ran, stop), stop)
 
 

@@ -39,15 +39,16 @@ def trains() -> list[str]:
     return list(geartrain.shipped())
 
 
-def every_train(names: Iterable[str] | None = None, dear: Container[str] = ()) -> list[Any]:
-    """Return test parameters: shipped trains of different kinds, or all.
+def every_train(names: Iterable[str] | None = None, dear: Container[str] = (), step: int = 1) -> list[Any]:
+    """Return test parameters: shipped trains of different kinds, and with `--slow` all others, or every third of them
+    if `step` is 3.
 
-    Trains outside `KINDS`, and trains that take seconds each, run only with `--slow`.
+    Trains in `dear` take seconds each and run only with `--slow`.
     """
-    known = trains() if names is None else names
-    return [
-        pytest.param(each, marks=[] if each in KINDS and each not in dear else [pytest.mark.slow]) for each in known
-    ]
+    known = trains() if names is None else list(names)
+    others = [each for each in known if each not in KINDS][::step]
+    kept = [each for each in known if each in KINDS or each in others]
+    return [pytest.param(each, marks=[] if each in KINDS and each not in dear else [pytest.mark.slow]) for each in kept]
 
 
 @cache

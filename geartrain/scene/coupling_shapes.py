@@ -173,16 +173,18 @@ def millimetres_of(length: Quantity | None, default: float) -> float:
 
 
 def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a box on the carrier for a coupling that is known by its ratio, and the ends of the two shafts."""
+    """Yield the housing of a coupling that is known by its ratio, and its two shafts with flanges."""
     place = places[0]
     half = 8.0 + 0.2 * place.apart
-    box = [(-half, -half), (place.apart + half, -half), (place.apart + half, half), (-half, half)]
-    yield place.flat(place.circuit.carrier, "box", place.driver_at, place.towards, box, height=2 * half)
-    for link, at, low, high in (
-        (place.circuit.j, place.driver_at, -2 * half, 0.0),
-        (place.circuit.i, place.driven_at, 0.0, 2 * half),
-    ):
-        yield place.turned(link, "shaft", at, 0.2 * half, low, high)
+    holes = [circle(0.09 * half, (0.38 * half * x, 0.38 * half * y)) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    for kind, radius, middle, height in (("box", 1.0, 0.0, 1.8), ("lid", 1.15, -0.9, 0.2), ("lid", 1.15, 0.9, 0.2)):
+        ends = circle(radius * half, (0.0, 0.0), pi / 2, pi), circle(radius * half, (place.apart, 0.0), -pi / 2, pi)
+        at = plus(place.driver_at, place.axis, middle * half)
+        yield place.flat(place.circuit.carrier, kind, at, place.towards, [*ends[0], *ends[1]], height=height * half)
+    for link, at, side in ((place.circuit.j, place.driver_at, -1), (place.circuit.i, place.driven_at, 1)):
+        yield place.turned(link, "shaft", at, 0.2 * half, min(0, 2 * side) * half, max(0, 2 * side) * half)
+        end = plus(at, place.axis, 1.8 * side * half)
+        yield place.flat(link, "flange", end, place.towards, circle(0.55 * half), *holes, height=0.2 * half)
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:

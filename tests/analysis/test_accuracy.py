@@ -14,7 +14,7 @@ from commands import LOCKED, RIGHT, call
 from dynamics.test_uncounted_losses import PIN
 
 from geartrain import GearTrain, load
-from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy, find_accuracy
+from geartrain.analysis.accuracy import find_accuracy
 
 SPEEDS, MOTION, TORQUES = "speeds", "motion", "torques"
 
@@ -26,7 +26,7 @@ PAIR: dict[str, Any] = {
 }
 
 
-def row_of(found: TrainAccuracy, stage: str, method: str) -> MethodAccuracy:
+def row_of(found: Any, stage: str, method: str) -> Any:
     (row,) = (row for row in found.methods if (row.stage, row.method) == (stage, method))
     return row
 
@@ -41,11 +41,11 @@ def _once() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module")
-def moon() -> TrainAccuracy:
+def moon() -> Any:
     return find_accuracy(load("moon-triangular"), positions=500)
 
 
-def test_every_time_is_over_that_of_the_fastest_method_of_its_stage(moon: TrainAccuracy) -> None:
+def test_every_time_is_over_that_of_the_fastest_method_of_its_stage(moon: Any) -> None:
     for stage in (SPEEDS, MOTION):
         rows = [row for row in moon.methods if row.stage == stage]
         minimum = min(row.seconds for row in rows)
@@ -63,7 +63,7 @@ def test_floats_are_as_far_off_as_a_third_of_a_turn_is() -> None:
     assert set(found.neglected) == {MOTION, TORQUES}
 
 
-def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAccuracy) -> None:
+def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: Any) -> None:
     """Superposition by hand, each law asked at the angle its driver has on average, against the composition."""
     train = load("moon-triangular")
     motion = train.motion(outputs=["moon"])

@@ -14,7 +14,6 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.analysis import find_gears
 from geartrain.errors import GearTrainError
-from geartrain.report.gearbox_report import describe_gearbox
 from geartrain.train import State
 
 PUBLISHED = {
@@ -269,8 +268,7 @@ def test_a_state_whose_first_input_is_at_rest_has_the_speeds_that_its_other_inpu
     assert coast.speeds == {"axle": 0, "ring": 0, "planet": 0, "cage": 0, "sprocket": 0, "shell": 1}
     assert coast.slips == {"pawls": -1}
     assert coast.ratio is None
-    page = describe_gearbox(box)
-    assert "free" not in [cell for row in page.sections[1].tables[0].rows for cell in row]
+    assert "free" not in str(box).split()
 
 
 def test_an_input_at_rest_beside_another_gives_every_link_its_speed() -> None:

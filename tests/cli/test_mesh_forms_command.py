@@ -14,7 +14,7 @@ import pytest
 from commands import call, without
 from places import DATA
 
-from geartrain import teeth
+from geartrain import load, teeth
 
 PRINTED = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 ROWS = {(row[0], row[1].split(" Q*")[0]): row[2:] for row in PRINTED["performance"]}
@@ -235,20 +235,20 @@ def test_teeth_without_a_path_are_cut_as_finely_as_is_requested_and_the_page_tel
 
 
 def test_a_page_on_teeth_off_their_design_distance_does_not_say_that_they_keep_the_ratio() -> None:
-    from geartrain.report.pair_page import collect_pair, describe_pair
-    from geartrain.teeth import UniformStress
-    from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.train import GearPair
-
-    wheels = MeshingWheels(GearPair(pair=("a", "b")), "", (24, 36), friction=0.05)
-    at_home = UniformStress.declared({}).mesh(wheels, lambda: None)
-    apart = UniformStress.declared({"centre_distance": "30.02"}).mesh(wheels, lambda: None)
-    assert "keep the ratio exactly" in " ".join(describe_pair(at_home).summary)
-    assert "keep the ratio exactly at every instant." not in " ".join(describe_pair(apart).summary)
-    assert collect_pair(at_home).to_dict()["losses_and_stresses"]["one_pair"]["loss"] == pytest.approx(
-        0.109176344569, rel=1e-9
-    )
-    assert collect_pair(apart).to_dict()["transmission_error"]["peak_to_peak"] > 1e-6
+    (apart,) = load("""
+links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {w: 36}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [p ~ w]
+tooth_form: {form: uniform_stress, centre_distance: 30.02}
+friction: 0.05
+inputs: {a: 1}
+""").meshes
+    assert "keep the ratio exactly at every instant." not in " ".join(str(apart).split())
+    assert np.ptp(apart.transmission.error_range()) > 1e-6
+    words = ("mesh", 24, 36, "--form", "uniform_stress", "--friction", 0.05)
+    assert "keep the ratio exactly at every instant." in " ".join(call(*words).stdout.split())
+    data = json.loads(call(*words, "--json").stdout)
+    assert data["losses_and_stresses"]["one_pair"]["loss"] == pytest.approx(0.109176344569, rel=1e-9)
 
 
 def test_an_option_that_is_no_text_is_read_as_its_form_has_it() -> None:

@@ -97,8 +97,6 @@ def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: P
 
 def test_what_is_lost_is_drawn_as_torque_at_the_link_that_is_requested() -> None:
     pytest.importorskip("matplotlib")
-    from geartrain.drawing.output_error_plots import torque_cycle_figure
-
     train = geartrain.load("""
 links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {q: 60}, bearing: 3 N mm}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
@@ -106,7 +104,7 @@ gears: [{pair: [p, q]}]
 inputs: {b: 1}
 crank: a
 """)
-    above, below = torque_cycle_figure(train.torques(turns=1, samples=20)).axes
+    above, below = train.torques(turns=1, samples=20).plot().axes
     assert below.get_xlabel().startswith("losses, as torque at a (mN m)")
     assert above.get_ylabel() == "torque at a (mN m)"
     ends, mean = (np.asarray(each.get_xdata(), dtype=float) for each in below.lines)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from shipped import train as load
 pytest.importorskip("matplotlib")
 
 from geartrain.drawing import picture
-from geartrain.drawing.arrangement import Callout, CalloutMargin, find_margin
+from geartrain.drawing.arrangement import Callout, find_margin
 
 EDGES, BOUNDS = (-0.3, 6.3), (0.0, 6.0)
 SPOT = st.tuples(*2 * [st.integers(0, 600).map(lambda hundredth: hundredth / 100)])
@@ -31,7 +32,7 @@ def cross(one: tuple[Point, Point], other: tuple[Point, Point]) -> bool:
     return turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0
 
 
-def lines(margin: CalloutMargin) -> list[tuple[Point, Point]]:
+def lines(margin: Any) -> list[tuple[Point, Point]]:
     sides = zip((margin.left, margin.right), margin.edges, strict=True)
     ends = [((edge, y), each.anchor) for side, edge in sides for each, y in side]
     return [((Fraction(a), Fraction(b)), (Fraction(c), Fraction(d))) for (a, b), (c, d) in ends]

@@ -474,14 +474,14 @@ def test_the_usual_sense_of_hands_is_written_once() -> None:
 
 def test_a_pointer_on_a_spiral_moves_outwards_with_every_turn() -> None:
     reach = []
-    for years in (0, 4, 8, 12, 16):  # five turns in nineteen years
+    for years in (0, 8, 16):  # five turns in nineteen years
         figure = drawn("freeth-2021", "dials", turns=Fraction(years), outputs=("metonic",))
         (line,) = [line for line in figure.axes[0].lines if line.get_gid() == "pointer metonic"]
         (x, u), (y, v) = (np.asarray(each, dtype=float) for each in line.get_data())
         reach.append(hypot(u - x, v - y))
         assert angle_of(figure, "metonic") == pytest.approx(float(Fraction(years * 5, 19) % 1), abs=1e-9)
     assert np.diff(reach, 2) == pytest.approx(0, abs=1e-9)
-    assert reach[1] > reach[0] * 1.1
+    assert reach[1] > reach[0] * 1.2
 
 
 DIALLED = [name for name in shipped.trains() if load(name).declaration.dials and not load(name).states]

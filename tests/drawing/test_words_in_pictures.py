@@ -32,9 +32,7 @@ WIDEST = 34.0  # inches: 3,400 pixels as the command draws them
 FEW = [
     "planetary",
     "bevel-differential",
-    "humpage",
     "longcase-clock",
-    "ravigneaux-set",
     "rv-reducer",
     "strain-wave",
     "worm",

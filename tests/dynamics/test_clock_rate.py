@@ -11,13 +11,14 @@ from scipy.optimize import brentq
 from scipy.special import ellipk
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics.clock_rate import Timekeeping, circular_error, escapement_error, find_timekeeping
-from geartrain.train.states import GRAVITY, Drive, Escapement
+from geartrain.dynamics.clock_rate import circular_error, escapement_error, find_timekeeping
+from geartrain.train import Drive
 
 DAY = 86400
+GRAVITY = 9.80665  # m/s2, standard gravity
 
 
-def clock(**escapement: Any) -> Timekeeping:
+def clock(**escapement: Any) -> Any:
     """Return the figures of the loaded clock with the given keys of its escapement."""
     data = load("longcase-clock-loaded").declaration.model_dump(exclude_defaults=True)
     data["escapement"] = {"link": "escape", "teeth": 30, "beat": "1 s"} | escapement
@@ -26,12 +27,25 @@ def clock(**escapement: Any) -> Timekeeping:
     return found
 
 
-def figures(train: GearTrain) -> Timekeeping | None:
+def escapement(**keys: Any) -> Any:
+    """Return a declared escapement."""
+    return GearTrain.declare(
+        PAIR | {"escapement": {"link": "b", "teeth": 30, "beat": "1 s"} | keys}
+    ).declaration.escapement
+
+
+def figures(train: GearTrain) -> Any | None:
     setting = train.mechanics.unfolded.load_case(None)
     assert setting is not None
     return find_timekeeping(setting)
 
 
+PAIR = {
+    "links": {"frame": {}, "a": {"wheels": {"p": 60}}, "b": {"wheels": {"w": 20}}},
+    "revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]},
+    "gears": ["p ~ w"],
+    "inputs": {"a": 1},
+}
 SWING = {
     "efficiency": "40 %",
     "pendulum": {"length": f"{1000 * GRAVITY / pi**2:.12g} mm", "bob": "4.5 kg", "quality": 5000},
@@ -113,11 +127,11 @@ def test_d9_thermal_expansion(rod: str, loss: float) -> None:
 
 
 def test_d10_and_d11_escapement_errors() -> None:
-    dead = Escapement(link="e", teeth=30, beat="1 s", deadbeat=("0.5 deg", "1 deg"))
+    dead = escapement(deadbeat=["0.5 deg", "1 deg"])
     rate = escapement_error(dead, radians(2), 5000)
     assert rate is not None
     assert DAY * rate == pytest.approx(-1.17757939, abs=5e-8)
-    recoil = Escapement(link="e", teeth=30, beat="1 s", recoil="1 deg")
+    recoil = escapement(recoil="1 deg")
     rate, more = (escapement_error(recoil, radians(3) * factor, 3000) for factor in (1, sqrt(1.1)))
     assert rate is not None
     assert more is not None

@@ -33,7 +33,7 @@ def extremes(motion: Motion, turns: float, samples: int) -> np.ndarray:
 )
 def test_extremes_do_not_depend_on_the_samples(name: str, outputs: tuple[str, ...] | None, turns: float) -> None:
     motion = load(name).motion() if outputs is None else load(name).motion(outputs=outputs)
-    found = [extremes(motion, turns, samples) for samples in (200, 5_001, 20_000)]
+    found = [extremes(motion, turns, samples) for samples in (200, 5_001)]
     size = np.abs(found[0]).max(axis=1, keepdims=True) + 1e-12
     assert max(np.ptp([each / size for each in found], axis=0).ravel()) < 1e-9
 

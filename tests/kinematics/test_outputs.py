@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.kinematics.judged_outputs import TargetResult
 
 LUNAR = """
 name: lunar
@@ -42,7 +41,7 @@ def lunar(target: str, unit: str = "365.25 d", teeth: str = "127") -> GearTrain:
     return load(LUNAR.format(target=target, unit=unit, teeth=teeth))
 
 
-def against(target: str, unit: str = "365.25 d", teeth: str = "127") -> TargetResult:
+def against(target: str, unit: str = "365.25 d", teeth: str = "127") -> Any:
     return lunar(target, unit, teeth).solve().outputs["moon"].targets[0]
 
 

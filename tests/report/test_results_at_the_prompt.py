@@ -240,7 +240,6 @@ RESULTS: dict[str, Case] = {
     "files": (lambda: room("workshop").export_files(solid_model(), ["graphml"])[0], None),
     # wing: simulation
     "strength": (lambda: load("longcase-clock-loaded").strength(), ("strength", "longcase-clock-loaded")),
-    "strength report": (lambda: reports("strength"), ("strength", "longcase-clock-loaded")),
     "run in time": (in_time, ("dynamics", "moon-triangular-inertia", *IN_TIME)),
     "simulation": (lambda: load("moon-triangular-inertia").simulation("1 turn/s", step=1e-3), None),
     "rates of separation": (

@@ -220,6 +220,7 @@ def test_axes_of_pins_stand_as_far_apart_as_declared() -> None:
         assert math.dist(a[:2], b[:2]) == pytest.approx(far, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_trains_that_cannot_be_laid_out_as_declared_are_these() -> None:
     """Their pairs require different distances of the same axes; in all other trains all pitch circles touch."""
     said = {name: [notice.what for notice in load(name)[1].notices] for name in NAMES}

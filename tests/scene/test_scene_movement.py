@@ -12,6 +12,7 @@ from functools import cache
 from itertools import chain
 from math import cos, dist, floor, pi, sin, sqrt
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +25,6 @@ from geartrain.drawing.projection import part_points
 from geartrain.scene import Scene, make_scene
 from geartrain.scene.coupling_shapes import belt_outlines
 from geartrain.scene.pose import body_errors, scene_pose
-from geartrain.scene.train_scene import Pointer
 
 TURNS = np.array([0.0, 1 / 3, 17.25, 1234.5678, 98765.4321, 1e6])
 AGREE = 1e-9  # rad
@@ -44,7 +44,7 @@ class Reader:
         return list(scene_pose(self.scene, Fraction(turns)).angles)
 
 
-def pointer_angle(scene: Scene, angles: Sequence[float], pointer: Pointer) -> float:
+def pointer_angle(scene: Scene, angles: Sequence[float], pointer: Any) -> float:
     """Return the angle of a pointer about its declared axis [rad]."""
     return scene.bodies[pointer.body].sense * (angles[pointer.body] - angles[pointer.base])
 

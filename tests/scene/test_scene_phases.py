@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import atan2, pi
+from typing import Any
 
 import pytest
+from sampling import all_but
 from test_scene_movement import Reader
 
 from geartrain import load
 from geartrain.scene import Scene, make_scene
-from geartrain.scene.elements import ScenePair
 
 # two pairs in series; a third whose first wheel is driven; a pin; a pair driven by the pin
 CHAIN = """
@@ -46,7 +47,7 @@ FORMS = {
 }
 
 
-def past_the_line(scene: Scene, angles: list[float], pair: ScenePair) -> float:
+def past_the_line(scene: Scene, angles: list[float], pair: Any) -> float:
     """Return how far a tooth of the first wheel is past the line of centres in its sense [pitches]."""
     wheel, mate = (scene.wheels[at] for at in pair.wheels)
     body = scene.bodies[wheel.body]
@@ -60,7 +61,7 @@ def past_the_line(scene: Scene, angles: list[float], pair: ScenePair) -> float:
 
 
 @pytest.mark.parametrize("speed", ["1", "-2/3"])
-@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("form", all_but({"circular arcs"}, FORMS))
 @pytest.mark.parametrize("phases", [(0, 0, 0, 0), (0.3, 0.8, 0.1, 0.45)])
 def test_a_tooth_of_every_first_wheel_is_drawn_at_its_phase(phases: tuple[float, ...], form: str, speed: str) -> None:
     scene = make_scene(load(CHAIN.format(*phases, form=FORMS[form], speed=speed)))

@@ -64,7 +64,7 @@ def _chances(found: ToothCountPosterior, wheel: str) -> dict[int, Fraction | flo
     return {count: chance.value for count, chance in pairs if chance.value}
 
 
-@pytest.mark.parametrize("first", first_few(2, [400, 430, 460, 490]))
+@pytest.mark.parametrize("first", first_few(1, [430, 400]))
 def test_both_commands_give_the_same_fractions(first: int) -> None:
     requested = compared = 0
     for seed in range(first, first + 30):

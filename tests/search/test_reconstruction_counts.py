@@ -28,6 +28,8 @@ from geartrain.search.reconstruct import (
 
 LONG = {  # each some seconds
     "b byzantine",
+    "back with c d e o, Metonic+Saros+Moon+Games, counts sure",
+    "back with o (no c d e), Metonic+Saros+Games",
     "random 1016",
     "medium 7004",
     "back with doubts, Metonic+Saros",

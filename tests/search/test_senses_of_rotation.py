@@ -19,9 +19,8 @@ from shipped import every_train
 import geartrain
 from geartrain import GearTrain
 from geartrain.kinematics.formulas import with_counts
-from geartrain.report import collect_report, to_markdown
+from geartrain.report import to_markdown
 from geartrain.report.reconstruction_comparison import describe_comparison
-from geartrain.report.train_report import describe_train
 from geartrain.search import infer_counts, search_train
 
 Counts = tuple[int, int]
@@ -200,7 +199,7 @@ def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
 def test_reports_say_where_only_a_magnitude_was_compared() -> None:
     way = targets(Fraction(21), "2 %")
     train = stepped({"targets": [way["-"], way["retrograde"], way["either"], {"speed": 0}]})
-    text = to_markdown([describe_train(collect_report(train))])
+    text = to_markdown([train.report()])
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if "| carrier" in line]
     assert [row[6] for row in rows if row[1].startswith(("speed", "period"))] == [
         "with sense",

@@ -638,7 +638,6 @@ def test_any_number_of_workers_gives_the_same_findings() -> None:
     questions: list[tuple[Data, Data]] = [
         (chain([(20, 44)] * 4, target("0.7071", "1e-4")), {"best": 30}),
         (two_outputs(), {"by": "distinct", "rules": ConstraintOptions(hunting=True)}),
-        (chain([(20, 44)] * 4, target("0.57735")), {"best": 5}),
     ]
     with open_executor(2) as executor:
         for data, options in questions:

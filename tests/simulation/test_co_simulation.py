@@ -59,10 +59,10 @@ def test_the_description_is_valid_and_names_what_goes_in_and_comes_out(unit: Pat
 
 
 def test_it_moves_as_the_train_does_here(unit: Path) -> None:
-    run = load(TRAIN).dynamics(rate=tau, turns=0.03, skip=0, steps=2000, restitution=0.3, fast=False)
+    run = load(TRAIN).dynamics(rate=tau, turns=0.012, skip=0, steps=2000, restitution=0.3, fast=False)
     assert run.step == STEP
     assert run.impacts.total > 0
-    found = fmpy.simulate_fmu(str(unit), stop_time=0.03, output_interval=2 * STEP, start_values={"drive.speed": tau})
+    found = fmpy.simulate_fmu(str(unit), stop_time=0.012, output_interval=2 * STEP, start_values={"drive.speed": tau})
     assert found["time"][1:] == pytest.approx(run.time)
     assert np.array_equal(found["angles.moon"][1:], run.angles["moon"])
     assert np.array_equal(found["speeds.moon"][1:], run.speeds["moon"])

@@ -181,9 +181,7 @@ def test_bevels_of_three_to_four_are_spur_wheels_of_whole_counts_in_the_middle()
     assert "45 and 80 teeth" in bevel.notes[0]
 
 
-@pytest.mark.parametrize(
-    ("z1", "z2", "width", "crossing"), [(36, 48, 20, 90), (17, 23, 12, 90), (24, 30, 15, 60), (20, 45, 18, 110)]
-)
+@pytest.mark.parametrize(("z1", "z2", "width", "crossing"), [(36, 48, 20, 90), (20, 45, 18, 110)])
 def test_pressure_at_the_pitch_point_is_that_of_two_cones(z1: int, z2: int, width: float, crossing: float) -> None:
     angle = radians(crossing)
     pair = found(z1, z2, width, axis=f"[{cos(angle)!r}, {sin(angle)!r}, 0]").pairs["p~w"]

@@ -23,7 +23,7 @@ from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, C
 from geartrain.simulation.contacts.pair_tables import tabled_angle
 from geartrain.simulation.contacts.train_model import SlackPin
 from geartrain.simulation.steps.contact_solution import GAP, TIME_APART
-from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
+from geartrain.simulation.steps.simulation import StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 from geartrain.teeth.transmission import ExactRatio
 
@@ -46,7 +46,7 @@ def pin_train(rate: float, clearance: float = 0.0, drag: float = DRAG) -> Contac
     return ContactModel(mass, np.zeros((2, 2)), np.zeros(2), {0: rate}, speeds, [pair], drags, start=speeds)
 
 
-def yielding(model: ContactModel, plan: StepPlan, k: float, c: float) -> SimulatedRun:
+def yielding(model: ContactModel, plan: StepPlan, k: float, c: float) -> Any:
     found = simulate(model, plan, yields=ToothCompliance(np.array([k]), np.array([c])))
     put_in, taken = found.energy[:3].sum(), found.energy[3:].sum()
     scale = np.abs(found.energy).sum() + found.start + found.end

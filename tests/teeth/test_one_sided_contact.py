@@ -168,7 +168,7 @@ def pairs(draw: st.DrawFn) -> Drawn:
     return Drawn(z1, z2, x1, x2, add1, add2, ring)
 
 
-SAMPLE = few_or_many(40, 80)  # `--slow` draws new pairs, and twice as many
+SAMPLE = few_or_many(15, 60)  # `--slow` draws new pairs, and twice as many
 
 ISSUE = Drawn(36, 70, 0.696, 0.226, 1.0, 1.0, True)
 AFTER = Drawn(40, 60, 1.15, -1.15, 1.0, 1.0, False)

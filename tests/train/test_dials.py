@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
 from geartrain import GearTrain
 from geartrain.errors import DeclarationError
 from geartrain.train import declare
-from geartrain.train.outputs import Dial
 
 
 def declared(**keys: object) -> dict[str, object]:
@@ -23,7 +23,7 @@ def declared(**keys: object) -> dict[str, object]:
     }
 
 
-def dial(**keys: object) -> Dial:
+def dial(**keys: object) -> Any:
     return declare(declared(**keys)).dials["d"]
 
 

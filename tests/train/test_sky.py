@@ -8,12 +8,12 @@ from math import atan2, cos, degrees, radians, sin, sqrt
 
 import pytest
 import shipped
+from julian_days import julian_day
 
 from geartrain import GearTrain, load
 from geartrain.drawing.dial_faces import pointer_readings
 from geartrain.errors import DeclarationError
 from geartrain.scene import build_scene
-from geartrain.train.periods import julian_day, read_date
 from geartrain.train.sky import angle_at, read_sky_angle
 
 # E. M. Standish, Keplerian elements for approximate positions of the major planets, Solar System Dynamics Group, JPL,
@@ -107,7 +107,7 @@ def apart(one: float, other: float) -> float:
 
 @pytest.mark.parametrize("date", DATES)
 def test_mean_angles_agree_with_the_orbits_of_standish(date: str) -> None:
-    day = julian_day(read_date(date))
+    day = julian_day(date)
     sun = mean_longitude("earth", day) + 180
     assert apart(360 * angle_at(read_sky_angle("sun")[0], float(day)), sun) == pytest.approx(0, abs=0.05)
     for body in (*INFERIOR, *SUPERIOR):
@@ -129,7 +129,7 @@ def test_mean_angles_of_the_moon_agree_with_its_phases_and_eclipses() -> None:
     for text, longitude in (("moon", 134.290182), ("moon_anomaly", 5.150833), ("moon - sun", 113.842304)):
         assert apart(360 * angle_at(read_sky_angle(text)[0], float(day)), longitude) == pytest.approx(0, abs=3e-3), text
     # the total solar eclipse of 1999 August 11 (greatest at 11:03 UT): new Moon, near the node
-    day = julian_day(read_date("1999-08-11 11:03"))
+    day = julian_day("1999-08-11 11:03")
     assert apart(360 * angle_at(read_sky_angle("moon - sun")[0], float(day)), 0) == pytest.approx(0, abs=8)
     assert abs(apart(360 * angle_at(read_sky_angle("sun - moon_node")[0], float(day)) * 2, 0)) < 2 * 17
 

@@ -14,7 +14,7 @@ import pytest
 import shapely
 from sampling import first_few
 from shipped import built
-from shipped import train as load
+from workpieces import workpiece
 
 import geartrain
 from geartrain import GearTrainError
@@ -23,11 +23,6 @@ from geartrain.workshop import export_files, notices
 from geartrain.workshop.export.assembly_guide import assembly_steps
 
 manifold3d = pytest.importorskip("manifold3d")
-
-
-def workpiece(name: str, **making: Any) -> SolidModel:
-    train = load(name)
-    return SolidModel(train, ManufacturingSizes(**making), train.states[0] if train.states else None)
 
 
 def body(solid: Any) -> Any:
@@ -308,8 +303,7 @@ def test_pillars_of_a_train_about_one_axis_stand_evenly_to_its_left_and_right(na
 
 @pytest.fixture(scope="module", params=["longcase-clock-cycloidal", "freeth-2006", "price-1974"])
 def work(request: pytest.FixtureRequest) -> SolidModel:
-    train = load(request.param)
-    return SolidModel(train, ManufacturingSizes(), train.declaration.state_or_first(None))
+    return workpiece(request.param)
 
 
 def test_a_spacer_goes_from_face_to_face(work: SolidModel) -> None:
@@ -358,7 +352,7 @@ def test_steps_of_the_assembly_bring_them_in_with_their_wheels(work: SolidModel)
 
 
 def test_wheels_beside_pins_and_slots_have_none() -> None:
-    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    work = workpiece("freeth-2008")
     coupled = {link for each in work.train.declaration.couplings for link in (each.pin, each.slot)}
     assert coupled
     sleeves = [part for part in work.parts if part.kind in ("spacer", "collet") and part.turned is not None]
@@ -378,7 +372,7 @@ def test_wheels_beside_pins_and_slots_have_none() -> None:
 )
 def test_a_wheel_across_goes_through_its_plate_with_air_round_it(name: str, wheel: str, plate: str) -> None:
     """In its own middle plane the wheel is a rectangle in the plate, 0.4 mm away from what is left."""
-    model = SolidModel(load(name), ManufacturingSizes())
+    model = workpiece(name)
     parts = {part.name: part for part in model.parts}
     flat = parts[plate]
     own = (parts[wheel].placed.vertices - flat.place) @ flat.turn

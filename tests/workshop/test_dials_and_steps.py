@@ -12,18 +12,13 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-from shipped import train as load
+from workpieces import workpiece
 
 import geartrain
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files
 from geartrain.workshop.export.assembly_guide import assembly_steps
 from geartrain.workshop.export.parts_list import parts_list
-
-
-def model(name: str) -> SolidModel:
-    train = load(name)
-    return SolidModel(train, ManufacturingSizes(), train.states[0] if train.states else None)
 
 
 def engraved(work: SolidModel, file: str) -> list[list[tuple[float, float]]]:
@@ -58,7 +53,7 @@ def clockwise(point: tuple[float, float]) -> float:
 
 
 def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours_engraved_as_strokes() -> None:
-    work = model("longcase-clock-cycloidal")
+    work = workpiece("longcase-clock-cycloidal")
     lines = about(work, engraved(work, "dial-minutes-and-hours-and-seconds"), "minutes")
     outer, inner = sorted({round(hypot(*line[0]), 2) for line in lines if len(line) > 80}, reverse=True)
     for radius, count in ((outer, 60), (inner, 12)):
@@ -70,7 +65,7 @@ def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours_engraved_as_stro
 
 
 def test_the_metonic_spiral_has_235_months_in_five_turns() -> None:
-    work = model("freeth-2008")
+    work = workpiece("freeth-2008")
     lines = about(work, engraved(work, "dial-metonic-and-games-and-callippic-and-saros-and-exeligmos"), "metonic")
     radial = [line for line in lines if len(line) == 2 and abs(clockwise(line[0]) - clockwise(line[1])) < 1e-4]
     # a turn is 6.57 mm wide: (1 - 0.55) / 5 of a radius of 73 mm; strokes of letters are shorter
@@ -84,7 +79,7 @@ def test_the_metonic_spiral_has_235_months_in_five_turns() -> None:
 
 def test_arbors_go_through_the_dials_on_which_they_are_read() -> None:
     for name in ("longcase-clock-cycloidal", "freeth-2008"):
-        work = model(name)
+        work = workpiece(name)
         parts = {part.name: part for part in work.parts}
         assert work.dials
         for dial in work.dials:
@@ -124,7 +119,7 @@ def test_the_edge_of_a_dial_passes_the_wheel_of_the_crank(name: str) -> None:
 
 
 def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:
-    work = model("longcase-clock-cycloidal")
+    work = workpiece("longcase-clock-cycloidal")
     (found,) = [each for each in export_files(work, ["dxf"]) if each.path.endswith("and-seconds.dxf")]
     space = ezdxf.read(io.StringIO(found.make().decode())).modelspace()
     lines = [each for each in space.query("LWPOLYLINE") if each.dxf.layer == "ENGRAVE"]
@@ -137,7 +132,7 @@ def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:
 
 @pytest.mark.parametrize("name", ["longcase-clock-cycloidal", "freeth-2008", "wolfrom-175", "ravigneaux-set"])
 def test_every_part_comes_in_by_some_step(name: str) -> None:
-    work = model(name)
+    work = workpiece(name)
     came = [part for step in assembly_steps(work) for part in step.parts]
     assert work.frame is not None
     across = set(work.layout.wheels) - {disc.name for disc in work.frame.plan.discs}
@@ -147,7 +142,7 @@ def test_every_part_comes_in_by_some_step(name: str) -> None:
 
 
 def test_steps_have_pictures_that_name_what_comes_in() -> None:
-    work = model("planetary-24-18-60")
+    work = workpiece("planetary-24-18-60")
     files = {each.path: each for each in export_files(work, ["svg"])}
     steps = assembly_steps(work)
     readme = files["README.md"].make().decode()
@@ -164,7 +159,7 @@ def test_steps_have_pictures_that_name_what_comes_in() -> None:
 
 def test_a_clock_is_made_with_its_barrel_its_pendulum_and_its_weight() -> None:
     """A weight of 5.9 kg of lead, a rod and a bob that are 994 mm from their cock; no picture is a metre high."""
-    work = SolidModel(load("longcase-clock"), ManufacturingSizes())
+    work = workpiece("longcase-clock")
     rows = {row.names[0]: row for row in parts_list(work)}
     assert (rows["weight"].material, rows["weight"].mass) == ("lead", pytest.approx(5900))
     assert rows["great barrel"].size.startswith("diameter 50.8,")

@@ -15,13 +15,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from shipped import train as load
+from workpieces import outlines
+from workpieces import workpiece as shipped_work
 
 import geartrain
 from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files, notices, train_file, wheel_file
 from geartrain.workshop.export.cut_sheets import file_names
-from geartrain.workshop.export.proof.turned_pair import cut_lines
 
 shapely = pytest.importorskip("shapely")
 
@@ -50,7 +51,7 @@ def from_svg(data: bytes) -> list[np.ndarray]:
     text = data.decode()
     width, shown = re.search(r'width="([\d.]+)mm".* viewBox="\S+ \S+ ([\d.]+) ', text).groups()  # type: ignore[union-attr]
     assert width == shown
-    return [np.array(line[:-1]) for line in cut_lines(text)]
+    return [np.array(line[:-1]) for line in outlines(text)]
 
 
 def from_dxf(data: bytes) -> dict[str, list[np.ndarray]]:
@@ -135,7 +136,7 @@ def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
 
 
 def test_a_ring_is_cut_inside_its_rim_and_its_planets_fit_in() -> None:
-    work = SolidModel(load("planetary-24-18-60-involute"), ManufacturingSizes())
+    work = shipped_work("planetary-24-18-60-involute")
     ring = polygon(from_svg(wheel_file(work, "ring", ".svg")))
     hole, *posts = sorted(ring.interiors, key=lambda each: -shapely.Polygon(each).area)
     module = work.layout.wheels["ring"].module
@@ -145,7 +146,7 @@ def test_a_ring_is_cut_inside_its_rim_and_its_planets_fit_in() -> None:
 
 
 def test_wheels_of_one_shape_share_a_sheet_that_says_how_often() -> None:
-    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    work = shipped_work("freeth-2008")
     sheets = [each for each in export_files(work, ["svg"]) if each.path.startswith("wheels/")]
     flat = [name for name, (_, wheel) in work.train.declaration.wheels.items() if wheel.kind == "spur"]
     listed = [name for each in sheets for name in re.split(", ", each.title.split(":")[0].split(", 2 times")[0])]
@@ -163,7 +164,7 @@ def test_wheels_of_one_shape_share_a_sheet_that_says_how_often() -> None:
     ],
 )
 def test_what_has_no_flat_outline_is_refused_by_name_and_the_rest_is_written(train: str, wheel: str, word: str) -> None:
-    work = SolidModel(load(train), ManufacturingSizes(), load(train).states[0] if load(train).states else None)
+    work = shipped_work(train)
     assert any(f"'{wheel}'" in each.what and word in each.what for each in notices(work, ["svg"]))
     with pytest.raises(GearTrainError, match=word):
         wheel_file(work, wheel, ".svg")
@@ -219,7 +220,7 @@ def test_names_of_parts_become_names_of_files_that_differ(names: list[str]) -> N
 
 
 def test_graphml_is_read_back_by_networkx_with_every_link_and_pair() -> None:
-    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    work = shipped_work("freeth-2008")
     graph = nx.parse_graphml(train_file(work, "graphml").decode(), force_multigraph=True)
     declaration = work.train.declaration
     assert set(graph) == set(declaration.links)

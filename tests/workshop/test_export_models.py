@@ -7,6 +7,7 @@ import struct
 from fractions import Fraction
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,21 +16,18 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from places import TRAINS
 from shipped import train as load
+from workpieces import workpiece
 
 import geartrain
 from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.triangle_solids import Solid, approximation_solid, fill
+from geartrain.scene.solids.triangle_solids import approximation_solid, fill
 from geartrain.workshop import train_file, wheel_file
 
 shapely = pytest.importorskip("shapely")
 
 
-def workpiece(name: str, state: str | None = None, **making: float) -> SolidModel:
-    return SolidModel(load(name), ManufacturingSizes(**making), state)
-
-
-def volume(solid: Solid) -> float:
+def volume(solid: Any) -> float:
     """Within a closed surface: tetrahedra from the origin, by the divergence theorem."""
     a, b, c = (solid.vertices[solid.faces[:, k]] for k in range(3))
     return float((a * np.cross(b, c)).sum()) / 6
@@ -270,7 +268,7 @@ def test_a_wheel_of_more_teeth_than_are_cut_is_its_pitch_circle(internal: str) -
     assert float(abs(across - wheel.radius).min()) < 1e-9 * wheel.radius
 
 
-def box(solid: Solid) -> tuple[np.ndarray, np.ndarray]:
+def box(solid: Any) -> tuple[np.ndarray, np.ndarray]:
     return solid.vertices.min(axis=0), solid.vertices.max(axis=0)
 
 
@@ -442,7 +440,7 @@ def test_more_turns_than_key_frames_can_show_are_refused() -> None:
 
 
 def test_the_same_train_is_the_same_file() -> None:
-    works = [workpiece("planetary-24-18-60") for _ in range(2)]
+    works = [SolidModel(load("planetary-24-18-60"), ManufacturingSizes()) for _ in range(2)]
     for make in (lambda work: train_file(work, "glb"), lambda work: wheel_file(work, "s", ".dxf")):
         first, second = map(make, works)
         assert first == second

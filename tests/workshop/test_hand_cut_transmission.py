@@ -278,7 +278,7 @@ PLACES = CuttingErrorModel(ErrorDistribution(0.04))
         pytest.param(EVERY, 0, id="every error-0"),
         pytest.param(EVERY, 1, id="every error-1", marks=pytest.mark.slow),
         pytest.param(EVERY, 2, id="every error-2", marks=pytest.mark.slow),
-        pytest.param(PLACES, 0, id="places-0"),
+        pytest.param(PLACES, 0, id="places-0", marks=pytest.mark.slow),
         pytest.param(PLACES, 1, id="places-1", marks=pytest.mark.slow),
         pytest.param(PLACES, 2, id="places-2", marks=pytest.mark.slow),
     ],

@@ -9,17 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import call
-from shipped import train as load
+from workpieces import workpiece
 
-from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.scene import SolidModel
 from geartrain.workshop import train_file
 
 Speeds = dict[str, np.ndarray]
-
-
-def solid(name: str, state: str | None = None) -> SolidModel:
-    train = load(name)
-    return SolidModel(train, ManufacturingSizes(), state or (train.states[0] if train.states else None))
 
 
 def angular_speeds(work: SolidModel) -> Speeds:
@@ -42,7 +37,7 @@ ONE_INPUT = ["planetary", "nrel-grc-750", "zf-8hp70", "norton-compound", "moon-t
 
 @pytest.mark.parametrize("name", ONE_INPUT)
 def test_mimic_joints_of_urdf_add_up_to_the_speeds_of_the_links(name: str) -> None:
-    work = solid(name)
+    work = workpiece(name)
     robot = ET.fromstring(train_file(work, "urdf"))
     joints = {joint.get("name") or "": joint for joint in robot.iter("joint") if joint.find("child") is not None}
     expected = angular_speeds(work)
@@ -78,7 +73,7 @@ def test_mimic_joints_of_urdf_add_up_to_the_speeds_of_the_links(name: str) -> No
 
 @pytest.mark.parametrize("name", [*ONE_INPUT, "prius-power-split", "ravigneaux-set"])
 def test_constraints_of_mjcf_hold_at_the_speeds_and_leave_the_inputs_free(name: str) -> None:
-    work = solid(name)
+    work = workpiece(name)
     model = ET.fromstring(train_file(work, "mjcf"))
     expected, rates = angular_speeds(work), {}
     queue = [(body, work.train.declaration.frame) for body in model.findall("worldbody/body")]
@@ -115,7 +110,7 @@ def test_constraints_of_mjcf_hold_at_the_speeds_and_leave_the_inputs_free(name: 
 
 def test_a_simple_pair_has_the_ratio_of_its_teeth_in_both_formats() -> None:
     """Wheels of 45 and 225 teeth: the second turns at -45/225 of the first."""
-    work = solid("moon-triangular")
+    work = workpiece("moon-triangular")
     robot, model = (ET.fromstring(train_file(work, kind)) for kind in ("urdf", "mjcf"))
     mimic = robot.find("joint[@name='sun']/mimic")
     assert mimic is not None
@@ -141,7 +136,7 @@ def test_bevels_on_a_moving_axis_roll_on_each_other() -> None:
     """Pitch lines from the apex through (10, 16) and (10, -16): with the axes of the side wheel along x and of the
     spiders along y, equal velocities there require 16 (w_left - w_crown) = -10 q, and 10 q for the second spider.
     """
-    model = ET.fromstring(train_file(solid("bevel-differential"), "mjcf"))
+    model = ET.fromstring(train_file(workpiece("bevel-differential"), "mjcf"))
     assert [vector(model.find(f".//joint[@name='{each}']").get("axis"))[1] for each in ("spider", "spider.2")] == [1, 1]  # type: ignore[union-attr]
     for pair, spider, coefficient in (("l16~p10", "spider", 10 / 16), ("l16~p10.2", "spider.2", -10 / 16)):
         row = {each.get("joint"): each.get("coef") for each in model.findall(f"tendon/fixed[@name='{pair}']/joint")}

@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
+from workpieces import workpiece
 
-from geartrain import load
-from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files, wheel_file
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -30,14 +29,9 @@ inputs: {a: 1}
 
 
 @cache
-def work(train: str, module: float | None = None) -> SolidModel:
-    return SolidModel(load(train), ManufacturingSizes(module=module))
-
-
-@cache
 def files(train: str, module: float | None = None) -> dict[str, str]:
     """Return the drawings and assembly pictures of an export by path."""
-    made = export_files(work(train, module), ["svg"])
+    made = export_files(workpiece(train, module=module), ["svg"])
     return {each.path: each.make().decode() for each in made if each.path.startswith(("drawings/", "assembly/"))}
 
 
@@ -84,7 +78,7 @@ def test_helical_wheels_have_their_transverse_module_and_the_distance_that_follo
 @pytest.mark.parametrize("side", ["back", "front"])
 def test_the_table_has_the_circles_of_the_drawing_to_cut(side: str) -> None:
     """The process `hand` has no kerf, so that circles are cut with the finished size."""
-    made = export_files(work("longcase-clock"), ["svg"])
+    made = export_files(workpiece("longcase-clock", module=None), ["svg"])
     (cut,) = (each.make().decode() for each in made if each.path == f"plates/plates-{side}-plate.svg")
     arcs = r"M (\S+) (\S+) A (\S+) \S+ 0 \d \d (\S+) (\S+) A \S+ \S+ 0 \d \d \1 \2 Z"
     circles = [[float(each) for each in found] for found in re.findall(arcs, cut)]
@@ -104,7 +98,9 @@ def test_the_table_has_the_circles_of_the_drawing_to_cut(side: str) -> None:
 def test_diameters_of_wheels_are_those_of_their_outlines(train: str, module: float | None) -> None:
     for row in rows(files(train, module)["drawings/wheels.csv"]):
         name = row["wheel"].split(", ")[0]
-        path = re.search(r'<path id="CUT"[^>]* d="([^"]*)"', wheel_file(work(train, module), name, ".svg").decode())
+        path = re.search(
+            r'<path id="CUT"[^>]* d="([^"]*)"', wheel_file(workpiece(train, module=module), name, ".svg").decode()
+        )
         assert path is not None
         parts = [part for part in path[1].split("Z") if part.strip()]
         pieces = [np.array(re.findall(r"(-?\d+\.\d+) (-?\d+\.\d+)(?= [A-Z]|\s*$)", part), float) for part in parts]

@@ -290,11 +290,9 @@ def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: 
             run_trials(plan, 900, 7, Execution(None, journal, blocks_until(stop)))
     with Journal(path, requested) as journal:
         assert 0 < len(journal) < 16
-    with workers() as executor:
-        with Journal(path, requested) as journal:
-            assert same(run_trials(plan, 900, 7, Execution(executor, journal)), true)
-            assert len(journal) == 16
-        assert same(run_trials(plan, 900, 7, Execution(executor)), true)
+    with workers() as executor, Journal(path, requested) as journal:
+        assert same(run_trials(plan, 900, 7, Execution(executor, journal)), true)
+        assert len(journal) == 16
 
 
 def test_fewer_trials_are_the_first_of_many_and_another_seed_draws_others() -> None:

@@ -12,32 +12,27 @@ import pytest
 import shapely
 from sampling import all_but
 from shapely.affinity import affine_transform, rotate, translate
+from workpieces import outlines, workpiece
 
 import geartrain
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files
 from geartrain.workshop.export.proof import TrainProof, prove_train
-from geartrain.workshop.export.proof.turned_pair import cut_lines
 
 Point = tuple[float, float]
 
 
 @cache
-def work(name: str) -> SolidModel:
-    return SolidModel(geartrain.load(name), ManufacturingSizes())
-
-
-@cache
 def proof(name: str) -> TrainProof:
-    return prove_train(work(name))
+    return prove_train(workpiece(name))
 
 
 @cache
 def written(name: str) -> dict[str, list[list[Point]]]:
     """Closed lines (mm) of every drawing that is written of a train."""
-    files = export_files(work(name), ["svg"])
+    files = export_files(workpiece(name), ["svg"])
     flat = (each for each in files if each.path.startswith(("wheels/", "plates/")))
-    return {each.path.partition("/")[2].removesuffix(".svg"): cut_lines(each.make().decode(), 1e-5) for each in flat}
+    return {each.path.partition("/")[2].removesuffix(".svg"): outlines(each.make().decode()) for each in flat}
 
 
 @dataclass(frozen=True)
@@ -59,11 +54,11 @@ def circles(name: str, drawing: str) -> list[Circle]:
 
 
 def part(name: str, of: str) -> Any:
-    return next(each for each in work(name).parts if each.name == of)
+    return next(each for each in workpiece(name).parts if each.name == of)
 
 
 def parts(name: str, start: str) -> list[Any]:
-    return [each for each in work(name).parts if each.name.startswith(start) and each.kind == "pin"]
+    return [each for each in workpiece(name).parts if each.name.startswith(start) and each.kind == "pin"]
 
 
 def in_place(name: str, of: str, drawing: str) -> shapely.Polygon:
@@ -155,7 +150,7 @@ def test_holes_for_a_shaft_are_above_each_other_in_all_plates(name: str, axis: P
 
 
 def test_every_part_of_a_reducer_is_in_its_list_and_in_a_step() -> None:
-    files = {each.path: each for each in export_files(work("cycloidal-reducer"), ["svg"])}
+    files = {each.path: each for each in export_files(workpiece("cycloidal-reducer"), ["svg"])}
     listed = files["parts.csv"].make().decode()
     for name in ("shaft eccentric", "flange plate", "ring pin 12", "holes pin 6", "shaft eccentric washer 2"):
         assert name in listed
@@ -304,7 +299,7 @@ def test_a_wave_that_does_not_bend_the_wheel_into_its_ring_is_seen() -> None:
     from geartrain.workshop.export.proof.mesh_proof import read_wheels
     from geartrain.workshop.export.proof.train_proof import overlaps
 
-    model = work("strain-wave")
+    model = workpiece("strain-wave")
     assert model.frame is not None
     (wave,) = model.frame.plan.stack.eccentrics
     cut = read_wheels(model).materials

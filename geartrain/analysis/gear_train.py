@@ -459,7 +459,7 @@ class GearTrain:
     # ------------------------------------------------------------------------------------ loads, and motion in time
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
-        """Compute the torques if one link drives another, from which a unit of power is taken.
+        """Compute the torques if the link `source` drives and a unit of power leaves the train at the link `load`.
 
         The result contains the efficiency in this direction, or reports self-locking.
 

@@ -267,7 +267,7 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Reduce every component to one unknown speed, and return the system that couples them: docs/theory.md, 8."""
+    """Reduce every component to one unknown speed, and return the system that couples them; see docs/theory.md, 8."""
     groups = len(parts.group_carrier)
     # a component that contains a travel has several carriers
     carriers = dict.fromkeys(each for each in (*parts.group_carrier, *parts.node_carrier) if each != parts.frame)

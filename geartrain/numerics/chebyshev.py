@@ -31,7 +31,7 @@ def tail(series: Chebyshev) -> float:
 
 @lru_cache(maxsize=32)
 def points(count: int) -> tuple[Floats, Floats]:
-    """Return the Chebyshev points of the second kind on [-1, 1], and the matrix from values to coefficients."""
+    """Return the Chebyshev points of the second kind on [-1, 1], and the matrix that maps values to coefficients."""
     x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
     # at these points the matrix is as well conditioned as a cosine transform, so that inverting it is accurate
     return x, np.asarray(np.linalg.inv(cheb.chebvander(x, count - 1)), dtype=np.float64)

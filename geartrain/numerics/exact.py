@@ -231,7 +231,7 @@ _LONGEST = 24  # characters of the rational factor: longer factors are not print
 
 
 def touches_pi(value: Fraction) -> bool:
-    """Return True if a number has a prime factor of `PI`, as all of its rational multiples have."""
+    """Return True if a number has a prime factor of `PI`; all rational multiples of `PI` have one."""
     parts = value.numerator, value.denominator
     return bool(value) and any(part % prime == 0 for part in parts for prime in (PI.numerator, PI.denominator))
 

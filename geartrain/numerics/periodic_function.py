@@ -32,7 +32,7 @@ Interpolation = Literal["pchip", "cubic", "linear", "steps"]
 _FEWEST_POINTS = {"pchip": 3, "cubic": 4, "linear": 2, "steps": 2}
 _PER_WAVE = 32  # samples of the shortest wave
 _INSET = 16 * float(np.finfo(float).eps)  # periods: distance of the samples from breakpoints, several rounding errors
-_FINE = 1e-9  # of a bracket: the value at a stationary point is exact to the square of its error
+_FINE = 1e-9  # [brackets] the value at a stationary point is exact to the square of its error
 _MOST_SAMPLES = 5_000_000
 _GAUSS = np.polynomial.legendre.leggauss(8)  # exact to degree 15
 

@@ -16,7 +16,7 @@ ExactVector = tuple[Fraction, Fraction, Fraction]
 
 N = TypeVar("N", int, float, Fraction)
 
-_PARALLEL = 1e-9  # of a cosine, or mm: smaller values are rounding errors
+_PARALLEL = 1e-9  # [1 or mm] smaller values are rounding errors
 
 
 def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:

@@ -317,7 +317,7 @@ class Scene(Shown):
     tour: Sequence[TourStop] = ()
     """Declared tour of the train."""
     formulas: SceneFormulas | None = None
-    """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
+    """Speeds as functions of tooth counts; None if they are not requested or not available, or if a run is replayed."""
     asks: bool = True
     """True if outputs are declared, False if links are shown as outputs instead."""
     run: SceneRun | None = None

@@ -237,8 +237,8 @@ def from_graph(
     close exactly.
 
     The algorithm computes a circle packing of the graph (Koebe, Andreev and Thurston), rounds tooth numbers that are
-    proportional to the circles, and moves the axes as little as possible until the condition named by `aim` is
-    satisfied exactly. In the packing, the idlers have additional meshes with a circle in each adjacent region.
+    proportional to the sizes of the circles, and moves the axes as little as possible until the condition named by
+    `aim` is satisfied exactly. In the packing, the idlers have additional meshes with a circle in each adjacent region.
 
     Parameters
     ----------

@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 FOOT_A_MINUTE = 0.3048 / 60
 """One foot per minute [m/s]."""
 BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
-"""Pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears: Buckingham, p. 404, cited by
-Smith.
+"""Pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears, from Buckingham, p. 404, cited
+by Smith.
 """
 DOKOS = (0.53, 0.18, 1e7)
-"""Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds: Dokos, cited by Smith."""
+"""Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds, from Dokos, cited by Smith."""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 

@@ -43,8 +43,8 @@ class TransmissionProtocol(Protocol):
     """Protocol of transmission functions that `GearTrain.with_tooth_form` accepts for a gear pair.
 
     A subclass of `TransmissionFunction` satisfies it. Two methods are optional: `kinks()` returns the driver angles in
-    one period at which the speed ratio or its slope is discontinuous [rad], and `efficiency(S)` the efficiency at
-    driver angles, above 0 and at most 1.
+    one period at which the speed ratio or its slope is discontinuous [rad], and `efficiency(S)` returns the efficiency
+    at driver angles, above 0 and at most 1.
 
     See Also
     --------

@@ -78,7 +78,7 @@ def _moved_wheels(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterat
 
 
 def _merge_mappings(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """Return two mappings merged entry by entry; null removes an entry."""
+    """Merge two mappings entry by entry, and return the result; null removes an entry."""
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):
         return new
     result, keys = dict(old.value), dict(old.keys)
@@ -95,7 +95,7 @@ def _merge_mappings(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
 
 
 def _merge_entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """Return two entries of the same kind merged; short forms are expanded first."""
+    """Merge two entries of the same kind after expanding short forms, and return the result."""
     if kind == "clutches":  # exactly one of `fixes` and `locks`: merging could give both
         return new
     old, new = _expanded(old, kind), _expanded(new, kind)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _CHUNK = 32768  # maximum number of positions evaluated at once
 _NUMBERS = 1 << 23  # maximum number of stored angles: longer trains use smaller chunks
-REST = 1e-9  # of the mean speed of a driver: slower motion backwards is rounding of a dwell
+REST = 1e-9  # fraction of a driver's mean speed: slower backward motion is rounding in a dwell
 PLAIN = 1  # periods up to which a plain product gives the phase of the driver to rounding
 
 

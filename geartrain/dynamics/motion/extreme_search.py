@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
 MOST_KINKS = 400_000  # kinks of a run that are all searched, which takes about 10 s in a train of 50 pairs
-_BESIDE = 1e-9  # of a narrow step: distance from the end of a piece at which its one-sided limit is taken
+_BESIDE = 1e-9  # [narrow steps] distance from the end of a piece at which its one-sided limit is taken
 _ULPS = 32  # units in the last place of the turns: minimum distance, so that rounding does not pass a kink
-_BEYOND = 0.1  # of the range in a piece: allowance for a maximum above the parabola through its ends and middle
+_BEYOND = 0.1  # [range in a piece] allowance for a maximum above the parabola through its ends and middle
 _STEEP = 4  # ratio of rise to bend in a piece, above which its values are taken to rise or fall throughout
-_SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
+_SURE = 1e-9  # [range of an output's errors or rates] tolerance of the search
 _ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
 _BATCH = 512  # pieces in which maxima are located at once
 _PARTS = 8  # subdivisions of a piece per round

@@ -31,12 +31,12 @@ MOST_KINKS = 20_000_000
 
 _STEPS = 4  # steps per period of the fastest pair: the driver is monotonic in a step, or slow at one of its ends
 _FEWEST = 16  # minimum number of steps in a run
-_SLOW = 0.25  # of the mean speed: a slower driver may reverse within the step
+_SLOW = 0.25  # [mean speed] a slower driver may reverse within the step
 _PARTS = 16  # subdivisions of a step in which a driver may reverse
 _HALVINGS = 40  # bisections of a step to locate a reversal
-_FINE = 1e-14  # of a step: tolerance of a kink's position
-_SAME = 1e-9  # of a period: closer kinks are the same kink found from both sides
-_NEAR = 1e-11  # of a period: overlap of neighbouring steps, so that rounding loses no kink at their ends
+_FINE = 1e-14  # [steps] tolerance of a kink's position
+_SAME = 1e-9  # [periods] closer kinks are the same kink found from both sides
+_NEAR = 1e-11  # [periods] overlap of neighbouring steps, so that rounding loses no kink at their ends
 
 
 class KinkPositions(NamedTuple):

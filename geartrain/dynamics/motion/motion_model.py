@@ -525,7 +525,7 @@ class Motion(Shown):
 
     @cached_property
     def _usual_run(self) -> Any:
-        """Run with the default options of `geartrain motion`, which `print` shows."""
+        """Run with the default options of `geartrain motion`; `print` displays it."""
         return self.run()
 
     def _with_transmissions(self, transmissions: Mapping[str, Any]) -> Motion:

@@ -40,7 +40,7 @@ _HARMONICS = 24  # harmonics of the pitch evaluated for each pair
 _MOST_LINES = 12  # spectral lines of an output
 _MAIN = 3  # outputs in a summary
 _ANGLES = ("angle (rad)", "error (rad)", "speed")  # columns of an output that turns
-_FAINT = 1e-6  # of the strongest line: weaker lines are omitted
+_FAINT = 1e-6  # fraction of the strongest line: weaker lines are omitted
 
 
 class HarmonicShare(NamedTuple):

@@ -116,7 +116,9 @@ class RunningStatistics(Result):
 
     @property
     def degrees_or_mm(self) -> float:
-        """Factor from `unit` to the unit in which deviations are printed: deg, or mm for a link that slides."""
+        """Factor that converts deviations from `unit` to the unit in which they are printed: deg, or mm if the link
+        slides.
+        """
         return 1.0 if self.slides else 180 / pi
 
     @property

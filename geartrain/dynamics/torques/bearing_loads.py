@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 _MM = 1e-3
 _MOST_ROUNDS = 20_000  # maximum iterations; one that needs more is at the limit of locking
-_GROWTH = 1e12  # of the first torques: a larger friction torque grows without limit
+_GROWTH = 1e12  # multiple of the first torques: a larger friction torque grows without limit
 _KNOWN = -1  # column of the known torques
 
 
@@ -140,7 +140,7 @@ class BearingLoads:
             )
 
     def _line(self) -> Iterator[AxisForce]:
-        """Yield the pull of the line of a driving weight, which is proportional to the torque on its drum."""
+        """Yield the force of the line of a driving weight, which is proportional to the torque on its drum."""
         drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return

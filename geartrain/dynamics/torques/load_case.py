@@ -99,7 +99,7 @@ class MeanEfficiencies:
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
     """Efficiencies if the driven side's torque is constant over a revolution."""
     exact: bool = True
-    """True for declared values; False for means over teeth, which are floats rounded to 15 digits."""
+    """True for declared values; False for means over tooth positions, which are floats rounded to 15 digits."""
 
     @property
     def differ(self) -> bool:

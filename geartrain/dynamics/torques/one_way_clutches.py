@@ -215,7 +215,7 @@ class _Decision:
             wrong = {name for each in kinds if each.kind == "overrunning" for name in each.candidates}
             missing = sum(each.kind == "unbalanced" for each in kinds)
             released = self._members(pattern, wrong)
-            # of equal numbers, a pattern that names what lets go, then the one with the fewest holding clutches
+            # ties: a pattern that names the released clutches, then the one with the fewest holding clutches
             found.append((len(wrong) + missing, not released, len(pattern.holding), pattern.holding, released))
         *_, holding, released = min(found)
         return self._patterns[tuple(name for name in holding if name not in released)], released

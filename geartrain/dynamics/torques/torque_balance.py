@@ -203,7 +203,7 @@ class TorqueBalance:
                 alike.setdefault(tuple(at for at, _, _ in entries), []).append(row)
         kept: list[int] = []
         for group in alike.values():
-            # of proportional rows the first is kept
+            # the first of several proportional rows is kept
             said = {_direction(held[row], known.get(row, Fraction(0))): row for row in reversed(group)}
             kept += said.values() if len(group) > 1 else group
         return {row: known.get(row, Fraction(0)) for row in sorted(kept)}
@@ -220,7 +220,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block; it is used if a block leaves an unknown of a later block undetermined."""
+        """Whole balance as one block; used if a block does not determine an unknown that a later block requires."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property

@@ -358,7 +358,7 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair, which are friction of teeth at each position, or a constant efficiency."""
+    """Return the losses of a gear pair: tooth friction at each position, or a constant efficiency."""
     if source is not None and mesh is not None and _by_friction(setting, mesh):
         return _tooth_friction(setting, circuit, source, mesh)
     return _constant_efficiency(setting, circuit, first)

@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 MOST_TRIED = 7  # two-sided torques of a block with exhaustive enumeration: 2^7 small systems per position
 _MOST_ROUNDS = 30  # maximum iterations for blocks with more two-sided torques
 _MOST_LAYERS = 16  # maximum number of solutions kept per position
-NEAR = 1e-9  # of the maximum torque: the sign of a smaller torque is undecided
-SINGULAR = 1e-13  # of the product of the row norms (Hadamard's bound): a smaller determinant counts as 0
-SAME = 1e-8  # of the maximum torque: solutions closer than this are equal
-AT_REST = 1e-12  # of the maximum speed: slower links are at rest
-FAINT = 1e-9  # of the maximum torque through a pair: smaller torques do not press on a flank
-CONVERGED = 1e-14  # of the maximum friction torque: smaller changes end the iteration of loaded bearings
+NEAR = 1e-9  # [maximum torque] the sign of a smaller torque is undecided
+SINGULAR = 1e-13  # [product of the row norms, Hadamard's bound] a smaller determinant counts as 0
+SAME = 1e-8  # [maximum torque] solutions closer than this are equal
+AT_REST = 1e-12  # [maximum speed] slower links are at rest
+FAINT = 1e-9  # [maximum torque of a pair] smaller torques do not press on a flank
+CONVERGED = 1e-14  # [maximum friction torque] smaller changes end the iteration of loaded bearings
 _MOST_LOADED = 200  # maximum iterations of loaded bearings; one that needs more is at the limit of locking
 ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 

@@ -29,7 +29,7 @@ NODES = 5
 _BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90  # Boole's rule over a cell of unit width
 # error estimate: Simpson's rule on both halves less that on the whole, over 15 (Richardson extrapolation)
 _HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180
-_ASIDE = 1e-10  # of the shortest period: distance from a kink at which its one-sided limits are taken
+_ASIDE = 1e-10  # [shortest period] distance from a kink at which its one-sided limits are taken
 _LAST_PLACES = 16  # units in the last place of the run's end: closer positions are not distinct
 _PARTS = 16  # subdivisions per round of the search for a sign change in a cell
 _MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4  # rounds of 16 subdivisions: 16^11 resolves a cell to rounding

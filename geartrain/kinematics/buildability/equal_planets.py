@@ -58,7 +58,7 @@ class AssemblyMesh:
     measure: Measure
     """Unit of the common module of the two wheels; empty if no module is declared."""
     module: Fraction | None
-    """Common module of the two wheels [`measure`]; 1 if none is declared, None if different modules are."""
+    """Common module of the two wheels [`measure`]; 1 if none is declared, None if the declared modules differ."""
 
     @property
     def is_free(self) -> bool:
@@ -395,9 +395,9 @@ def _compatibility_number(one: tuple[Any, Any], other: tuple[Any, Any], common: 
 
 
 def bezout(a: int, b: int) -> tuple[int, int, int]:
-    """Return the common divisor g = gcd(a, b) of two non-negative integers, and u, v with u a + v b = g.
+    """Return the greatest common divisor g of two non-negative integers, and u, v with u a + v b = g.
 
-    Extended Euclidean algorithm.
+    They are found by the extended Euclidean algorithm.
 
     >>> bezout(24, 18)
     (6, 1, -1)

@@ -225,7 +225,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime.
 
-    Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
+    It is found by Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:

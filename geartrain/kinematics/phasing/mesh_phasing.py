@@ -423,7 +423,7 @@ class MeshPhasing(Result):
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Accuracy of the residues, the lowest of all loops: "exact", "recognised" or "numeric"."""
+        """Lowest accuracy of the residues of all loops: "exact", "recognised" or "numeric"."""
         ways = {one.how for one in self.problem.conditions}
         return "numeric" if "numeric" in ways else "recognised" if "recognised" in ways else "exact"
 

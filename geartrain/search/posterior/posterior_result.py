@@ -128,7 +128,7 @@ class CountCombination(Result):
 
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
-    """Sobol indices of the speed of an output, for tooth counts distributed as their prior."""
+    """Sobol indices of the speed of an output, for tooth counts that are distributed according to their priors."""
 
     KEYS = ("output", Key("mean", to=as_float), "spread", Key("own", to=float), Key("whole", to=float))
 

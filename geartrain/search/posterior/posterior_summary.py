@@ -274,7 +274,7 @@ def _correlated(
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
-"""Pairs of a coefficient and the powers of the wheels of a formula, which may be negative."""
+"""Pairs of a coefficient and the (possibly negative) powers of the wheels, for each term of a formula."""
 
 
 def find_variance_shares(

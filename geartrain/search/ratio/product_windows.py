@@ -219,7 +219,7 @@ def _by_product(chosen: Ints) -> Ints:
 
 
 def _chosen(numbers: Ints, size: int) -> Ints:
-    """Return all multisets of 0, 1 or 2 of the numbers, ascending within each, shape (multisets, size)."""
+    """Return all multisets of 0, 1 or 2 of the numbers, in ascending order within each, shape (multisets, size)."""
     if size == 0:
         return np.empty((1, 0), dtype=numbers.dtype)
     if size == 1:

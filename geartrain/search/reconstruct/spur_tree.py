@@ -301,7 +301,7 @@ class _Base:
     """Arbors that turn on the frame or on one carrier: links that form one arbor, and meshes."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Links that couplings connect to each link, including the link, in the order of the train."""
+    """Links that couplings connect to each link, including the link itself, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
     """Meshes of each arbor with other arbors of the base."""
 
@@ -317,7 +317,7 @@ class _Parts:
         self._inputs = {link: speed for link, speed in train.case(None).inputs.items() if speed}
 
     def trees(self) -> Iterator[SpurTree]:
-        """Yield the parts in an order in which the speed of the first arbor of each part is already known."""
+        """Yield the parts in an order in which the speed of the first arbor of a part is known from earlier parts."""
         waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
         # the part at the input begins; it determines the speeds at which others begin
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))

@@ -224,7 +224,7 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
 
 
 def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> list[Contour]:
-    """Return the contours of a toothed wheel [mm]: teeth and bore, or for a ring gear rim and teeth.
+    """Return the contours of a toothed wheel [mm]: teeth and bore, or rim and teeth for a ring gear.
 
     teeth, root   contour of the teeth and radius of the root circle [module]
     """

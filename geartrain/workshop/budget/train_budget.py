@@ -275,7 +275,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def _is_observed(target: Target) -> bool:
-    """Return True if a target is an observed period of geartrain's table, not a period intended by the makers."""
+    """Return True if a target is an observed period of the table of periods, not a period intended by the makers."""
     return target.name is not None and period_table()[target.name].kind == "period"
 
 

@@ -392,7 +392,9 @@ class MeshingCycle:
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask (trials,) of dwells: a tooth pair leaves before a later pair touches its driven tooth."""
+        """Return a mask, shape (trials,): True if some tooth pair leaves before a later pair touches its driven tooth
+        (dwell).
+        """
         front = self.front
         dwelling: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
@@ -407,7 +409,9 @@ class MeshingCycle:
         return found
 
     def clashes(self) -> Bools:
-        """Return a mask of clashes, shape (trials,): a tooth pair enters while its driven tooth is behind the tip."""
+        """Return a mask, shape (trials,): True if some tooth pair enters while its driven tooth is behind the tip
+        (clash).
+        """
         tip = self._all(-self.front.exit_angle) + ROUNDING * self.sizes.p2
         y = np.where(self._all(self.front.reach > -inf), inf, -inf)
         for n in range(1, self._pairs_in_reach() + 2):
@@ -452,7 +456,7 @@ class MeshingCycle:
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask (trials,) of losses of contact: at some position no drive flanks or no coast flanks touch."""
+        """Return a mask, shape (trials,): True if no drive flanks or no coast flanks touch at some position."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -611,7 +615,7 @@ class _EntriesAndExits:
         return clash, dwelling, np.where(dwelling, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum over neighbouring tooth pairs for each tooth pair of the cycle (trials, tooth pairs)."""
+        """Return the minimum over neighbouring tooth pairs, for each tooth pair of the cycle (trials, tooth pairs)."""
         k = np.arange(self.pair.count)
         coming = terms == self._entering
         spread = float(np.ptp(self.driver))

@@ -265,9 +265,9 @@ def draw_rows(
             )  # fmt: skip
 
 
-def figures(value: float, digits: int = 3) -> str:
-    """Format a value with significant digits and without a power of ten; large values are formatted as integers."""
-    return f"{value:.{digits}g}" if not 10**digits <= abs(value) < 1e9 else f"{value:.0f}"
+def figures(value: float) -> str:
+    """Format a value with three significant digits and no power of ten; large values are formatted as integers."""
+    return f"{value:.3g}" if not 1000 <= abs(value) < 1e9 else f"{value:.0f}"
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:

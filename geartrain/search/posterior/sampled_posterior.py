@@ -76,10 +76,9 @@ def decide(one: IntervalConstraint, counts: Mapping[str, Ints]) -> tuple[Bools, 
     """
     function = one.function
     assert isinstance(function, Formula)
-    value = function.values(counts)
+    value, room = function.bounded(counts)
     met: Bools = np.zeros(len(value), dtype=np.bool_)
     with np.errstate(invalid="ignore"):
-        room = function.accuracy(counts) * np.abs(value)
         sure = np.isfinite(room)
         for interval in one.intervals:
             inside: Bools = np.ones(len(value), dtype=np.bool_)

@@ -1,4 +1,8 @@
-"""Independent tasks of the search, which enumerate topologies and count their trains."""
+"""Search for all topologies, in independent tasks: paths to all dials, their trees, and the trains of each tree.
+
+`PathChoice` chooses one path for each dial, `PathTrees` combines them to topologies, and `TopologyTrains` counts the
+trains of a topology.
+"""
 
 from __future__ import annotations
 
@@ -32,6 +36,173 @@ _PARTS = 24  # divides evenly over 2, 3, 4, 6, 8 and 12 processes
 _MOST_CHOICES = 24
 """Maximum decimal logarithm of the number of choices of added tooth counts; searches of hours have about 20."""
 _MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
+
+# Backtracking search for one path to every dial, such that all of them are paths of one train.
+#
+# Bit masks represent shared arbors and wheels. After each choice only paths of the other dials remain that are
+# compatible with all chosen ones, and the dial with the fewest paths is next.
+#
+# The distance between two dials is the number of added wheels on exactly one of their paths. A table of quotients gives
+# a lower bound of it, and thus of the number of added wheels on two paths.
+
+
+class PathColumns:
+    """Columns of a path list for fast comparison of many paths with a path to another dial.
+
+    A pass is the pair of a driven and a driving wheel by which a path passes through an arbor.
+
+    codes          code of the pass, 0 if the path avoids the arbor, shape (arbors, rows)
+    driven         identifying number of the driven wheel and its count, 0 if absent, shape (arbors, rows)
+    driver         identifying number of the driving wheel, 0 if absent, shape (arbors, rows)
+    used           bit mask of the used surviving arbors, then wheels, for each row
+    """
+
+    def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
+        self.paths = paths
+        names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
+        number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
+        # one row per arbor, because an arbor is compared for many paths at once
+        self.codes = np.ascontiguousarray(paths.codes.T)
+        self.driven = np.zeros(self.codes.shape, dtype=np.int16)
+        self.driver = np.zeros(self.codes.shape, dtype=np.int16)
+        self.used = paths.arbors.copy()
+        for at, passes in enumerate(paths.passes):
+            taken = self.codes[at]
+            # the numbers of driven wheels are the same in the lists of all dials
+            driven = sorted({each.driven for each in passes}, key=repr)
+            self.driven[at] = np.array([0, *(1 + driven.index(each.driven) for each in passes)], dtype=np.int16)[taken]
+            drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
+            self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
+            wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
+            self.used |= np.array(wheels, dtype=np.int64)[taken]
+
+    def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
+        """Return whether each path can be in one tree with a path to another dial.
+
+        Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared arbor
+        by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
+        """
+        both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
+        good = np.ones(len(rows), dtype=bool)
+        parted = np.zeros(len(rows), dtype=np.int8)
+        for at in np.flatnonzero(other.codes[:, row]).tolist():
+            codes = self.codes[at][rows]
+            left = (codes > 0) & (codes != other.codes[at, row])
+            parted += left
+            good &= (codes == 0) | (self.driven[at][rows] == other.driven[at, row])
+            driver = other.driver[at, row]
+            if driver:
+                good &= ~(left & (self.driver[at][rows] == driver))
+            if not at:
+                good &= ~left | (both == 0)
+        return good & (parted <= 1)
+
+
+def all_to_use(problem: ReconstructionProblem) -> int:
+    """Return the bit mask of surviving arbors and wheels that must be used, as in `PathColumns.used`."""
+    if problem.use == "some":
+        return 0
+    arbors = (1 << len(problem.arbors)) - 1
+    if problem.use == "arbors":
+        return arbors
+    wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
+    return arbors | ((1 << wheels) - 1) << len(problem.arbors)
+
+
+def _bits(each: ArborPass, number: dict[str, int]) -> int:
+    """Return the bit mask of the surviving wheels of a pass, by their numbers from 1."""
+    found = 0
+    for wheel in (each.driven, each.driver):
+        if wheel is not None and wheel.name in number:
+            found |= 1 << (number[wheel.name] - 1)
+    return found
+
+
+Choice = dict[str, int]
+"""Choice of one path for each dial, as a row of its path list."""
+
+_EVEN_SHARES = 50
+"""Minimum number of paths that are distributed in turn over the parts of a search."""
+
+
+class PathChoice:
+    """Enumeration of all compatible choices of one path per dial.
+
+    lists   list of the paths to each dial
+    """
+
+    def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], tables: QuotientTables) -> None:
+        self.problem, self.lists, self.tables = problem, lists, tables
+        self._must = all_to_use(problem)
+        self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
+
+    def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
+        """Yield all choices for trains with exactly `added` added wheels that belong to part number `part` of
+        `parts`.
+        """
+        self._added = added
+        lists = {dial: np.flatnonzero(paths.wheels <= added) for dial, paths in self.lists.items()}
+        yield from self._extended({}, lists, cycle(at == part for at in range(parts)))
+
+    def _extended(self, chosen: Choice, lists: dict[str, Rows], share: Iterator[bool] | None) -> Iterator[Choice]:
+        """Yield all choices that extend the chosen paths by paths to the other dials.
+
+        share   iterator that yields, for each path, whether it belongs to this part of the search; None if the paths to
+                an earlier dial were already distributed over the parts
+        """
+        dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
+        rows = lists[dial]
+        others = {other: some for other, some in lists.items() if other != dial}
+        if not others:
+            used = reduce(or_, (int(self._columns[each].used[at]) for each, at in chosen.items()), 0)
+            rows = rows[np.int64(self._must & ~used) & ~self._columns[dial].used[rows] == 0]
+        # few paths are not distributed evenly; the paths to the next dial are distributed then
+        own = share if not others or len(rows) >= _EVEN_SHARES else None
+        for row in rows.tolist():
+            if own is not None and not next(own):
+                continue
+            if not others:
+                yield {**chosen, dial: row}
+            elif (kept := self._fitting(dial, row, others, chosen)) is not None:
+                yield from self._extended({**chosen, dial: row}, kept, None if own else share)
+
+    def _fitting(self, dial: str, row: int, lists: Mapping[str, Rows], chosen: Choice) -> dict[str, Rows] | None:
+        """Return the paths to each other dial that are compatible with one more chosen path; None if a dial has
+        none.
+        """
+        kept = {}
+        for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
+            rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
+            for path in chosen.items():
+                rows = rows[self._fork(path, (dial, row), other, rows)]
+            far = self._distances(dial, row, other, rows)
+            near = self.lists[dial].wheels[row] + self.lists[other].wheels[rows] + far <= 2 * self._added
+            kept[other] = rows[near]
+            if not len(kept[other]):
+                return None
+        return kept
+
+    def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> Bools:
+        """Return whether each path forms a tree with two chosen paths: two of the three paths must separate from the
+        third at the same arbor.
+        """
+        first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
+        third = self.lists[dial].arbors[rows]
+        in_all = first & second & third
+        on_first, on_second, apart = (first & third) == in_all, (second & third) == in_all, (first & second) == in_all
+        return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
+
+    def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
+        """Return, for each path, a lower bound of the number of added wheels that are not shared with a chosen path."""
+        first, second = self.lists[end], self.lists[dial]
+        (low, high), (minimum, maximum) = first.bounds, second.bounds
+        with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
+            fewest = self.tables.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
+        if self.problem.idlers:  # the count of an added idler at which paths separate affects only one of them
+            return np.maximum(fewest.astype(np.int64) - 1, 0)
+        # shared wheels are on both paths, so the distance has the parity of the sum
+        return np.asarray(fewest + (first.wheels[row] + second.wheels[rows] - fewest) % 2, dtype=np.int64)
+
 
 # The trains of a topology as products of orders of arbors and choices of tooth counts. Orders and counts are
 # independent unless rings limit the counts in some orders. The orders are therefore partitioned by these limits.
@@ -180,175 +351,3 @@ def _refuse_absurd(problem: ReconstructionProblem) -> None:
         why = f"a search supports up to 1e{_MOST_CHOICES} combinations"
         fix = f"{fix}; or narrow `teeth`"
     raise QuestionError(Problem(what, why, fix))
-
-
-# Backtracking search for one path to every dial, such that all of them are paths of one train.
-#
-# Bit masks represent shared arbors and wheels. After each choice only paths of the other dials remain that are
-# compatible with all chosen ones, and the dial with the fewest paths is next.
-#
-# The distance between two dials is the number of added wheels on exactly one of their paths. A table of quotients gives
-# a lower bound of it, and thus of the number of added wheels on two paths.
-
-
-# Columns of a path list that are compared with a path to another dial, as arrays for speed.
-
-
-class PathColumns:
-    """Columns of a path list for fast comparison of many paths with a path to another dial.
-
-    A pass is the pair of a driven and a driving wheel by which a path passes through an arbor.
-
-    codes          code of the pass, 0 if the path avoids the arbor, shape (arbors, rows)
-    driven         identifying number of the driven wheel and its count, 0 if absent, shape (arbors, rows)
-    driver         identifying number of the driving wheel, 0 if absent, shape (arbors, rows)
-    used           bit mask of the used surviving arbors, then wheels, for each row
-    """
-
-    def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
-        self.paths = paths
-        names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
-        number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
-        # one row per arbor, because an arbor is compared for many paths at once
-        self.codes = np.ascontiguousarray(paths.codes.T)
-        self.driven = np.zeros(self.codes.shape, dtype=np.int16)
-        self.driver = np.zeros(self.codes.shape, dtype=np.int16)
-        self.used = paths.arbors.copy()
-        for at, passes in enumerate(paths.passes):
-            taken = self.codes[at]
-            # the numbers of driven wheels are the same in the lists of all dials
-            driven = sorted({each.driven for each in passes}, key=repr)
-            self.driven[at] = np.array([0, *(1 + driven.index(each.driven) for each in passes)], dtype=np.int16)[taken]
-            drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
-            self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
-            wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
-            self.used |= np.array(wheels, dtype=np.int64)[taken]
-
-    def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
-        """Return whether each path can be in one tree with a path to another dial.
-
-        Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared arbor
-        by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
-        """
-        both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
-        good = np.ones(len(rows), dtype=bool)
-        parted = np.zeros(len(rows), dtype=np.int8)
-        for at in np.flatnonzero(other.codes[:, row]).tolist():
-            codes = self.codes[at][rows]
-            left = (codes > 0) & (codes != other.codes[at, row])
-            parted += left
-            good &= (codes == 0) | (self.driven[at][rows] == other.driven[at, row])
-            driver = other.driver[at, row]
-            if driver:
-                good &= ~(left & (self.driver[at][rows] == driver))
-            if not at:
-                good &= ~left | (both == 0)
-        return good & (parted <= 1)
-
-
-def all_to_use(problem: ReconstructionProblem) -> int:
-    """Return the bit mask of surviving arbors and wheels that must be used, as in `PathColumns.used`."""
-    if problem.use == "some":
-        return 0
-    arbors = (1 << len(problem.arbors)) - 1
-    if problem.use == "arbors":
-        return arbors
-    wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
-    return arbors | ((1 << wheels) - 1) << len(problem.arbors)
-
-
-def _bits(each: ArborPass, number: dict[str, int]) -> int:
-    """Return the bit mask of the surviving wheels of a pass, by their numbers from 1."""
-    found = 0
-    for wheel in (each.driven, each.driver):
-        if wheel is not None and wheel.name in number:
-            found |= 1 << (number[wheel.name] - 1)
-    return found
-
-
-Choice = dict[str, int]
-"""Choice of one path for each dial, as a row of its path list."""
-
-_EVEN_SHARES = 50
-"""Minimum number of paths that are distributed in turn over the parts of a search."""
-
-
-class PathChoice:
-    """Enumeration of all compatible choices of one path per dial.
-
-    lists   list of the paths to each dial
-    """
-
-    def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], tables: QuotientTables) -> None:
-        self.problem, self.lists, self.tables = problem, lists, tables
-        self._must = all_to_use(problem)
-        self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
-
-    def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
-        """Yield all choices for trains with exactly `added` added wheels that belong to part number `part` of
-        `parts`.
-        """
-        self._added = added
-        lists = {dial: np.flatnonzero(paths.wheels <= added) for dial, paths in self.lists.items()}
-        yield from self._extended({}, lists, cycle(at == part for at in range(parts)))
-
-    def _extended(self, chosen: Choice, lists: dict[str, Rows], share: Iterator[bool] | None) -> Iterator[Choice]:
-        """Yield all choices that extend the chosen paths by paths to the other dials.
-
-        share   iterator that yields, for each path, whether it belongs to this part of the search; None if the paths to
-                an earlier dial were already distributed over the parts
-        """
-        dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
-        rows = lists[dial]
-        others = {other: some for other, some in lists.items() if other != dial}
-        if not others:
-            used = reduce(or_, (int(self._columns[each].used[at]) for each, at in chosen.items()), 0)
-            rows = rows[np.int64(self._must & ~used) & ~self._columns[dial].used[rows] == 0]
-        # few paths are not distributed evenly; the paths to the next dial are distributed then
-        own = share if not others or len(rows) >= _EVEN_SHARES else None
-        for row in rows.tolist():
-            if own is not None and not next(own):
-                continue
-            if not others:
-                yield {**chosen, dial: row}
-            elif (kept := self._fitting(dial, row, others, chosen)) is not None:
-                yield from self._extended({**chosen, dial: row}, kept, None if own else share)
-
-    def _fitting(self, dial: str, row: int, lists: Mapping[str, Rows], chosen: Choice) -> dict[str, Rows] | None:
-        """Return the paths to each other dial that are compatible with one more chosen path; None if a dial has
-        none.
-        """
-        kept = {}
-        for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
-            rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
-            for path in chosen.items():
-                rows = rows[self._fork(path, (dial, row), other, rows)]
-            far = self._distances(dial, row, other, rows)
-            near = self.lists[dial].wheels[row] + self.lists[other].wheels[rows] + far <= 2 * self._added
-            kept[other] = rows[near]
-            if not len(kept[other]):
-                return None
-        return kept
-
-    # compatibility of ends
-
-    def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> Bools:
-        """Return whether each path forms a tree with two chosen paths: two of the three paths must separate from the
-        third at the same arbor.
-        """
-        first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
-        third = self.lists[dial].arbors[rows]
-        in_all = first & second & third
-        on_first, on_second, apart = (first & third) == in_all, (second & third) == in_all, (first & second) == in_all
-        return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
-
-    def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
-        """Return, for each path, a lower bound of the number of added wheels that are not shared with a chosen path."""
-        first, second = self.lists[end], self.lists[dial]
-        (low, high), (minimum, maximum) = first.bounds, second.bounds
-        with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
-            fewest = self.tables.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
-        if self.problem.idlers:  # the count of an added idler at which paths separate affects only one of them
-            return np.maximum(fewest.astype(np.int64) - 1, 0)
-        # shared wheels are on both paths, so the distance has the parity of the sum
-        return np.asarray(fewest + (first.wheels[row] + second.wheels[rows] - fewest) % 2, dtype=np.int64)

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, nan, pi, sin
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from geartrain.errors import Problem
-from geartrain.numerics.results import Key, Result, finite
+from geartrain.numerics.results import Key, finite
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
@@ -179,7 +179,7 @@ class TriangularFigures(PairFigures):
     KEYS = (
         *PairFigures.KEYS,
         *(Key("clearance_factor", "sizes.clearance_factor"), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
-        *(Key("intervals", keys=("phase", "start", "end")), "jumps", "impacts"),
+        *(Key("intervals", keys=("phase", "start", "end")), "jumps"),
     )
 
     sizes: TriangularSizes
@@ -190,8 +190,6 @@ class TriangularFigures(PairFigures):
     """Real path of contact over one pitch of the driver, in order of time."""
     jumps: tuple[SpeedJump, ...]
     """Impacts of one pitch."""
-    impacts: Any = None
-    """Energy losses of the impacts; None unless the operating speed of the pair is declared."""
 
 
 def _clearance_row(mesh: TriangularMesh) -> tuple[str, ...]:
@@ -223,12 +221,11 @@ def _transmission_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple
 def triangular_figures(
     transmission: TriangularTransmission,
     window: ClearanceWindow | None,
-    impacts: Result | None = None,
     losses: SlidingEfficiency | None = None,
 ) -> TriangularFigures:
     """Return the results of a pair with triangular teeth.
 
-    `losses` replaces the efficiency of the transmission function; `impacts` are the energy losses of the impacts.
+    `losses` replaces the efficiency of the transmission function.
     """
     found, moves = transmission.verdict, bool(transmission.intervals)
     return TriangularFigures(
@@ -240,7 +237,6 @@ def triangular_figures(
         window=window,
         intervals=transmission.intervals,
         jumps=tuple(transmission.jumps) if moves else (),
-        impacts=impacts,
     )
 
 

@@ -28,7 +28,7 @@ marks that change the writing direction, and lone surrogates.
 
 
 def printable(text: str) -> str:
-    r"""Escape the characters of a string that could control a terminal or hide other text.
+    r"""Return the string with all characters escaped that could control a terminal or hide other text.
 
     >>> printable("sun\x1b[2J")
     'sun\\x1b[2J'
@@ -37,7 +37,7 @@ def printable(text: str) -> str:
 
 
 def dotted(loc: Loc) -> str:
-    """Return the path of a declared value, such as `gears[3].pair`, for data without a file."""
+    """Return the path of a declared value as text, such as `gears[3].pair`."""
     text = ""
     for step in loc:
         text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else step
@@ -47,8 +47,8 @@ def dotted(loc: Loc) -> str:
 def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[str]:
     """Return the known names that are most similar to an unknown name, in order of decreasing similarity.
 
-    `wide=True` suits long names with several parts, such as names of periods and files: it returns up to three names
-    and accepts less similarity.
+    By default up to two names are returned. `wide=True` is meant for long names with several parts, such as names of
+    periods and files: up to three names are returned, and they may be less similar.
     """
     from difflib import get_close_matches  # slow to import, and most runs have no unknown name
 
@@ -56,10 +56,10 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name, for the `fix` of a problem.
+    """Return a suggestion for an unknown name, which is used as the `fix` of a problem.
 
-    It lists similar known names. If there are none, it is `otherwise`, or a list of all known names if there are at
-    most 30, or the advice to correct the name.
+    The suggestion lists similar known names. If there are none, it is `otherwise` if given, else a list of the known
+    names if there are at most 30, else "correct the name".
     """
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
@@ -86,7 +86,7 @@ class Problem:
     fix: str = ""
     """Instruction to solve the problem."""
     place: str = ""
-    """Place of the problem: `file.yaml:12`, the path of a value such as `gears[3].pair`, or a file; may be empty."""
+    """Place of the problem: `file.yaml:12`, the path of a value such as `gears[3].pair`, or a file. It may be empty."""
 
     @property
     def text(self) -> str:
@@ -193,13 +193,13 @@ _MEGABYTES = {
     "sympy": 80,
     "watch": 7,
 }
-"""Disk space of the packages of each extra [MB], at least 1; measured by docs/scripts/make_extras.py."""
+"""Disk space that the packages of each extra require [MB], at least 1; measured by docs/scripts/make_extras.py."""
 
 
 def install_command(extra: str) -> str:
-    """Return the command that installs the packages of an extra, as listed by the metadata of geartrain.
+    """Return the command that installs the packages of an extra, as listed in the metadata of geartrain.
 
-    The packages are named individually, because the name of an extra is only valid if geartrain is in the package
+    The packages are named individually, because `geartrain[EXTRA]` can only be installed if geartrain is in the package
     index.
     """
     from importlib.metadata import PackageNotFoundError, requires
@@ -222,9 +222,9 @@ class MissingExtraError(GearTrainError):
     library : str
         Name of the library for `import`.
     extra : str
-        Extra of geartrain that installs it.
+        Extra of geartrain that installs the library.
     purpose : str
-        Feature that needs it.
+        Feature that requires the library.
 
     Examples
     --------

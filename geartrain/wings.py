@@ -1,7 +1,7 @@
 """Access to the optional packages ("wings") of geartrain, which its core imports only by name.
 
 The core of geartrain (declaration, kinematics, dynamics, tooth forms, scenes, reports) imports no wing. Commands that
-use one import it at run time by `wing`.
+use a wing import it at run time with the function `wing`.
 """
 
 from __future__ import annotations
@@ -18,13 +18,14 @@ WINGS = ("search", "workshop", "simulation")
 
 
 def has_wing(name: str) -> bool:
-    """Return True if the optional package `geartrain.NAME`, or the package of the module `NAME`, is installed."""
+    """Return True if an optional package, or the package of a module such as "simulation.time", is installed."""
     # `find_spec` does not import the package
     return find_spec(f"geartrain.{name.partition('.')[0]}") is not None
 
 
 def wing(name: str) -> Any:
-    """Import the package `geartrain.NAME`, or a module of it such as "simulation.time.time_run".
+    """Import the module `geartrain.NAME`, where NAME is an optional package or a module in it, such as
+    "simulation.time.time_run".
 
     Raises
     ------
@@ -42,15 +43,15 @@ def wing(name: str) -> Any:
 
 @dataclass(frozen=True)
 class WingResult:
-    """Annotation of a field that holds the result of an optional package: `Annotated[Any, WingResult("simulation",
+    """Annotation of a field that contains the result of an optional package: `Annotated[Any, WingResult("simulation",
     "TimeRun")]`.
     """
 
     wing: str
-    """Name of the optional package, or of a module of it."""
+    """Name of the optional package, or of a module in it."""
     name: str
     """Name of the result's class."""
 
     def kind(self) -> type | None:
-        """Return the class of the result; None if the optional package is not installed."""
+        """Import and return the class of the result; None if the optional package is not installed."""
         return getattr(wing(self.wing), self.name) if has_wing(self.wing) else None

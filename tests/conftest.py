@@ -125,7 +125,7 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 def one_core() -> Iterator[None]:
     """Prevent commands that run in the test process from starting other processes."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("geartrain.numerics.work.executors.cores", lambda: 1)
+        patch.setattr("geartrain.numerics.work.task_runner.cores", lambda: 1)
         yield
 
 

@@ -17,6 +17,7 @@ import geartrain
 from geartrain.drawing import picture, render, sphere_figure
 from geartrain.drawing.output_error_plots import motion_figure, torque_cycle_figure
 from geartrain.drawing.power_sankey import power_figure
+from geartrain.drawing.style import DOT, Row, interval_chart
 from geartrain.drawing.tooth_contact import teeth_figure
 from geartrain.drawing.transmission_curves import triangular_figure
 from geartrain.dynamics import MotionRun, find_power_flow
@@ -40,6 +41,7 @@ def main() -> None:
     commands()
     trains()
     results()
+    strength()
 
 
 def turning() -> None:
@@ -113,7 +115,7 @@ def power() -> None:
 
 def commands() -> None:
     """Tooth forms side by side, a motion in time, a sweep of radii, probable tooth counts, a step of assembly,
-    and a train with errors, as the commands draw them.
+    a reconstructed train and a train with errors, as the commands draw them.
     """
     command = [sys.executable, "-m", "geartrain"]
     for name, words in (
@@ -127,6 +129,12 @@ def commands() -> None:
     with TemporaryDirectory() as folder:
         subprocess.run([*command, "export", "longcase-clock", "--to", f"{folder}/clock"], check=True)
         copyfile(f"{folder}/clock/assembly/07.svg", IMAGES / "assembly.svg")
+        (Path(folder) / "metonic.yaml").write_text(file_of("which-counts", "metonic.yaml"), encoding="utf-8")
+        found = f"{folder}/found"
+        search = [*command, "reconstruct", f"{folder}/metonic.yaml", "--to", found]
+        subprocess.run(search, check=True, capture_output=True)
+        kind = ["--kind", "graph", "--force", "-o", str(IMAGES / "reconstructed.svg")]
+        subprocess.run([*command, "draw", f"{found}/rank-0001.yaml", *kind], check=True, stdout=subprocess.DEVNULL)
         (Path(folder) / "slips.yaml").write_text(file_of("buildability", "slips.yaml"), encoding="utf-8")
         draw = ["draw", f"{folder}/slips.yaml", "--force", "-o", str(IMAGES / "slips.svg")]
         subprocess.run([*command, *draw], check=True, stdout=subprocess.DEVNULL)
@@ -136,6 +144,19 @@ def file_of(page: str, name: str) -> str:
     """Return a file that a page contains."""
     text = (IMAGES.parent / f"{page}.md").read_text(encoding="utf-8")
     return text.partition(f"<!-- file: {name} -->\n```yaml\n")[2].partition("```")[0]
+
+
+def strength() -> None:
+    """The safety factors of the parts of a clock."""
+    found = geartrain.load("longcase-clock-loaded").strength()
+    wheels = {wheel.wheel: {"tooth root": wheel.root_safety} for pair in found.pairs.values() for wheel in pair.wheels}
+    parts = wheels | {arbor.link: {"arbor": arbor.safety} for arbor in found.arbors}
+    order = sorted(parts, key=lambda part: min(parts[part].values()))
+    rows = [Row(part, parts[part], beside=[f"{min(parts[part].values()):.3g}"]) for part in order]
+    looks = {"arbor": DOT, "tooth root": {**DOT, "marker": "D", "markerfacecolor": "white", "markeredgecolor": "black"}}
+    figure = interval_chart({"safety factor": rows}, looks, title="longcase-clock-loaded: safety factors", log=True)
+    (IMAGES / "strength.svg").write_bytes(render(figure, ".svg"))
+    print("wrote docs/images/strength.svg")
 
 
 def sphere() -> None:

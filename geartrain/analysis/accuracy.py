@@ -1,7 +1,7 @@
-"""Error and run time of the methods on one train: speeds, motion, torques.
+"""Error and run time of the methods that compute speeds, motion and torques, for one train.
 
 Each method is compared with the most accurate method of its stage: exact speeds, motion composed from transmission
-functions, torque over a revolution at many positions. The scripts in docs/scripts/studies/ measure whole families of
+functions, or torque over a revolution at many positions. The scripts in docs/scripts/studies/ measure whole families of
 trains.
 """
 
@@ -44,13 +44,13 @@ class MethodAccuracy(Shown):
     seconds: float
     """Run time of the method [s]."""
     error: float | None
-    """Maximum error of the results relative to `reference`, in `unit`; None for the reference method itself."""
+    """Maximum error of the results compared with `reference`, in `unit`; None for the reference method itself."""
     unit: Literal["relative", "deg"]
-    """Unit of `error`."""
+    """Unit of `error`: "relative" for a relative error, "deg" for an angle."""
     reference: str
-    """Reference of the error: another method, the error estimate of the method itself, or the power balance."""
+    """Reference of the comparison: another method, the method's own error estimate, or the power balance."""
     prepared: float | None = None
-    """Time spent on preparations before the run, such as the computation of teeth [s]; None without preparations."""
+    """Time of preparations before the run, such as the computation of teeth [s]; None if there were none."""
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -68,20 +68,20 @@ class TrainAccuracy(Tabular, TrainResult):
     PAGE = "report.accuracy_report:accuracy_document"
 
     state: str | None
-    """Name of the declared state; None if the train has no states."""
+    """Name of the state; None for a train without states."""
     positions: int
     """Number of input positions at which motion is computed."""
     methods: tuple[MethodAccuracy, ...]
     """Measured methods, ordered by stage."""
     neglected: dict[str, str]
-    """Reason why a stage does not apply to the train, for each stage that is not measured."""
+    """Reason why a stage was not measured, for each stage that does not apply to the train."""
 
     def _summary(self) -> str:
         return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each method: stage, method, run time, error and reference."""
+        """Columns of a table with one row for each method: stage, method, run time, error and reference."""
         names = [field.name for field in fields(MethodAccuracy)]
         return {name: [getattr(each, name) for each in self.methods] for name in names}
 
@@ -108,9 +108,9 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
-    """Return the minimum run time of several runs of a task [s], and its result.
+    """Return the minimum time of several runs of a task [s], and the result of the task.
 
-    The minimum excludes the time that the first run needs to import libraries.
+    The minimum excludes the time that the first run takes to import libraries.
     """
     times: list[float] = []
     while not times or sum(times) < _ENOUGH or (len(times) < 2 and sum(times) < _LONG):
@@ -121,7 +121,7 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield rows on speeds: exact elimination, if `solve` uses it by default, and floats."""
+    """Yield the rows on speeds: exact elimination, if it is the default method of `solve`, and floats."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -144,7 +144,7 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield rows on motion: composition and first-order superposition."""
+    """Yield the rows on motion: composition and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -177,7 +177,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield rows on torques: balance with losses, and mean torque over a run of several positions."""
+    """Yield the rows on torques: balance with losses, and mean torque over a run of several positions."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

@@ -1,4 +1,4 @@
-"""Enumeration of the gears of a gearbox over all sets of closed shift elements, and search for series of gears."""
+"""Enumeration of the gears of a gearbox for all sets of closed shift elements, and search for series of gears."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ class PossibleGear(Result):
     engaged: tuple[str, ...]
     """Closed shift elements, in the order of declaration."""
     ratio: Fraction | None
-    """Speed of the input divided by speed of the output; None if the output is at rest."""
+    """Speed of the input divided by the speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Declared states that engage the same elements; empty for an undeclared gear."""
+    """Declared states in which exactly these elements are closed; empty if the gear is not declared."""
 
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Series of forward gears in order of decreasing ratio, with its steps and spread."""
+    """Series of forward gears in order of decreasing ratio, with its steps and its spread."""
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
@@ -48,33 +48,33 @@ class GearSeries(Result):
 
     @property
     def ratios(self) -> tuple[Fraction, ...]:
-        """Transmission ratio of each gear: speed of the input divided by speed of the output."""
+        """Ratio of each gear, which is the speed of the input divided by the speed of the output."""
         return tuple(each.ratio for each in self.gears if each.ratio is not None)
 
     @property
     def steps(self) -> tuple[Fraction, ...]:
-        """Step of each gear: its ratio divided by the ratio of the next gear."""
+        """Step of each gear except the last: its ratio divided by the ratio of the next gear."""
         return tuple(a / b for a, b in pairwise(self.ratios))
 
     @property
     def spread(self) -> Fraction:
-        """Spread of the series: ratio of the first gear divided by the ratio of the last."""
+        """Spread of the series: ratio of the first gear divided by the ratio of the last gear."""
         return self.ratios[0] / self.ratios[-1]
 
     @property
     def deviation(self) -> float:
-        """Population standard deviation of the natural logarithms of the steps; 0 for equal steps."""
+        """Population standard deviation of the natural logarithms of the steps; it is 0 if all steps are equal."""
         return pstdev(map(log, self.steps))
 
     @property
     def double_shifts(self) -> int:
-        """Number of shifts in which more than one element opens or more than one element closes."""
+        """Number of shifts in which more than one element opens, or more than one element closes."""
         return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 
 @dataclass(frozen=True)
 class GearSearch(Tabular, Result):
-    """All gears of a gearbox, and the widest and the most even of the requested gear series."""
+    """All gears of a gearbox, and the gear series with the largest spread and with the most even steps."""
 
     MEANINGS: ClassVar = {
         "closed": "Engaged clutches and brakes.",
@@ -90,25 +90,25 @@ class GearSearch(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """Name of the driving link."""
+    """Name of the input link."""
     output: str
-    """Name of the driven link."""
+    """Name of the output link."""
     closed: int
     """Number of shift elements that must be closed so that the inputs determine all speeds."""
     combinations: int
-    """Number of combinations of `closed` shift elements."""
+    """Number of combinations of `closed` shift elements, which were all examined."""
     gears: tuple[PossibleGear, ...]
-    """All gears: forward gears, then reverse gears, both by decreasing magnitude of the ratio, then gears with the
-    output at rest.
+    """All gears: forward gears, then reverse gears, both in order of decreasing magnitude of the ratio, then gears with
+    the output at rest.
     """
     free: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` elements that leave some speeds undetermined."""
     locked: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` elements that lock the train or contradict its inputs."""
     requested: int = 0
-    """Number of gears of the requested gear series; 0 if no series was requested."""
+    """Requested number of gears in a series; 0 if no series was requested."""
     series: int = 0
-    """Number of gear series whose steps and shifts satisfy the request; 0 if no series was requested."""
+    """Number of series whose steps and shifts satisfy the request; 0 if no series was requested."""
     widest: GearSeries | None = None
     """Gear series with the maximum spread; None if no series satisfies the request."""
     evenest: GearSeries | None = None
@@ -120,8 +120,8 @@ class GearSearch(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each gear: closed elements, ratio (None if the output is at rest), exact ratio, declared
-        states.
+        """Columns of a table with one row for each gear: closed elements, ratio (None if the output is at rest), exact
+        ratio, and declared states.
         """
         return {
             "closed": [", ".join(gear.engaged) for gear in self.gears],
@@ -138,7 +138,7 @@ def find_gears(
     steps: tuple[float, float] = (1.05, 2.0),
     single: bool = False,
 ) -> GearSearch:
-    """Find all declared and undeclared gears of a gearbox by enumeration of closed shift elements, and search for
+    """Find all declared and undeclared gears of a gearbox by enumerating sets of closed shift elements, and search for
     series of gears.
 
     Parameters
@@ -148,22 +148,22 @@ def find_gears(
     output : str, optional
         Name of an output; by default the first output that is not the input.
     gears : int
-        Number of forward gears of a series. If the number is below 2, no series is searched for.
+        Number of forward gears in a series. If it is less than 2, no series is searched for.
     steps : tuple of float
-        Minimum and maximum step of a series: ratio of a gear divided by the ratio of the next gear.
+        Minimum and maximum step in a series; a step is the ratio of a gear divided by the ratio of the next gear.
     single : bool
         True to allow only shifts in which at most one element opens and at most one closes.
 
     Returns
     -------
     GearSearch
-        All gears with exact ratios. The search examines every combination of the minimum number of closed elements that
-        determines the speeds.
+        All gears with exact ratios, and the requested series. Combinations have the minimum number of closed elements
+        with which the speeds can be determined.
 
     Raises
     ------
     QuestionError
-        If the train is not a gearbox, has no input that turns or no output, has one-way clutches, or has too many
+        If the train is not a gearbox, has no turning input or no output, has one-way clutches, or has too many
         combinations of closed elements.
 
     Examples
@@ -177,7 +177,7 @@ def find_gears(
     if one_way := [name for name, each in train.declaration.clutches.items() if each.one_way is not None]:
         what = f"the search for gears does not include the one-way clutches {', '.join(one_way)}"
         why = "they close by themselves, so that gears have different numbers of closed elements"
-        raise QuestionError(Problem(what, why, "declare them without `one_way`, as clutches that hold both ways"))
+        raise QuestionError(Problem(what, why, "declare them without `one_way`, as clutches that hold in both senses"))
     found = _all_gears(train, source, link)
     forward = [each for each in found.gears if each.ratio is not None and each.ratio > 0]
     if gears < 2:
@@ -189,8 +189,8 @@ def find_gears(
 
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
-    """Return the sort key of a gear: forward gears, then reverse gears, both by decreasing magnitude of the ratio, then
-    gears with the output at rest.
+    """Return the sort key of a gear: forward gears, then reverse gears, both in order of decreasing magnitude of the
+    ratio, then gears with the output at rest.
     """
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
@@ -200,7 +200,7 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Return every gear with the smallest number of closed elements that determines the speeds, without a search for
+    """Return all gears with the minimum number of closed elements that can determine the speeds, without searching for
     series.
 
     All such combinations have the same size, because they are the bases of a matroid.
@@ -237,7 +237,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
 # ------------------------------------------------------------------------------------------------- series, as paths
 
 Links = Mapping[int, Sequence[int]]
-"""Adjacency list: the indices of the gears that may follow each gear in a series, by index of the gear."""
+"""Indices of the gears that may follow each gear in a series, by index of the gear (adjacency list)."""
 
 
 def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single: bool) -> Links:
@@ -255,17 +255,18 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
-"""Number of series, the series with maximum spread, and the series with minimum deviation; None if no series exists."""
+"""Number of series, the series with maximum spread, and the series with minimum deviation; None without a series."""
 _Way = tuple[float, int, tuple[int, ...]]
-"""Sum of squares or variance of the logarithms of steps, number of double shifts, indices of the gears of a series."""
+"""Sum of squares or variance of the logarithmic steps, number of double shifts, and gears of a series, by index."""
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
-    """Count the series of `number` gears, and find the series with maximum spread and with minimum variance of the
-    logarithmic steps, by dynamic programming.
+    """Count the series of `number` gears, and find the series with the maximum spread and with the minimum variance of
+    the logarithmic steps, by dynamic programming.
 
-    For given first and last gears the mean step is fixed, so the minimum sum of squared steps has the minimum variance.
-    Series of equal spread are ranked by their variance, and series of equal variance by the number of double shifts.
+    If the first and the last gear are given, the mean logarithmic step is fixed, so the series with the minimum sum of
+    squares also has the minimum variance. Ties in spread are broken by variance, and ties in variance by the number of
+    double shifts.
     """
     ratios = [each.ratio or Fraction(1) for each in gears]
     count, found = 0, list[tuple[Fraction, _Way]]()
@@ -283,8 +284,8 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return, by last gear, the series with the minimum sum of squared logarithmic steps, and the number of series that
-    end at this gear.
+    """Return for each last gear the series from `start` with the minimum sum of squared logarithmic steps, and the
+    number of series that end at this gear.
     """
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}

@@ -52,13 +52,13 @@ class GearTrain:
 
     Notes
     -----
-    Speeds follow from the Willis equation of each gear pair, docs/theory.md (4). Torques follow from the transpose of
-    that system, docs/torques.md (1) to (3). Motion with tooth forms follows from their transmission functions, composed
-    in the solved order of the train, docs/motion.md (3).
+    Speeds follow from the Willis equation of each gear pair, equation (4) of docs/theory.md. Torques follow from the
+    transpose of that system, equations (1) to (3) of docs/torques.md. Motion with tooth forms is composed from their
+    transmission functions in the order of solution of the train, equation (3) of docs/motion.md.
 
     Examples
     --------
-    A pinion with 20 teeth drives a wheel with 60 against a torque of 3. Without losses all power is transmitted.
+    A pinion with 20 teeth drives a wheel with 60 teeth against a torque of 3, without losses:
 
     >>> train = GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 60}}},
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
@@ -75,25 +75,24 @@ class GearTrain:
     """Validated declaration. `geartrain.load` and `declare` build it from files and plain data."""
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Solve the speeds in one state, by default by propagation along components and exact elimination, and evaluate
-        the outputs.
+        """Solve for the speeds in one state, by default by propagation and exact elimination, and evaluate the outputs.
 
         Parameters
         ----------
         state : str, optional
             A declared state; None only if the train has no states.
         output : str, optional
-            Name of an output or a link; only the circuits that drive it are solved.
+            Name of an output or a link; only the circuits that can affect it are solved.
         method : {"auto", "exact", "sparse"}
-            "auto" is exact unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in
+            "auto" is "exact" unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in
             float64 and reports residuals, condition numbers and errors; "floats" is an older name of "sparse". If a
-            train mixes speeds in radians and in turns, the speeds in radians are rounded to floats with any method.
+            train mixes speeds in radians and in turns, all speeds are floats with any method.
 
         Returns
         -------
         Answer
-            Speeds by link, outputs compared with their expected and requested values, and the verdict. A locked or free
-            train is not an error.
+            Speeds by link, outputs compared with their expected values, and the verdict. A locked or free train is not
+            an error.
 
         Raises
         ------
@@ -127,20 +126,21 @@ class GearTrain:
     ) -> Torques | TorqueCycle:
         """Compute the torques on links and pairs, and the power flow, under the loads of one state.
 
-        The torques are mean values, or values at each position of a run over a number of revolutions.
+        The torques are mean values, or values at the positions of a run over several revolutions.
 
         Parameters
         ----------
         state : str, optional
             A declared state; None only if the train has no states.
         turns : float, optional
-            Revolutions of the input in the run, above 0. The torque is computed at every position of the run, with the
-            instantaneous ratio and friction of teeth, pins and bearings. By default torques are computed exactly
+            Revolutions of the input in the run, greater than 0. The torque is computed at every position of the run,
+            with the instantaneous ratio and friction of teeth, pins and bearings. By default, torques are computed
+            exactly
             at mean speeds.
         samples : int
-            Number of positions of the run, at least 2; positions at kinks and jumps are added.
+            Number of positions in the run, at least 2; positions at kinks and jumps are added.
         of : str, optional
-            Link whose torque over the run is requested, by default the crank or input.
+            Link whose torque over the run is requested; by default the crank, or else the input.
         on_done : callable, optional
             Progress function, called with the number of positions computed since the last call.
 
@@ -152,7 +152,7 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            If the train does not move, or the number of revolutions or the link is invalid.
+            If the train does not move, or if the number of revolutions or the link is invalid.
         """
         if turns is not None:
             from geartrain.dynamics.turn import train_turn
@@ -169,8 +169,8 @@ class GearTrain:
         outputs: Sequence[str] = (),
         without: Sequence[str] = (),
     ) -> Motion:
-        """Compute the motion of outputs or links with the transmission errors of teeth and pins, by composition of
-        transmission functions.
+        """Compute the motion of outputs or links, including the transmission errors of teeth and pins, by composition
+        of transmission functions.
 
         Parameters
         ----------
@@ -179,7 +179,7 @@ class GearTrain:
         outputs : sequence of str
             Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore in loops that the transmission errors of the teeth would overconstrain.
+            Names of pairs to omit, because the transmission errors in their loops are incompatible.
 
         Returns
         -------
@@ -189,7 +189,8 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            If the train does not move, a pair or output is not declared, or clutches drive a requested output in steps.
+            If the train does not move, if a pair or output is not declared, or if clutches drive a requested output in
+            steps.
         """
         from geartrain.dynamics.motion.motion_model import Motion
         from geartrain.dynamics.motion.motion_problem import find_motion_problem
@@ -202,7 +203,7 @@ class GearTrain:
         return motion
 
     def report(self) -> Any:
-        """Build a report on the train: speeds, structure, teeth, torques, motion, uncertain data and errata.
+        """Build a report on the train, with speeds, structure, teeth, torques, motion, uncertain data and errata.
 
         Returns
         -------
@@ -235,11 +236,11 @@ class GearTrain:
         kind : {"plan", "stick", "graph", "lever", "dials"}
             Kind of picture.
         state : str, optional
-            Name of a state; by default the first state, or for "lever" all states.
+            Name of a state; by default the first state, or all states for "lever".
         turns : Fraction
             Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
         labels : bool
-            True to add names and numbers.
+            True to add names and tooth counts.
         outputs : sequence of str
             Outputs whose dials are drawn; by default all outputs.
         """
@@ -251,7 +252,7 @@ class GearTrain:
         Parameters
         ----------
         state : str, optional
-            Name of a state; by default all states can be selected.
+            Name of a state; by default, all states can be selected in the view.
         height : int
             Height of the frame [px].
         """
@@ -267,7 +268,7 @@ class GearTrain:
         Parameters
         ----------
         data : mapping
-            Declaration with the same keys as in YAML, docs/reference.md.
+            Declaration with the same keys as in YAML (docs/reference.md).
 
         Raises
         ------
@@ -297,8 +298,8 @@ class GearTrain:
 
     @cached_property
     def graph(self) -> Graph:
-        """Kinematic graph of the first state, for networkx: links are nodes; turning pairs, gear pairs and couplings
-        are edges.
+        """Kinematic graph of the first state as a networkx graph, in which links are nodes, and turning pairs, gear
+        pairs and couplings are edges.
 
         `geartrain.analysis.build_train_graph` documents the attributes, and builds the graph of any state.
         """
@@ -310,20 +311,20 @@ class GearTrain:
     def meshes(self) -> tuple[GearMesh, ...]:
         """Gear pairs with a tooth form, each with its transmission function; empty if no form is declared.
 
-        The driving wheel of a pair is taken from the first state that determines it. `mechanics.meshes_in` returns the
-        pairs with the driving wheels of another state.
+        The driving wheel of a pair is that of the first state in which it is determined. `mechanics.meshes_in` returns
+        the pairs with the driving wheels in another state.
         """
         return self.mechanics.meshes
 
     # ------------------------------------------------------------------------------------------ speeds and equations
 
     def answers(self) -> Iterator[Answer]:
-        """Yield the solved speeds of every state in the order of declaration; one answer for a train without states."""
+        """Yield the solved speeds of every state in the order of declaration; one answer if the train has no states."""
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
     def mobility(self) -> Mobility:
-        """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by counting and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:
@@ -338,7 +339,7 @@ class GearTrain:
         return self.kinematics.equations(state)
 
     def formula(self, output: str, state: str | None = None) -> OutputFormula:
-        """Return an output as a function of the tooth counts of the wheels and the speeds of the inputs.
+        """Return the speed of an output as a function of the tooth counts of the wheels and the speeds of the inputs.
 
         Parameters
         ----------
@@ -375,12 +376,12 @@ class GearTrain:
     def variants(
         self, counts: Mapping[str, Iterable[int]], outputs: Sequence[str] = (), state: str | None = None
     ) -> TrainVariants:
-        """Compute outputs for all combinations of the given tooth counts at once, by exact formulas.
+        """Compute the speeds of outputs for all combinations of the given tooth counts at once, by exact formulas.
 
         Parameters
         ----------
         counts : mapping of str to iterable of int
-            Wheel -> tooth counts to evaluate.
+            Tooth counts to be evaluated, by name of the wheel.
         outputs : sequence of str
             Names of outputs; by default all outputs.
         state : str, optional
@@ -423,7 +424,7 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            If the train declares no clutches, no states, no input that turns, or no output other than the input.
+            If the train declares no clutches, no states, no turning input, or no output other than the input.
 
         Examples
         --------
@@ -440,15 +441,15 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """Findings of the buildability check: parts that cannot be built or are inadvisable (docs/buildability.md)."""
+        """Findings of the buildability check: parts that cannot be built, or are inadvisable (docs/buildability.md)."""
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Assembly condition: phasing of the teeth in every loop of pairs at the declared axis positions, and mounting
-        angles of the wheels.
+        """Assembly condition of the train: phases of the teeth in every loop of pairs at the declared positions of
+        axes, and mounting angles of the wheels.
         """
         from geartrain.kinematics.phasing import find_phasing
 
@@ -458,14 +459,14 @@ class GearTrain:
     # ------------------------------------------------------------------------------------ loads, and motion in time
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
-        """Compute the torques for a unit of output power at one link while another link drives.
+        """Compute the torques if the link `source` drives and a unit of power leaves the train at the link `load`.
 
         The result contains the efficiency in this direction, or reports self-locking.
 
         Parameters
         ----------
         load, source : str
-            Link at which the power leaves the train, and link at which it enters.
+            Link at which the power leaves the train, and link at which it enters the train.
         state : str, optional
             A declared state; None only if the train has no states.
         """
@@ -491,7 +492,7 @@ class GearTrain:
         state : str, optional
             A declared state; None only if the train has no states.
         turns : float, optional
-            Revolutions of the input over which wear accumulates, above 0.
+            Revolutions of the input over which wear accumulates, greater than 0.
         years : float, optional
             Duration over which wear accumulates, in years of 365.25 days; the unit of speeds or a `rate` must determine
             the speed of the train.
@@ -499,8 +500,7 @@ class GearTrain:
             Minimum and maximum wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
         over : float, optional
             Revolutions of the input in a run with the instantaneous ratios and friction of teeth and pins. Stresses are
-            computed from the maximum torque of each pair in this run. By default stresses are computed from the mean
-            torque.
+            then computed from the maximum torque of each pair in this run; by default, from the mean torque.
 
         Returns
         -------
@@ -536,36 +536,36 @@ class GearTrain:
         """Simulate the motion in the time domain with inertia, backlash, impacts, drag and friction (docs/dynamics.md).
 
         Rigid teeth are simulated by nonsmooth time stepping. Compliant teeth have stiffness and damping; their results
-        are peak torques and dynamic factors instead of impulses. Two runs are made, with steps h and h/2. Results that
-        differ between the runs are marked. All reported results are from the second run.
+        are peak torques and dynamic factors instead of impulses. The simulation is run with the time steps h and h/2.
+        Results that differ between the two runs are marked. All reported results are from the second run.
 
         Parameters
         ----------
         rate : str or float, optional
-            Speed of the first input that turns, in its declared sense, as a string such as "1 turn/s" or a number
-            [rad/s]; by default the declared drive.
+            Speed of the first turning input, in its declared sense, as a string such as "1 turn/s" or a number [rad/s];
+            by default, the declared drive is used.
         turns : float
-            Number of evaluated revolutions of that input in its mean motion.
+            Number of revolutions of this input that are evaluated, in its mean motion.
         state : str, optional
             A declared state; None only if the train has no states.
         skip : float
             Number of preceding revolutions that are not evaluated.
         steps : int, optional
-            Number of time steps per revolution in the first run; by default 200 in the shortest period of a pair.
+            Number of time steps per revolution in the first run; by default, 200 per shortest period of a pair.
         restitution : float, optional
             Coefficient of restitution of all impacts, which replaces the declared values.
         outputs : sequence of str
-            Outputs or links; by default all outputs, or all links if the train has no outputs.
+            Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore in loops that the transmission errors of the teeth would overconstrain.
+            Names of pairs to omit, because the transmission errors in their loops are incompatible.
         samples : int, optional
-            Number of samples to record; by default 12 in the shortest period of a pair, at most 40000.
+            Number of samples that are recorded; by default 12 per shortest period of a pair, at most 40000.
         fast : bool, optional
-            True to compile kernels (extra `fast`). By default the kernels are compiled if the run is long and numba is
+            True to compile kernels (extra `fast`). By default, kernels are compiled if the run is long and numba is
             installed.
         on_done : callable
-            Progress function, called with the additional share of the work that is done [0 to 1]. If it returns True,
-            the run stops and the results of the first run are reported.
+            Progress function, called with the fraction of the work done since the last call. If it returns True, the
+            simulation stops and the results of the first run are reported.
         model : {"rigid", "compliant"}
             Model of the teeth. With "compliant", a stiffness must be known for each pair that the rigid model treats as
             a contact.
@@ -573,15 +573,15 @@ class GearTrain:
         Returns
         -------
         geartrain.simulation.TimeRun
-            Angles, speeds, torques, impacts, energy, and the shares of time in which teeth are not in contact.
+            Angles, speeds, torques, impacts, energies, and the fractions of time in which teeth are not in contact.
 
         Raises
         ------
         QuestionError
-            If the train does not move, its speed is not given, a link that can move by itself has no inertia, or the
-            stiffness of compliant teeth is not given.
+            If the train does not move, if its speed is not given, if a link that can move by itself has no inertia, or
+            if the stiffness of compliant teeth is not given.
         GearTrainError
-            If redundant loops have teeth that cannot turn together, or if friction locks teeth.
+            If the teeth of redundant loops cannot turn together, or if friction locks teeth.
         """
         driven = self._driven(state, rate, restitution, outputs, without)
         found = driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
@@ -598,17 +598,17 @@ class GearTrain:
         without: Sequence[str] = (),
         fast: bool | None = False,
     ) -> Any:
-        """Build a simulation that advances step by step and can be controlled between steps. The time steps are the
-        same as in `dynamics`.
+        """Build a simulation that is advanced step by step and can be controlled between steps. The time-stepping
+        method is that of `dynamics`.
 
         Parameters
         ----------
         rate, state, restitution, outputs, without
             Parameters with the same meaning as in `dynamics`. The teeth are rigid.
         step : float, optional
-            Length of a step [s]; by default the step of the finer run of `dynamics`.
+            Length of a time step [s]; by default the time step of the second run of `dynamics`.
         fast : bool, optional
-            True to compile kernels (extra `fast`), None to compile them if numba is installed; by default nothing is
+            True to compile kernels (extra `fast`), None to compile them if numba is installed; by default, they are not
             compiled.
 
         Returns
@@ -636,14 +636,14 @@ class GearTrain:
         Parameters
         ----------
         counts : mapping of str to int, optional
-            Wheel -> tooth count.
+            Tooth counts by name of the wheel.
         **more : int
             Tooth counts of wheels whose names are Python identifiers.
 
         Returns
         -------
         GearTrain
-            A new train. Expected values of outputs remain as declared.
+            New train. Expected values of outputs remain as declared.
 
         Raises
         ------
@@ -675,7 +675,8 @@ class GearTrain:
         Returns
         -------
         GearTrain
-            A new train. Expected values of outputs remain as declared, and states that declare inputs keep them.
+            New train. Expected values of outputs remain as declared, and so do the inputs of states that declare their
+            own.
 
         Raises
         ------
@@ -704,22 +705,22 @@ class GearTrain:
         ----------
         form : str or TransmissionProtocol
             Name of the form: "involute", "cycloidal", "triangular" or another one listed by `geartrain mesh -h`;
-            "ideal" for teeth without errors and losses. Or an object with `ratio`, `period`, `error` and `speed`, a
-            transmission function that replaces the teeth (docs/library.md); the parameters are then those of the form
-            "table".
+            "ideal" for teeth without errors and losses. It can also be a transmission function that replaces the teeth,
+            an object with `ratio`, `period`, `error` and `speed` (docs/library.md); the parameters are then those of
+            the form "table".
         pairs : sequence of str
             Names of gear pairs; by default all pairs of the train, including those that declare a form.
         **parameters : object
-            Parameters of the form as in a declaration, such as ``pressure_angle="25 deg"``; by default the defaults of
-            the form. Triangular teeth have no defaults in a declaration. Here the default of `half_angle` is 30 deg,
-            the equilateral tooth of figures 3 to 5 of F. Sorge, "A note on the mechanics of ancient gear systems". If
-            no clearance is given, `window` is 0.5, the middle between jamming and loss of contact (docs/teeth.md,
-            section 5).
+            Parameters of the form as in a declaration, such as ``pressure_angle="25 deg"``; other parameters have the
+            defaults of the form. Triangular teeth have no defaults in a declaration; here the default of `half_angle`
+            is 30 deg, the equilateral tooth of figures 3 to 5 of F. Sorge, "A note on the mechanics of ancient gear
+            systems". If no clearance is given, `window` is 0.5, half-way between jamming and loss of contact
+            (docs/teeth.md, section 5).
 
         Returns
         -------
         GearTrain
-            A new train.
+            New train with these teeth.
 
         Raises
         ------
@@ -756,9 +757,7 @@ class GearTrain:
 
     @property
     def unfolded(self) -> GearTrain:
-        """Train in which each equal planet is declared as a separate link; the train itself if no link represents
-        several equal planets (`copies`).
-        """
+        """Train in which each equal planet (`copies`) is declared as a separate link; self if there are none."""
         # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
@@ -771,15 +770,13 @@ class GearTrain:
     @cached_property
     def kinematics(self) -> TrainKinematics:
         """Results that do not depend on tooth forms: tree of turning pairs, senses of axes, inputs and brakes of each
-        state, gridlock, float speeds, sensitivity to tooth counts.
+        state, gridlock, float speeds, and sensitivity to tooth counts.
         """
         return TrainKinematics(self.declaration)
 
     @cached_property
     def mechanics(self) -> TrainMechanics:
-        """Results that depend on tooth forms and loads: driving wheel of each pair, transmission errors, pins and
-        torques.
-        """
+        """Results that depend on tooth forms and loads: drivers of pairs, transmission errors, and torques."""
         from geartrain.dynamics.train_mechanics import TrainMechanics
 
         return TrainMechanics(self.kinematics)
@@ -819,8 +816,8 @@ def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     Parameters
     ----------
     source : str, Path or mapping
-        Path of a file, name of a shipped train (see `geartrain.shipped`), YAML text of several lines, or a declaration
-        as plain data.
+        Path of a file, name of a shipped train (see `geartrain.shipped`), multi-line YAML text, or a declaration as
+        plain data.
 
     Returns
     -------
@@ -835,8 +832,8 @@ def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
 
     Examples
     --------
-    A planetary gear set with 24, 18 and 60 teeth and a fixed ring: the carrier makes 24 / (24 + 60) revolutions per
-    revolution of the sun.
+    In a planetary gear set with 24, 18 and 60 teeth and a fixed ring, the carrier makes 24 / (24 + 60) revolutions per
+    revolution of the sun:
 
     >>> train = load("planetary-24-18-60")
     >>> train.solve()["carrier"]

@@ -28,7 +28,7 @@ ElementKind = Literal["brake", "clutch", "one-way brake", "one-way clutch"]
 
 @dataclass(frozen=True)
 class GearState(Result):
-    """Results of one state of a gearbox: speeds, ratio, slips, torques and recirculating power."""
+    """Results for one state of a gearbox: speeds, ratio, slips, torques and recirculating power."""
 
     KEYS = (
         *("state", "engaged", "one_way", "verdict", "ratio", Key("step", to=as_float), "driven_by", "speeds", "slips"),
@@ -40,48 +40,48 @@ class GearState(Result):
     engaged: tuple[str, ...]
     """Names of the closed clutches and brakes, including one-way clutches that hold."""
     verdict: Verdict
-    """Verdict on the speeds; a neutral state is free, a park state is locked."""
+    """Verdict on the speeds. A neutral state is free, and a park state is locked."""
     ratio: Fraction | None
-    """Transmission ratio: speed of the input divided by speed of the output; None if one is at rest or undetermined."""
+    """Speed of the input divided by the speed of the output; None if one of them is at rest or undetermined."""
     step: Fraction | None
-    """Ratio of this state divided by the ratio of the next state; None for the last state, if the signs of the ratios
-    differ, or if one of the two states has no ratio.
+    """Ratio of this state divided by the ratio of the next state. None for the last state, if one of the two states has
+    no ratio, or if the signs of the ratios differ.
     """
     driven_by: str
-    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first other input that turns if the
-    input is at rest. Empty if no input turns; `speeds` and `slips` are then in the unit of the train.
+    """Link whose speed is the unit of `speeds` and `slips`: the input, or another input that turns if the input is at
+    rest. Empty if no input turns; `speeds` and `slips` then have the unit of the train.
     """
     speeds: Mapping[str, Fraction]
     """Speed of each link whose speed is determined, divided by the speed of `driven_by`."""
     slips: Mapping[str, Fraction]
     """Slip speed of each open element, divided by the speed of `driven_by`. The slip of a brake is the speed of its
-    link, and the slip of a clutch is the speed of its first link relative to its second. Elements with an
-    undetermined slip are omitted.
+    link, and the slip of a clutch is the speed of its first link relative to its second. Elements whose slip is
+    undetermined are omitted.
     """
     torques: Mapping[str, Fraction | None]
-    """Torque that each closed element exerts on its link (a clutch: on its first link), divided by the torque of the
-    input; None if it is statically indeterminate. Empty if the torques of the train are not determined.
+    """Torque that each closed element exerts on its link (for a clutch, on its first link), divided by the torque of
+    the input; None if it is statically indeterminate. Empty if the torques of the train are not determined.
     """
     efficiency: Fraction | float | None
     """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
     """Power that recirculates between gear sets, divided by input power; None if the torques are not determined."""
     mesh_power: Fraction | None
-    """Maximum power through a pair in the frame of its carrier, divided by input power; 0 if all links turn as one
-    block. None if the torques are not determined.
+    """Maximum power through a pair relative to its carrier, divided by the input power; 0 if all links turn as one
+    body. None if the torques are not determined.
     """
     one_way: tuple[str, ...] = ()
-    """Names of the one-way clutches that hold with a torque; they hold only while the input drives."""
+    """Names of the one-way clutches that hold and transmit a torque. They hold only while the input drives."""
 
     @property
     def applied(self) -> tuple[str, ...]:
-        """Names of the closed clutches and brakes that are engaged from outside, without one-way clutches."""
+        """Names of the closed clutches and brakes that are actuated; one-way clutches are omitted."""
         return tuple(name for name in self.engaged if name not in self.one_way)
 
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift from one state of a gearbox to a following state, with the elements that open and close."""
+    """Shift from one state of a gearbox to a following state, with the elements that open and those that close."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -102,7 +102,7 @@ class Shift(Result):
 
 @dataclass(frozen=True)
 class ShiftElement(Result):
-    """Maximum torque and slip of a clutch or a brake over all states."""
+    """Clutch or brake, with its maximum torque and its maximum slip over all states."""
 
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
@@ -113,13 +113,12 @@ class ShiftElement(Result):
     states: tuple[str, ...]
     """States in which the element is closed."""
     torque: Fraction | None
-    """Torque of maximum magnitude over all states, divided by the torque of the input; None if no state determines it.
-    """
+    """Torque with maximum magnitude over all states, divided by the torque of the input; None if undetermined."""
     torque_state: str
     """State in which `torque` occurs; empty if `torque` is None."""
     slip: Fraction | None
-    """Slip speed of maximum magnitude while the element is open, divided by the speed of the link `driven_by` of the
-    state; None if no state determines it.
+    """Slip speed with the maximum magnitude while the element is open, divided by the speed of the state's link
+    `driven_by`; None if it is not determined in any state.
     """
     slip_state: str
     """State in which `slip` occurs; empty if `slip` is None."""
@@ -131,7 +130,7 @@ class Gearbox(Tabular, Result):
 
     See Also
     --------
-    geartrain.GearTrain.gearbox : Compute these results.
+    geartrain.GearTrain.gearbox : method that returns it
     """
 
     MEANINGS: ClassVar = {
@@ -153,15 +152,15 @@ class Gearbox(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """Name of the driving link."""
+    """Name of the input link."""
     output: str
-    """Name of the driven link."""
+    """Name of the output link."""
     states: tuple[GearState, ...]
     """States in the order of declaration."""
     elements: tuple[ShiftElement, ...]
     """Clutches and brakes in the order of declaration."""
     shifts: tuple[Shift, ...]
-    """Shifts from each state with a ratio to the next state with a ratio, if both ratios have the same sign."""
+    """Shifts between consecutive states with a ratio, if both ratios have the same sign."""
 
     def _summary(self) -> str:
         ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)
@@ -169,8 +168,8 @@ class Gearbox(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each state: closed elements, ratio, step, efficiency, recirculating power, and link
-        speeds in units of the input speed.
+        """Columns of a table with one row for each state: closed elements, ratio, step, efficiency, recirculating
+        power, and link speeds divided by the speed of `driven_by`.
         """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
@@ -187,7 +186,7 @@ class Gearbox(Tabular, Result):
 
     @property
     def spread(self) -> Fraction | None:
-        """Maximum divided by minimum ratio of the forward states; None without forward states."""
+        """Maximum ratio divided by minimum ratio of the forward states; None without forward states."""
         ratios = [each.ratio for each in self.states if each.ratio is not None and each.ratio > 0]
         return max(ratios) / min(ratios) if ratios else None
 
@@ -262,7 +261,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Return the slip speed of a clutch (first link relative to second) or a brake (its link), in units of `speeds`."""
+    """Return the slip speed of a clutch (first link relative to second) or brake (its link) in the unit of `speeds`."""
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -270,14 +269,14 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Return the torques while the input drives and unit power leaves at the output; None if they are undetermined."""
+    """Return the torques if the input drives and unit power leaves at the output; None if they are undetermined."""
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
 
 
 def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
-    """Return the torque of each closed element; `engaged` maps its name to the links that it holds."""
+    """Return the torque of each closed element; `engaged` maps the name of an element to the links that it holds."""
     drive, held = load.external[source], {each.links: each.torques for each in load.held}
     known = {name: held[links] for name, links in engaged.items() if links in held}
     # elements that hold the same links share their torque in an unknown ratio
@@ -286,7 +285,7 @@ def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]])
 
 
 def _circulation(load: Torques) -> Fraction | None:
-    """Return the power recirculating between gear sets, divided by input power; None if the input power is 0."""
+    """Return the power that recirculates between gear sets, divided by input power; None if the input power is 0."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None

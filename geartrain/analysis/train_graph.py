@@ -1,4 +1,4 @@
-"""Graph of a train with attributes of its links and pairs; attributes are computed on first access."""
+"""Graph of a train with attributes of its links and pairs, which are computed on first access."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def _refuse(*_: object, **__: object) -> NoReturn:
 
 
 class _Attributes(LazyDict):
-    """Attributes of a node or edge of the graph. Attributes that describe the train are read-only; users can set
-    others.
+    """Attributes of a node or edge of the graph. Attributes that describe the train are read-only; users can set other
+    attributes.
     """
 
     __slots__ = ()
@@ -66,18 +66,18 @@ class _Attributes(LazyDict):
 
 
 def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
-    """Build the kinematic graph of a train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and
-    couplings are edges.
+    """Build the kinematic graph of a train as a networkx MultiGraph, in which links are nodes, and turning pairs, gear
+    pairs and couplings are edges.
 
     Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that
-    carries its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`,
-    `carrier`, `ratio`, `form`, `transmission`, `mesh` and `efficiency` (docs/library.md, 2). Attributes that are not
-    declared are computed when they are read, so that a train without a solution also has a graph.
+    carries its axis) and `speed`. Edges have the attributes `kind`, `label`, `declared` and `axis`; edges of pairs also
+    have `circuit`, `carrier`, `ratio`, `form`, `transmission`, `mesh` and `efficiency` (docs/library.md, 2). Attributes
+    that are not declared are computed when they are read, so that a train without a solution has a graph too.
 
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, `GearTrain.mechanics`.
     state : str, optional
         A declared state; None only if the train has no states.
 
@@ -125,13 +125,13 @@ def _frozen(graph: Graph) -> Graph:
 
 
 class _GraphFacts:
-    """Values of the attributes of a train in one state, each computed once for all nodes and edges."""
+    """Values of attributes of a train in one state, each computed once for all nodes and edges."""
 
     def __init__(self, train: TrainMechanics, state: str | None) -> None:
         self._train, self._state = train, state
 
     def reference(self, link: str) -> str | None:
-        """Return the link that carries the axis of `link`, relative to which it turns; None for the frame."""
+        """Return the link that carries the axis of `link` and relative to which it turns; None for the frame."""
         return self._train.tree.top.get(link)
 
     def speed(self, link: str) -> SpeedValue | None:
@@ -144,7 +144,7 @@ class _GraphFacts:
         return self._circuits[name].carrier
 
     def ratio(self, name: str) -> Fraction:
-        """Return the speed of the circuit's first link divided by the speed of its second, both relative to the
+        """Return the speed of the first link of a circuit divided by the speed of the second link, both relative to the
         carrier.
         """
         return self._circuits[name].ratio
@@ -154,14 +154,14 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | CouplingMesh | None:
-        """Return the gear pair with tooth geometry and its driving wheel in this state, or the pin with dimensions;
-        None for a pair or coupling without teeth or dimensions.
+        """Return the gear pair with its tooth geometry and its driving wheel in this state, or the coupling with its
+        dimensions; None for a pair or coupling without teeth or dimensions.
         """
         return self._meshes.get(name)
 
     def transmission(self, name: str) -> TransmissionFunction:
-        """Return the transmission function in this state: that of the mesh with its driving wheel, or of a coupling
-        with its first link driving; otherwise the exact ratio, with the first wheel or link driving.
+        """Return the transmission function of a mesh with its driving wheel in this state, or of a coupling; without
+        tooth form or dimensions, a constant ratio with the first wheel, or the driving link of the coupling, as driver.
         """
         from geartrain.teeth.transmission import ExactRatio
 
@@ -173,7 +173,7 @@ class _GraphFacts:
         return ExactRatio(abs(Fraction(driver, driven)), 2 * pi / (abs(driver) if circuit.kind == "gear" else 1))
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
-        """Return the basic efficiencies of a pair: with the first link of its circuit driving, and with the second."""
+        """Return the basic efficiencies of a pair with the first and with the second link of its circuit driving."""
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
         found = find_mean_efficiencies(self._losses, self._circuits[name])

@@ -25,11 +25,11 @@ MOST_VARIANTS = 100_000_000  # 0.8 GB for each column of float64
 class TrainVariants(Tabular, Result):
     """Table of the speeds of outputs for combinations of tooth counts.
 
-    `found["moon"]` returns the column of the output or wheel "moon".
+    For a table `found`, `found["moon"]` is the column of the output or wheel "moon".
 
     See Also
     --------
-    geartrain.GearTrain.variants : Compute the table.
+    geartrain.GearTrain.variants : method that returns it
     """
 
     KEYS = ("wheels", "outputs", "counts", "speeds", "errors")
@@ -39,10 +39,10 @@ class TrainVariants(Tabular, Result):
     outputs: tuple[str, ...]
     """Names of the outputs, in the order of the columns of `speeds` and `errors`."""
     counts: Ints
-    """Tooth counts, one combination per row, shape (n, wheels); the last wheel varies fastest."""
+    """Tooth counts, with one combination per row, shape (n, wheels); the last wheel varies fastest."""
     speeds: Floats
-    """Speeds of the outputs [unit of the train], shape (n, outputs); nan if the train is locked or free, or if
-    the tooth counts do not satisfy the condition of a closed loop.
+    """Speeds of the outputs [unit of the train], shape (n, outputs); NaN if the train is locked or free, or if the
+    tooth counts do not satisfy the condition of a closed loop.
     """
     errors: Floats
     """Bounds on the relative errors of the speeds, shape (n, outputs); infinite if no digit is certain."""
@@ -59,7 +59,7 @@ class TrainVariants(Tabular, Result):
         return "Tooth count of the wheel." if column in self.wheels else "Speed of the output [unit of the train]."
 
     def __getitem__(self, name: str) -> Any:
-        """Return the column of an output or a wheel; `KeyError` for another name."""
+        """Return the column of an output or a wheel; raise `KeyError` for any other name."""
         if name in self.outputs:
             return self.speeds[:, self.outputs.index(name)]
         if name in self.wheels:
@@ -72,7 +72,7 @@ class TrainVariants(Tabular, Result):
         Parameters
         ----------
         row : int
-            Index of the combination, a row of `counts`.
+            Index of the combination, which is its row in `counts`.
         output : str
             Name of an output.
         """
@@ -81,14 +81,14 @@ class TrainVariants(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a column of tooth counts for each wheel, and a column of speeds for each output."""
+        """Columns of a table: tooth counts of each wheel, and speeds of each output."""
         return {name: self[name] for name in (*self.wheels, *self.outputs)}
 
 
 def find_variants(
     declared: Train, state: str | None, counts: Mapping[str, Iterable[int]], outputs: Sequence[str]
 ) -> TrainVariants:
-    """Compute the outputs for all combinations of the given tooth counts; see `GearTrain.variants`."""
+    """Compute the speeds of outputs for all combinations of the given tooth counts; see `GearTrain.variants`."""
     case = declared.case(state)
     for name in outputs:
         check_choice("output", name, case.outputs)

@@ -113,7 +113,8 @@ def _start_lightly() -> None:
 
 
 def main(name: str = "geartrain") -> None:
-    """Run the command line and exit: code 2 for invalid input, reported on standard error, and 3 for internal errors.
+    """Run the command line and exit. The exit code is 2 for invalid input, which is reported on standard error, and 3
+    for internal errors.
 
     name   program name in usage and help, as a user types it to start the program
     """

@@ -14,7 +14,8 @@ def run(
     files: Files,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing for trains that pass.")] = False,
 ) -> None:
-    """Validate trains and verify each `expect`, `published` and `tolerance`; exit with the highest code of all trains.
+    """Validate trains and verify each `expect`, `published` and `tolerance`; exit with the highest exit code of all
+    trains.
 
     Example: `geartrain check freeth-2021 train.yaml`.
     """

@@ -77,7 +77,9 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if a state (default: the first) is determined and as expected, and no teeth have faults."""
+    """Return True if the named state (by default the first) is determined and as expected, and the teeth have no
+    faults.
+    """
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
@@ -131,11 +133,11 @@ class Sink:
 
     @property
     def suffix(self) -> str:
-        """Suffix of the file or of standard output in lower case; "" without a suffix."""
+        """Suffix of the file or of standard output in lower case; "" if there is none."""
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result: to standard output, or atomically to the file, then report its name and `said`."""
+        """Write a complete result to standard output, or atomically to the file; then report its name and `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -212,7 +214,9 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Write documents to a file (HTML or Markdown), or print them at terminal width (80 columns in a pipe)."""
+    """Write documents to an HTML or Markdown file, or print them at the width of the terminal (80 columns in a
+    pipe).
+    """
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
     if (out.suffix if suffix is None else suffix) == ".html":
@@ -232,9 +236,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if requested by option or suffix, else as documents; only the requested format is
-    computed.
-    """
+    """Write a result as JSON if requested by option or suffix, otherwise as documents; compute only this format."""
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:
@@ -249,7 +251,7 @@ def draw(figure: Any, out: Sink) -> None:
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """Return the suffix of an output file, or "" without a suffix; reject suffixes that are not allowed."""
+    """Return the suffix of an output file, or "" if it has none; reject suffixes that are not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
         raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")
@@ -275,7 +277,7 @@ def as_json(data: Any) -> str:
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; return an empty string without any rows."""
+    """Format rows with the same keys as CSV with a header; return an empty string if `rows` is empty."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

@@ -74,7 +74,8 @@ def write_style(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Format declarations: turning pairs by axis and gear pairs as `a ~ b`, or all in long form; comments are kept.
+    """Format declarations, with turning pairs grouped by axis and gear pairs as `a ~ b`, or with all entries in long
+    form; comments are kept.
 
     The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
     changed.

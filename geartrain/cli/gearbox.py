@@ -39,7 +39,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Tabulate ratio, step, speeds, slip, torques of clutches and brakes, and recirculating power of every state.
+    """Tabulate the ratio, step, speeds, slip, recirculating power, and torques of clutches and brakes in every state.
 
     Example: `geartrain gearbox zf-8hp70 --search --gears 8`.
     """

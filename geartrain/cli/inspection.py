@@ -122,7 +122,8 @@ def graph(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the graph of a train: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML or JSON.
+    """Print the graph of a train as an adjacency matrix of letters (R(axis), G#) or numbers, as a list of edges, or in
+    Graphviz, GraphML or JSON format.
 
     Example: `geartrain inspect graph pennestri-2002 -o train.dot`.
     """

@@ -117,7 +117,7 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
 
 @contextmanager
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
-    """Open the execution of one run: an executor, a journal if the folder is writable, and a progress bar.
+    """Open the execution of one run with an executor, a progress bar and, if the folder is writable, a journal.
 
     The journal is placed next to the output file, and its name contains a hash of the options in `question`.
     """
@@ -255,7 +255,7 @@ def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
 
 @contextmanager
 def _interrupts() -> Iterator[list[int]]:
-    """Record the first Ctrl-C in a list; the second Ctrl-C interrupts as usual."""
+    """Record the first Ctrl-C in a list; a second Ctrl-C raises `KeyboardInterrupt` as usual."""
     came: list[int] = []
 
     def note(number: int, frame: Any) -> None:

@@ -313,8 +313,8 @@ def _compare(
     files: tuple[Sink, Path | None, ThemeName, bool],
     json: bool,
 ) -> NoReturn:
-    """Compare the loss, stress, heat, flash temperature and tooth depth of several tooth forms with those of the 20
-    degree involute, then exit.
+    """Compare the loss, stress, heat, flash temperature and tooth depth of several tooth forms with the values of the
+    20 degree involute, then exit.
 
     All forms have the same pair and the same arcs of approach and recess.
     """

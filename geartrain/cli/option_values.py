@@ -97,7 +97,9 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
 
 
 def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, high: float = _MOST) -> float:
-    """Parse a number from `low` to `high` as a float. Raises `GearTrainError`, also if its square would underflow."""
+    """Parse a number from `low` to `high` as a float. Raise `GearTrainError` for other text, and for a number whose
+    square would underflow.
+    """
     found = float(exact(place, text, what, such_as, low, high))
     if found and abs(found) < 1 / _MOST:
         raise option_error(

@@ -64,7 +64,7 @@ def describe_parameters(form: str, model: type[ToothForm]) -> Document:
 
 
 def _meaning(field: FieldInfo) -> str:
-    """Return the description of a parameter, with a list described as two values separated by a comma."""
+    """Return the description of a parameter, in which lists are described as two values separated by a comma."""
     text = (field.description or "").replace("a list of two gives", "a,b gives").replace("a list of two", "two: a,b")
     words = [word for word in _words(field.annotation) if word not in text]
     return f"{text}: {', '.join(words)}" if words else text
@@ -108,7 +108,7 @@ def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
     """Return the error with a location in each problem: `-p KEY` if the problem names a key, the option if it names an
-    option, else `place`. `fix` is added to problems that have none.
+    option, otherwise `place`. `fix` is added to problems that have none.
     """
 
     def located(named: str) -> str:
@@ -118,8 +118,8 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert a value as in a declaration: in brackets or braces as YAML, to a list if it contains a comma, to an
-    integer if the field allows this integer.
+    """Convert a value as in a declaration: parse a value in brackets or braces as YAML, split it into a list if it
+    contains a comma, and convert it to an integer if the field allows this integer.
     """
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml
@@ -250,7 +250,7 @@ def two_wheels(
 
 
 BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
-"""Sizes of a wheel that its tooth form does not determine; `clearance`, `fillet` and `rim` only for conjugate teeth."""
+"""Sizes of a wheel that its tooth form does not fix; `clearance`, `fillet` and `rim` are for conjugate teeth only."""
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
@@ -304,7 +304,7 @@ class PairFrictionOption:
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return the mesh with this friction. Raises `GearTrainError` if a friction law needs an unknown speed or
+        """Return the mesh with this friction; raise `GearTrainError` if a friction law needs an unknown speed or
         module.
         """
         if self.law is None:
@@ -325,7 +325,9 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction, or the name and parameters of a friction law. Raises `GearTrainError`."""
+    """Parse a coefficient of friction, or a friction law with its parameters; raise `GearTrainError` if it is
+    invalid.
+    """
     name = text.split(",")[0].strip()
     if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
         return PairFrictionOption(read_coefficient(text))

@@ -81,7 +81,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute torques of links and pairs, power flow, losses, efficiency and crank torque under the declared loads.
+    """Compute the torques of links and pairs, power flow, losses, efficiency and crank torque under the declared loads.
 
     With --turns and -o x.csv, write the torque at every position.
 
@@ -198,7 +198,8 @@ def _table(found: TorqueCycle) -> str:
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
     """Draw the torque over the requested revolutions, or the power flow if no revolutions are requested.
 
-    The power flow is computed for the declared loads; without loads, for a unit of power from input to output.
+    The power flow is computed for the declared loads, or for a unit of power from input to output if no loads are
+    declared.
     """
     from geartrain.drawing.output_error_plots import torque_cycle_figure
     from geartrain.drawing.power_sankey import power_figure

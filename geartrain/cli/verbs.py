@@ -158,9 +158,7 @@ class _ReaderGoneError(Exception):
 
 
 class EndingGroup(TyperGroup):
-    """Group of commands that handles closed pipes and Ctrl-C itself, because typer would exit with the code of a
-    verdict.
-    """
+    """Group of commands that handles closed pipes and Ctrl-C, because typer would exit with the code of a verdict."""
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Parse the command line; `--help` and `--version` exit here."""

@@ -148,15 +148,15 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation in the time domain that the page shows; every step of the run with larger steps is a sample,
-    unless the data are too large.
-    """
+    """Run the simulation in the time domain that the page shows, with as many samples as a page can hold."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """Return the states to be shown: the named state; otherwise the first state if `first` is True, or all states."""
+    """Return the states to be shown: the named state if one is named, otherwise all states, or only the first if
+    `first` is True.
+    """
     if state is not None:
         return (state,)
     names = train.states or (None,)

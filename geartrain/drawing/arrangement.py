@@ -84,7 +84,8 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
 
 
 def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float, float] = (-inf, inf)) -> list[float]:
-    """Return centres of boxes in a row that do not overlap, in the order of the wanted centres and close to them.
+    """Return the centres of boxes in a row, close to the wanted centres and in the same order, so that the boxes do not
+    overlap.
 
     The sum of the squared distances from the wanted centres is minimised.
 
@@ -106,12 +107,13 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
 
 
 def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return positions (n, 2) of items by stress majorization from a circle in the order of `arrange`.
+    """Return the positions (n, 2) of items, computed by stress majorization from a circle of items in the order of
+    `arrange`.
 
     The target distance between two items is the length of the shortest path between them (Gansner, Koren and North
     2004, Graph drawing by stress majorization, equation 3).
 
-    lengths   length of each pair, its items in either order
+    lengths   length of each pair, whose items may be in either order
     """
     count = len(items)
     order = {item: at for at, item in enumerate(arrange(items, pairs))}
@@ -134,7 +136,7 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths of shortest paths between items (n, n) (Floyd-Warshall); 0 for unconnected items."""
+    """Return the lengths (n, n) of the shortest paths between items (Floyd-Warshall); 0 for unconnected items."""
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -228,9 +230,7 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Callouts in columns left and right of a picture, each with its ordinate, and the inner edges of the columns
-    [in].
-    """
+    """Callouts in columns left and right of a picture, each with its ordinate, and the inner edges of columns [in]."""
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -244,7 +244,7 @@ class CalloutMargin:
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Minimum and maximum ordinate of all callouts [in]; (inf, -inf) without callouts."""
+        """Minimum and maximum ordinate of all callouts [in]; (inf, -inf) if the columns are empty."""
         ends = [y + way * each.height / 2 for side in (self.left, self.right) for each, y in side for way in (-1, 1)]
         return min(ends, default=inf), max(ends, default=-inf)
 
@@ -326,9 +326,7 @@ def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[floa
 
 
 def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts with their ordinates [in], as close to their anchors as their order permits (isotonic
-    regression).
-    """
+    """Return the callouts with ordinates [in] as close to their anchors as the order permits (isotonic regression)."""
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 

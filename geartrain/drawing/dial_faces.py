@@ -50,12 +50,12 @@ class PointerReading:
 
     output: str
     turned: Fraction | None
-    """Mean rotation since the zero pose [turns], positive clockwise as read, exact; None if it is not determined."""
+    """Exact mean rotation since the zero pose [turns], positive clockwise as read; None if it is not determined."""
     error: float
-    """Contribution of starting angle, teeth and pins to the reading [turns], positive clockwise as read."""
+    """Contribution of the starting angle, teeth and pins to the reading [turns], positive clockwise as read."""
     reach: float = 1.0
-    """Length of the hand divided by the radius of its scale; `outline` has points (x, half the width) divided by this
-    length.
+    """Length of the hand divided by the radius of its scale. The points of `outline` are (x, half the width), both
+    divided by this length.
     """
     outline: Sequence[tuple[float, float]] = ()
 
@@ -65,7 +65,7 @@ class PointerReading:
         not determined.
 
         The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line,
-        and an error of -1e-17 turns would put it in the cell before.
+        and an error of -1e-17 turns would move it to the cell before the line.
         """
         return (self.turned or Fraction(0)) + Fraction(round(self.error, _DECIMALS))
 
@@ -140,8 +140,8 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, if there are none to draw, or for more
-    than 60 faces.
+    """Return the dial faces to draw; raise `QuestionError` if an output is unknown, or if none or more than 60 faces
+    would be drawn.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
@@ -198,9 +198,9 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
 
 
 def _draw_moon(axes: Axes, reading: PointerReading, centre: tuple[float, float]) -> None:
-    """Draw the ball of a Moon's phase with its axis upright, and its white half as seen from the front.
+    """Draw the ball that shows the phase of the Moon, with its axis upright and its white half as seen from the front.
 
-    The black half faces the reader at 0. The terminator is half an ellipse, as the projection of a great circle.
+    The black half faces the reader at angle 0. The terminator is half an ellipse, as the projection of a great circle.
     """
     axes.add_patch(Circle(centre, _MOON, facecolor=BLACK, edgecolor=BLACK, zorder=3, gid="moon"))
     turn = 2 * pi * float(reading.at % 1)
@@ -259,7 +259,9 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn."""
+    """Draw a hand from the centre if its reading is determined; on a spiral, the hand ends at the current turn of the
+    spiral.
+    """
     if reading.turned is None:
         return
     scale = face.scale
@@ -286,8 +288,8 @@ def _fill_hand(
 
 
 def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, usual: str) -> str:
-    """Return the name of an output, the position of its pointer, its reading, and its sense of rotation unless it is
-    the usual one, as a string.
+    """Return a string with the name of an output, the position and the reading of its pointer, and its sense of
+    rotation if it is unusual.
     """
     if reading.turned is None:
         return f"{pointer.output}: undetermined"

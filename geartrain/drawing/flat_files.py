@@ -83,7 +83,7 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as a DXF R2010 string, its title as a property; raise `MissingExtraError` without ezdxf."""
+    """Return a drawing as a DXF R2010 string, with its title as a property; raise `MissingExtraError` without ezdxf."""
     try:
         from ezdxf import options, units  # type: ignore[attr-defined]
         from ezdxf.enums import TextEntityAlignment

@@ -102,9 +102,7 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return the kinematic graph of a train, with faulty loops in red; raise `QuestionError` if it has too many
-    links.
-    """
+    """Return the kinematic graph of a train, with faulty loops in red; raise `QuestionError` for too many links."""
     declared = train.declaration
     links = list(declared.links)
     too_many(train, len(links), _MOST, "links")
@@ -148,7 +146,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Return the positions of links [in], and each edge with its curve (3, 2): start, control point and end."""
+    """Return the positions of links [in], and the edges, each with its curve (3, 2) of start, control point and end."""
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
@@ -188,7 +186,7 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return start, control point and end (3, 2) of an edge, bent only as far as needed to avoid other vertices."""
+    """Return the start, control point and end (3, 2) of an edge, bent only as far as needed to avoid other vertices."""
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
@@ -206,7 +204,7 @@ def _clearance(curve: Floats, others: Floats) -> float:
 
 
 def _point(curve: Floats, share: float) -> Floats:
-    """Return a point of a quadratic Bezier curve."""
+    """Return the point of a quadratic Bezier curve at the parameter `share`, from 0 to 1."""
     rest = 1 - share
     return np.asarray(rest**2 * curve[0] + 2 * rest * share * curve[1] + share**2 * curve[2])
 
@@ -255,7 +253,7 @@ class _Traces:
 def _draw_labels(
     axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], traces: _Traces, room: LabelSpace
 ) -> None:
-    """Draw every edge's label on the edge, close to its middle, where it hides the minimum amount of other edges.
+    """Draw every edge's label on the edge, close to its middle, where it hides the smallest inked area of other edges.
 
     Labels with the fewest unobstructed positions are placed first. A label is placed next to its edge only if no
     position on the edge is free.
@@ -272,8 +270,8 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return the positions of a label along its edge, from the middle outwards, with the inked area of other edges that
-    each would hide.
+    """Return the positions of a label along its edge, from the middle outwards, each with the inked area of other edges
+    that it would hide.
     """
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):

@@ -36,7 +36,9 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if unknown)."""
+    """Point of a lever with its abscissa, its members, their closed brakes and clutches, and its speed (None if
+    unknown).
+    """
 
     x: Fraction
     links: list[str]
@@ -59,7 +61,7 @@ _LONG = 11  # letters of the longest fraction that is not written as a decimal
 
 
 def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a figure with a panel for each epicyclic set and each state: sets in rows, states below each other.
+    """Return a figure with a panel for each epicyclic set in each state; the panels of one state form rows.
 
     state   state to be drawn; by default all states
 
@@ -134,8 +136,8 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state: its name, closed brakes and clutches, the verdict if speeds are not determined,
-    and for the first state the unit of speeds.
+    """Return the heading of a state with its name, its closed brakes and clutches, the verdict if speeds are not
+    determined, and, for the first state, the unit of speeds.
     """
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:
@@ -237,7 +239,7 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
 
 
 def _speed_text(value: Fraction | None) -> str:
-    """Return a short fraction as a fraction, a long fraction as a decimal, and None as a question mark."""
+    """Format a short fraction as a fraction, a long fraction as a decimal number, and None as a question mark."""
     if value is None:
         return "?"
     return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

@@ -67,7 +67,7 @@ class _Trace(NamedTuple):
     """Name of the error on the axis: transmission error if the train has tooth forms, otherwise anomaly."""
     slides: bool
     first: tuple[Floats, Floats, Floats]
-    """Turns, error and relative speed at each of the first positions."""
+    """Turns, error and relative speed at each of the first positions of the run."""
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
@@ -87,8 +87,8 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def _error_chart(run: MotionRun, title: str) -> Figure:
-    """Return a chart of the errors of a run, which has been computed. Outputs that move uniformly have no row if others
-    have one.
+    """Return a chart of the errors of a run, which has been computed. Outputs that move uniformly have no row, unless
+    all outputs move uniformly.
     """
     uneven = [tally for tally in run.statistics if tally.peak_to_peak > _ROUNDING]
     ranked = sorted(uneven or run.statistics, key=lambda tally: -tally.peak_to_peak)
@@ -136,7 +136,9 @@ def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> F
 
 
 def _drawers(trace: _Trace) -> list[Callable[[Axes, _Trace], None]]:
-    """Return the functions that draw an output's panels: the angle for few turns, only backward motion for many."""
+    """Return the functions that draw an output's panels; for many turns, only backward motion is shown, not the
+    angle.
+    """
     errors: list[Callable[[Axes, _Trace], None]] = (
         [_error, _speed] if np.ptp(trace.error) > _ROUNDING or np.ptp(trace.speed) > _ROUNDING else []
     )
@@ -167,7 +169,9 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the positions to draw: the first of each bin, its extremes of deviation and speed, and all reversals."""
+    """Return the positions to draw: the first position of each bin, the extremes of deviation and speed in it, and all
+    reversals.
+    """
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))
@@ -281,7 +285,9 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
 
 
 def _prefixed(maximum: float, unit: str) -> tuple[float, str]:
-    """Return the factor to values in a unit with a decimal prefix, and this unit in parentheses; 1 without a unit."""
+    """Return the factor that converts values to a unit with a decimal prefix, and this unit in parentheses; the factor
+    is 1 if `unit` is empty.
+    """
     if not unit:
         return 1.0, ""
     size, prefix = next((each for each in _PREFIXES if maximum >= each[0]), (1.0, "") if not maximum else _PREFIXES[-1])

@@ -235,7 +235,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved off callout lines (2, 2) if there is space, otherwise unmoved."""
+        """Return the names on wheels, moved away from callout lines (2, 2) where there is space."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -255,7 +255,7 @@ class PlanNames:
         return room
 
     def _on_face(self, order: int) -> Iterator[Box]:
-        """Yield boxes for a name within the visible part of its wheel's face; none for a ring."""
+        """Yield boxes for a name within the visible part of its wheel's face; yield nothing for a ring."""
         wheel, centre = self.wheels[order], self.centres[order]
         if wheel.kind == "ring":
             return
@@ -309,7 +309,7 @@ def _points_along(lines: Sequence[Floats]) -> Floats:
 
 
 def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
-    """Return True for each of the points (n, 2) that is in one of the discs (m, 2), False for the other points."""
+    """Return a mask of the points (n, 2) that are in at least one of the discs (m, 2)."""
     if not len(points) or not len(centres):
         return np.zeros(len(points), dtype=bool)
     middle = points.mean(axis=0)
@@ -383,11 +383,11 @@ class _PlanSize:
     size: Floats
     """Width and height of the plan (2,) [in]."""
     bottom: float
-    """Height of the lowest layer towards the reader [mm]."""
+    """Height of the lowest layer, measured towards the reader [mm]."""
     depth: float
-    """Height of all layers together [mm]."""
+    """Total height of all layers [mm]."""
     deep: float
-    """Width of the side view [in]; 0 without a side view."""
+    """Width of the side view [in]; 0 if the plan has no side view."""
 
     @classmethod
     def of(cls, projected: ProjectedScene) -> _PlanSize:

@@ -53,7 +53,7 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """Scene in a pose as a reader sees it; `screen` (3, 3) has rows right, up and towards the reader."""
+    """Scene in a pose as a reader sees it; the rows of `screen` (3, 3) point right, up and towards the reader."""
 
     scene: Scene
     pose: ScenePose
@@ -85,7 +85,7 @@ class ProjectedScene:
         """Return the tooth outline of a wheel (points, 3), multiplied by `scale` and moved by `height` [mm] along its
         axis, with the rotation of its helix.
 
-        For a lantern pinion, or a wheel whose teeth are too many to be visible, the result is the tip circle.
+        For a lantern pinion, or a wheel with too many teeth to be visible, the result is the tip circle.
 
         chord   maximum distance [mm] of omitted points from the outline
         """
@@ -109,12 +109,12 @@ class ProjectedScene:
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return the line of a flexible wheel's bore (points, 3), which its wave generator touches."""
+        """Return the line of a flexible wheel's bore (points, 3) [mm], which its wave generator touches."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) in the deflected middle plane of a flexible wheel, given radius and angle (n,) in the
+        """Return points (n, 3) in the deflected middle plane of a flexible wheel for the radius and angle (n,) in the
         undeformed wheel.
         """
         wheel = self.scene.wheels[wave.wheel]
@@ -126,7 +126,7 @@ class ProjectedScene:
         return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
 
     def lobes(self, wave: SceneWave) -> Floats:
-        """Return the points (lobes, 3) of the bore of a flexible wheel with the maximum outward deflection."""
+        """Return the points (lobes, 3) [mm] of the bore of a flexible wheel with the maximum outward deflection."""
         wheel = self.scene.wheels[wave.wheel]
         bore = wave.middle + wave.rise - wave.wall / 2
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
@@ -136,12 +136,12 @@ class ProjectedScene:
         return self.pose.point(wave.by, np.array(wheel.centre) + bore * ring)
 
     def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
-        """Return a circle about a wheel's axis (points, 3)."""
+        """Return points (points, 3) [mm] on a circle about the axis of a wheel."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._around(wheel, np.full(_ROUND, radius), angle, height)
 
     def pins(self, wheel: SceneWheel) -> Iterator[Floats]:
-        """Yield the outline (points, 3) of each pin of a lantern pinion; none for other wheels."""
+        """Yield the outline (points, 3) of each pin of a lantern pinion; yield nothing for other wheels."""
         profile = self.scene.profiles[wheel.profile]
         if profile.hole and wheel.teeth <= _FINE:
             tooth = np.array(profile.points)
@@ -156,7 +156,9 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return height along the axis [mm] and scale of a wheel's ends, the large end of a bevel wheel first."""
+        """Return the height along the axis [mm] and the scale of each end of a wheel, the large end of a bevel wheel
+        first.
+        """
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
             return (half, 1.0), (-half, 1.0)
@@ -165,14 +167,16 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """Return a scene after `turns` of its driving link: from the front if most wheels face it, otherwise obliquely."""
+    """Return a scene after `turns` of its driving link, seen from the front if most wheels face it, otherwise
+    obliquely.
+    """
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
     return front if front.flat else ProjectedScene(scene, posed, screen_of(np.array(_OBLIQUE)))
 
 
 def screen_of(view: Floats) -> Floats:
-    """Return rows right, up and towards the reader (3, 3), from the direction `view` towards the reader."""
+    """Return the matrix (3, 3) with rows right, up and `view`, the direction towards the reader."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
@@ -193,7 +197,7 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield for each arm of a carrier: the index of the carrier's body, a point of its axis, and a point of the carried
+    """Yield each arm of a carrier as the index of the carrier's body, a point of its axis, and a point of the carried
     axis.
     """
     scene = projected.scene
@@ -211,7 +215,8 @@ def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
 def coupling_spans(
     projected: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
 ) -> list[Floats]:
-    """Return lines (2, 2) [in] across the area of a coupling: along its slot, or two diameters of each of its holes.
+    """Return lines (2, 2) [in] across the area of a coupling: one along its slot, or two diameters of each of its
+    holes.
 
     at      conversion of view coordinates (..., 3) to inches (..., 2)
     scale   inches per millimetre
@@ -230,7 +235,9 @@ def coupling_spans(
 
 
 def part_points(part: ScenePart, outline: int = 0) -> Floats:
-    """Return points of a part in the zero pose (n, 3) [mm]: an outline of a flat part, the section of a turned part."""
+    """Return points (n, 3) of a part in the zero pose [mm], either of an outline of a flat part or of the section of a
+    turned part.
+    """
     x, z = np.array(part.across), np.array(part.direction)
     if part.outlines:
         flat = np.array(part.outlines[outline]).reshape(-1, 2)
@@ -432,8 +439,9 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw a train from its left side, as high as the plan, with its layers side by side and the reader on the
-    right."""
+    """Draw a train as seen from its left side, at the height of the plan, with its layers side by side and the reader
+    of the plan on the right.
+    """
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: -float(projected.seen(projected.centre(each))[0])):

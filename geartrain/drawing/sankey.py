@@ -88,7 +88,7 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Return band, with its turning distances from source and target, and the top of its lane [in]."""
+    """Band that leads power back, with its turning distances from source and target, and the top of its lane [in]."""
 
     piece: BandSegment
     right: float
@@ -148,8 +148,8 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return abscissae of column centres [in] with space for names and return bands, at least over the width `minimum`
-    [in].
+    """Return the abscissae of the column centres [in], with space for names and return bands; the width is at least
+    `minimum` [in].
     """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
@@ -213,7 +213,9 @@ def _graph(streams: Sequence[PowerStream]) -> Any:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return each node's column, after the columns of all nodes that feed it (longest path); outputs are last."""
+    """Return the column of each node, to the right of all nodes that feed it (longest path); outputs are in the last
+    column.
+    """
     import networkx as nx
 
     graph = _graph(ahead)
@@ -305,7 +307,7 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of a spot's neighbours on one side, weighted by band width; its own position if it has
+    """Return the mean position of a spot's neighbours on one side, weighted by band width, or its own if it has
     none.
     """
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
@@ -316,8 +318,8 @@ def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float
 
 
 def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the cost of crossings near some columns: the product of the widths of both bands plus a constant, per
-    crossing.
+    """Return the cost of crossings within a range of columns; a crossing costs the product of the widths of both bands
+    plus a constant.
     """
     total = 0.0
     for at in columns:
@@ -389,7 +391,7 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set both ends of bands in place, in the order of the spots at their other ends, return bands uppermost."""
+    """Set both ends of bands in place, in the order of the spots at their other ends, with return bands uppermost."""
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))

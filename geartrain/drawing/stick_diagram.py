@@ -104,8 +104,8 @@ class StickLabels:
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add a link's name before its shaft, which extends from `left` to `right` at height y [in], or above, behind
-        or below it.
+        """Add the name of a link to the left of its shaft, or above, to the right of or below it; the shaft extends
+        from `left` to `right` at height y [in].
         """
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
@@ -126,7 +126,7 @@ class StickLabels:
         self.wheels.append(_Label(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
-        """Add the name of an axis: behind its right end, or before the end above or below its line."""
+        """Add the name of an axis to the right of its right end, or above or below its line near that end."""
         wide = text_width(axis)
         spots = [
             (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
@@ -136,7 +136,7 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def name_element(self, name: str, closed: bool, x: float, y: float) -> None:
-        """Add the name of a brake or clutch above the middle (x, y) of its plates, further up, or on either side."""
+        """Add the name of a brake or clutch above the middle (x, y) of its plates, or higher, or on either side."""
         weight = "bold" if closed else "normal"
         beside = 0.22 + text_width(name, NAME, weight) / 2
         spots = [(x + aside, y + 0.2 + step * _STEP) for step in range(4) for aside in (0.0, 0.1, -0.1)]
@@ -177,12 +177,16 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """Gear pair or coupling in its column, between two rows; `ring` is the name of its ring wheel, or empty."""
+    """Gear pair or coupling in its column between two rows; `ring` is the name of its ring wheel, or empty if it has
+    none.
+    """
 
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links, with the link on the lower row first; `wheels` are their wheels, or for a coupling the links again."""
+    """Links of the mesh, with the link on the lower row first; `wheels` are their wheels, or these links for a
+    coupling.
+    """
     wheels: tuple[str, str]
     ring: str
     x: float
@@ -351,7 +355,9 @@ def _mesh(
 
 
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
-    """Return the lower wheel's share of the height between two axes, by tooth count, so that both labels fit."""
+    """Return the lower wheel's share of the height between two axes, proportional to its tooth count, limited so that
+    both labels fit.
+    """
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
     minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
     return min(max(counts[0] / sum(counts), minimum), most) if minimum < most else (minimum + most) / 2
@@ -368,7 +374,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     """Return a figure with axes, shafts, wheels and tooth counts, cranks of carriers, the hatched frame, brakes and
     clutches.
 
-    state   state whose brakes and clutches are drawn closed, by default the first
+    state   state whose brakes and clutches are drawn closed, by default the first state
 
     Raise `QuestionError` for more pairs than fit on a page, or if the state does not exist.
     """
@@ -468,8 +474,8 @@ class _Drawing:
         self.words.name_element(name, closed, *place)
 
     def _ends(self, name: str) -> list[float | None]:
-        """Return the height of the shafts that a brake or clutch joins [in], None for the frame, which is the first
-        member of a brake.
+        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame, the first member of a
+        brake.
         """
         clutch = self.train.declaration.clutches[name]
         links = clutch.locks or (self.train.declaration.frame, *clutch.links)
@@ -543,7 +549,7 @@ class _Drawing:
             self.words.name_upright(f"{wheel} {self.train.declaration.wheels[wheel][1].count}", x, ends, color)
 
     def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """Draw a wheel from its shaft to its mate, connected to an earlier line of the same wheel if there is one."""
+        """Draw a wheel as a line from its shaft to its mate, connected to an earlier line of the same wheel, if any."""
         draw_line(self.axes, [x, x], [foot, end], BLUE, WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
@@ -573,7 +579,9 @@ class _Drawing:
         draw_bearing(self.axes, crank.x, far, ORANGE, slides)
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw the mark of teeth at a wheel's end: level, slanted for bevel or contrate, long and dashed for a worm."""
+        """Draw a tooth mark at a wheel's end, which is level for spur wheels, slanted for bevel and contrate wheels,
+        and long and dashed for worms.
+        """
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

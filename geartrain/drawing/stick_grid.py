@@ -74,7 +74,7 @@ def _cost(
     ends: dict[str, tuple[float, float]],
     spans: Sequence[tuple[str, str, float]],
 ) -> float:
-    """Return the cost of a level: lengths of the axis' vertical lines, plus penalties for crossings and overlaps."""
+    """Return the cost of a level: the lengths of the axis' vertical lines, and penalties for crossings and overlaps."""
     cost = 0.3 * abs(here)
     placed = {**level, axis: here}
     known = [(*sorted((placed[one], placed[other])), x, axis in (one, other)) for one, other, x in spans
@@ -110,9 +110,9 @@ class StickColumns:
     meshes: list[tuple[Circuit, float]] = field(default_factory=list)
     cranks: list[StickCrank] = field(default_factory=list)
     lone: list[tuple[str, float]] = field(default_factory=list)
-    """Wheels that have no mate."""
+    """Wheels that have no mate, each with its abscissa [in]."""
     elements: list[tuple[str, float]] = field(default_factory=list)
-    """Brakes and clutches."""
+    """Brakes and clutches, each with its abscissa [in]."""
     width: float = 0.0
 
 
@@ -225,7 +225,7 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column where a mesh hides no other, and add it to `taken`; a ring takes two columns."""
+    """Return the first column in which a mesh hides no other mesh, and add it to `taken`; a ring takes two columns."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

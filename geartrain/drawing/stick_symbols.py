@@ -22,7 +22,7 @@ PLATE, STEM = 2.6, 1.6
 TICK = 0.085
 """Half the length of a tooth mark [in]."""
 TOUCH = 0.032
-"""Distance from where two wheels meet to the middle of the mark of either wheel [in]."""
+"""Distance from the point where two wheels touch to the middle of each wheel's tooth mark [in]."""
 BEARING, BAR = 0.07, 0.05
 """Half the length of the bars of a bearing, and their distance from the shaft [in]."""
 NAME = 8.0
@@ -34,7 +34,7 @@ _STRAND = 0.025  # from the middle of a belt to one of its strands
 
 
 def draw_line(axes: Axes, xs: list[float], ys: list[float], color: str, width: float, **how: Any) -> None:
-    """Draw a line of a width [pt] with ends that do not project."""
+    """Draw a line of a width [pt], by default with butt caps."""
     axes.plot(xs, ys, color=color, linewidth=width, **{"solid_capstyle": "butt", **how})
 
 
@@ -150,7 +150,7 @@ def draw_joint(axes: Axes, x: float, meet: float, ends: tuple[float, float], kin
 
 
 def draw_pin(axes: Axes, x: float, meet: float, ends: tuple[float, float], pins: Sequence[bool], name: str) -> None:
-    """Draw a pin in its slot; for links that are kept parallel, without a pin, two bars side by side.
+    """Draw a pin in its slot, or two bars side by side for links that are kept parallel.
 
     pins   True for the end that carries the pin
     """

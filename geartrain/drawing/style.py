@@ -134,7 +134,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield the texts of an artist, except those of hidden axes, whose ticks would be created only for this purpose."""
+    """Yield the texts of an artist, without hidden axes, whose ticks would be created only for this purpose."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -156,7 +156,7 @@ HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable ove
 _STEP, _CELL = 0.3, 58.0  # height of a row [in], and width of a column of cells [pt]
 _WIDTHS = (1.4, 5.0)  # widths of the lines of intervals [pt], the widest interval first
 MOST_ROWS = 20
-"""Maximum number of rows of a chart of intervals, which then fits on a screen."""
+"""Maximum number of rows of a chart of intervals at which the chart fits on a screen."""
 LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
@@ -175,7 +175,7 @@ def plain(axes: Axes) -> None:
 
 
 def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT, **how: Any) -> None:
-    """Write the labels of the axes and the title of a panel; `how` are further text properties."""
+    """Write the labels of the axes and the title of a panel; `how` contains further text properties."""
     if x:
         axes.set_xlabel(x, fontsize=size, **how)
     if y:
@@ -266,7 +266,7 @@ def draw_rows(
 
 
 def figures(value: float, digits: int = 3) -> str:
-    """Return a value as text with significant digits, and large values as integers, without a power of ten."""
+    """Format a value with significant digits and without a power of ten; large values are formatted as integers."""
     return f"{value:.{digits}g}" if not 10**digits <= abs(value) < 1e9 else f"{value:.0f}"
 
 
@@ -285,7 +285,7 @@ def legend_below(
     side: Literal["center", "left"] = "center",
     **how: Any,
 ) -> None:
-    """Draw a legend of the given handles below all panels; by default of all labelled artists."""
+    """Draw a legend of the given handles, or by default of all labelled artists, below all panels."""
     how = {"fontsize": SMALL, "frameon": False, "ncols": columns, **how}
     if handles is not None:
         how["handles"] = handles
@@ -326,8 +326,8 @@ def kept_extremes(values: Floats, most: int) -> Ints:
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
-    """Write text literally, with its halo as a separate text; one text with a halo would be outlines in a vector
-    file.
+    """Write text literally, and its halo as a separate text, because a single text with a halo would become outlines in
+    a vector file.
     """
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
@@ -345,7 +345,9 @@ def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, fl
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """Return a figure with one panel in inches from the lower left corner, and a title of at most two lines."""
+    """Return a figure with one panel, whose coordinates are inches from the lower left corner, and a title of at most
+    two lines.
+    """
     figure = Figure(figsize=(width, height), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_xlim(0.0, width)

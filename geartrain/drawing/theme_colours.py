@@ -80,9 +80,7 @@ class _Painter:
             self._halo(effect)
 
     def paint_grid(self, axes: Axes) -> None:
-        """Convert the grid colour of ticks that are created later, because a file of another resolution may have more
-        ticks.
-        """
+        """Convert the grid colour of ticks that are created later; a file of another resolution may have more ticks."""
         for axis in (axes.xaxis, axes.yaxis):
             old = axis.get_tick_params().get("grid_color")
             if old is not None:
@@ -163,8 +161,8 @@ def _themed_all(colours: Any, name: ThemeName) -> Any:
 def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
     """Return the theme's equivalent of a colour of the light theme.
 
-    A colour of the palette becomes the palette colour of the theme, and a mixture of the two face colours the same
-    mixture. Any other colour gets the same relative lightness between paper and ink.
+    A colour of the palette becomes the palette colour of the theme, and a mixture of the two face colours becomes the
+    same mixture. Any other colour gets the same relative lightness between paper and ink.
     """
     light, theme = THEMES["light"], THEMES[name]
     known = dict(zip(_named(light), _named(theme), strict=True))

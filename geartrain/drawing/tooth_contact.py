@@ -50,7 +50,7 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
     """Return a pair's tooth counts, half angle, clearance factor and friction coefficient as a string.
 
-    friction   coefficient to print; by default that of the pair
+    friction   coefficient to print; by default the coefficient of the pair
     """
     sizes = transmission.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
@@ -95,11 +95,13 @@ class ToothPairPose:
 
     @property
     def axis2(self) -> float:
-        """Coordinate of the driven wheel's axis on the line of centres, from the driver's axis."""
+        """Coordinate of the driven wheel's axis on the line of centres, from the driver's axis, in the unit of the
+        sizes.
+        """
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) at a radius and an angle from the line of centres [rad], positive on the entry
+        """Return points (..., 2) at a radius and an angle [rad] from the line of centres, positive at the entry
         side.
         """
         along: Floats = radius * np.cos(angle)
@@ -137,7 +139,7 @@ class ToothPairPose:
 
     @property
     def contact(self) -> Point:
-        """Contact point of the tooth pair: the tip of the driven tooth in approach, the tip of the driver's tooth in
+        """Contact point of the tooth pair: the tip of the driven tooth in approach, and of the driver's tooth in
         recess.
         """
         which = DRIVEN if self.phase == APPROACH else DRIVER
@@ -158,7 +160,9 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose in which the driving tooth pair, or otherwise a tooth of the driver, is at `alpha1` [rad]."""
+    """Return the pose in which a tooth of the driver is at `alpha1` [rad], by default the middle of the first interval
+    of contact.
+    """
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
     alpha2 = float(tooth_pair.angle(interval.phase, x)) if standing is None else standing
@@ -212,7 +216,7 @@ def teeth_figure(
 
 @dataclass(frozen=True, slots=True)
 class ToothViewport:
-    """Part of the plane that is drawn, by its limits; `whole` is True if it contains whole wheels."""
+    """Rectangular part of the plane that is drawn; `whole` is True if it contains whole wheels."""
 
     left: float
     right: float

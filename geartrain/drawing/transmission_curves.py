@@ -58,7 +58,8 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
-    """Plot flanks, path of contact and losses of a pair, or else its transmission function and efficiency.
+    """Plot flanks, path of contact and losses of a pair, or its transmission function and efficiency if it has no path
+    of contact.
 
     alpha1   angle of the driving tooth from the line of centres [rad], at which triangular teeth are drawn in contact
     """
@@ -78,9 +79,7 @@ def comparison_figure(found: FormComparison) -> Figure:
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
-    """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods of the
-    pair.
-    """
+    """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods."""
     S = np.linspace(0, 2 * transmission.period, _PERIOD_SAMPLES)
     curves = (
         np.degrees(transmission.error(S)),
@@ -235,7 +234,7 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact: the speed ratio before it, when a tooth pair separates, and after it, when the next pair
+    """Draw each impact with the speed ratios before and after it, at which a tooth pair separates and the next pair
     drives.
     """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
@@ -261,7 +260,7 @@ def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
     """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at speed ratio
     tau.
 
-    It is bounded where an axis of the plot exceeds the real path; a sign in `signs` is -1 for a ring.
+    The denominator is bounded below, for speed ratios far from the real path; a sign in `signs` is -1 for a ring.
     """
     first, second = signs
     return tau / np.maximum(first + second * tau, 0.1)
@@ -287,9 +286,7 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis for the instant centre: its distance from the driver's axis, divided by the centre
-    distance.
-    """
+    """Draw a second axis for the instant centre: its distance from the driver's axis divided by the axis distance."""
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -351,8 +348,8 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Return a figure that compares tooth forms for one pair: flanks, path of contact, stress, heat, flash temperature,
-    sliding and loss.
+    """Return a figure that compares the flanks, path of contact, stress, heat, flash temperature, sliding and loss of
+    tooth forms for one pair.
     """
     if not paths:
         what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"
@@ -437,9 +434,7 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
-    """Yield each plotted quantity with its label; lengths are in modules, so that spur and bevel gears are
-    comparable.
-    """
+    """Yield each plotted quantity with its label; lengths in modules make spur and bevel gears comparable."""
     # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)

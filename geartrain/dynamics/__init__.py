@@ -1,14 +1,14 @@
-"""Torques, losses and transmission errors: the effects of loads, friction and declared tooth forms on a train.
+"""Torques, losses and transmission errors, which result from the loads, the friction and the tooth forms of a train.
 
-Input: circuits, exact speeds and loads of a state, and the known data of each gear pair. Output: torques, powers,
-efficiencies, the driving wheel of each pair, and the angle of every link at every position including transmission
-errors. Call the methods of `GearTrain` (`torques`, `driven`, `motion`, `strength`, `dynamics`), or one of the functions
-here with `GearTrain.mechanics`. Both return results of the classes in this package.
+Input are the circuits, exact speeds and loads of a state, and the known data of each gear pair. Results are torques,
+powers, efficiencies, the driving wheel of each pair, and the angle of every link at every position including
+transmission errors. Call the methods of `GearTrain` (`torques`, `driven`, `motion`, `strength`, `dynamics`), or one of
+the functions here with `GearTrain.mechanics`. Both return results of the classes in this package.
 
 Torques are balanced with the transpose of the Willis system, A^T x + T = 0 (docs/torques.md, equation 3). The loss of
-each pair follows from the direction of power in the frame of its carrier (5). Transmission errors propagate by the same
-rows, a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2). Each error is evaluated at its driver's
-angle, which includes the errors of other pairs (3).
+each pair follows from the direction of power flow relative to its carrier (5). Transmission errors propagate according
+to the same rows, a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2). Each error is evaluated at its
+driver's angle, which includes the errors of other pairs (3).
 """
 
 from __future__ import annotations

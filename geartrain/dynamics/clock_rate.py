@@ -1,4 +1,4 @@
-"""Clock with an escapement: energy of each beat, amplitude of its pendulum, minimum weight, and errors of its rate.
+"""Energy of each beat, amplitude of the pendulum, minimum weight and rate errors of a clock with an escapement.
 
 The equations are (20) to (23) of docs/dynamics.md. A positive rate error means that the clock gains.
 """
@@ -24,10 +24,10 @@ DAY = 86400.0
 
 
 def circular_error(amplitude: float) -> float:
-    """Return the relative rate error of a pendulum that swings in a circular arc, -A^2/16 for small amplitudes [-].
+    """Return the relative rate error of a pendulum that swings in a circular arc [1]; -A^2/16 for small amplitudes A.
 
-    The period of a simple pendulum is 2 K(sin(A/2))/pi times that of infinitely small oscillations, with the complete
-    elliptic integral K.
+    The period of a simple pendulum is 2 K(sin(A/2))/pi times the period of infinitely small oscillations, where K is
+    the complete elliptic integral of the first kind.
 
     amplitude   half of the total arc [rad]
     """
@@ -35,11 +35,11 @@ def circular_error(amplitude: float) -> float:
 
 
 def escapement_error(escapement: Escapement, amplitude: float, quality: float) -> float | None:
-    """Return the relative rate error due to the impulses of an escapement, by Airy's theorem [-]; None if the kind of
+    """Return the relative rate error due to the impulses of an escapement, by Airy's theorem [1]; None if the kind of
     the escapement is not declared, or its impulse extends beyond the amplitude.
 
     amplitude   half of the total arc [rad]
-    quality     quality factor of the pendulum, whose loss the impulses replace
+    quality     quality factor of the pendulum; the impulses supply the energy that it loses
     """
     angles = escapement.deadbeat or ((escapement.recoil,) if escapement.recoil is not None else ())
     given = [angle.si for angle in angles]
@@ -54,7 +54,7 @@ def escapement_error(escapement: Escapement, amplitude: float, quality: float) -
 
 def swing_amplitude(pendulum: Pendulum, impulse: float) -> float | None:
     """Return the amplitude at which a pendulum loses a given energy per period [rad]; None if the mass of its bob or
-    its quality factor is not declared, or the pendulum would turn over.
+    its quality factor is not declared, or if the pendulum would swing over the top.
 
     impulse   energy that the pendulum receives per period [J]
     """
@@ -67,44 +67,44 @@ def swing_amplitude(pendulum: Pendulum, impulse: float) -> float | None:
 
 @dataclass(frozen=True)
 class Timekeeping(Result):
-    """Energy, amplitude and rate of a clock in one state. Values that do not follow from the declaration are None."""
+    """Energy, amplitude and rate errors of a clock in one state. Values that cannot be determined are None."""
 
     state: str | None
     """Name of the state; None for a train without states."""
     source: str
     """Link at which power enters."""
     slides: bool
-    """True if this link is a weight that slides, so that its torques are forces."""
+    """True if `source` is a sliding weight, so that `torque` and `minimum_torque` are forces."""
     torque: float
-    """Torque at this link, in the sense of its rotation [N m], or force along its travel [N]."""
+    """Torque on this link in its sense of rotation [N m], or force along its travel [N]."""
     power: float
-    """Power at this link [W]."""
+    """Power that enters at this link [W]."""
     efficiency: float
     """Fraction of the power that reaches the escape wheel; 0 if friction stops the train."""
     lost_in_bearings: float
     """Fraction of the power that is lost in bearings."""
     beat_energy: float
-    """Energy of the escape wheel per beat [J]."""
+    """Energy that the escape wheel receives per beat [J]."""
     amplitude: float | None
-    """Amplitude of the pendulum, half of its total arc [rad]."""
+    """Amplitude of the pendulum, which is half of its total arc [rad]; None if it is not known."""
     minimum_torque: float | None
-    """Minimum torque [N m] or force [N] at `source` at which the pendulum reaches the `arc` of the escapement."""
+    """Minimum torque [N m] or force [N] at `source` for which the pendulum reaches the declared `arc`."""
     minimum_weight: float | None
-    """Mass of the weight with the minimum torque [kg]."""
+    """Mass of the weight that exerts the minimum torque [kg]."""
     descent: float | None
     """Speed at which the weight descends [m/s]."""
     going_time: float | None
     """Time from one winding to the next [s]."""
     circular: float | None
-    """Rate error due to the circular arc of the pendulum [s/day]."""
+    """Rate error due to the circular arc of the pendulum [s/d]."""
     escapement: float | None
-    """Rate error due to the impulses of the escapement [s/day]."""
+    """Rate error due to the impulses of the escapement [s/d]."""
     thermal: float | None
-    """Rate error per kelvin due to the expansion of the rod [s/day/K]."""
+    """Rate error per kelvin due to the thermal expansion of the pendulum rod [s/d/K]."""
 
     @property
     def goes(self) -> bool | None:
-        """True if the drive is sufficient: torque reaches the escape wheel, and the amplitude reaches the `arc`; None
+        """True if the drive is sufficient: torque reaches the escape wheel, and the amplitude reaches the `arc`. None
         if the arc or the amplitude is not known.
         """
         if self.efficiency <= 0:
@@ -113,8 +113,8 @@ class Timekeeping(Result):
 
 
 def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
-    """Return the energy and the rate of a clock; None without an escapement, or without a drive or load with a unit
-    that determines the torque at the escape wheel.
+    """Return the energy, amplitude and rate errors of a clock; None without an escapement, or without a drive or load
+    with a unit from which the torque at the escape wheel follows.
     """
     escapement, case = setting.train.escapement, setting.case
     found = None if escapement is None else escapement_torques(setting)
@@ -162,7 +162,7 @@ def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
 
 
 def _minimum_torque(escapement: Escapement, amplitude: float | None, torque: float, constant: float) -> float | None:
-    """Return the torque at which the pendulum just reaches the arc of its escapement [N m]."""
+    """Return the torque at which the amplitude of the pendulum equals the `arc` of its escapement [N m]."""
     if amplitude is None or escapement.arc is None:
         return None
     # the energy of the pendulum is proportional to the torque beyond the constant friction

@@ -1,4 +1,4 @@
-"""Modules and cut tooth outlines of the wheels of a train, independent of any layout."""
+"""Modules and cut tooth outlines of the wheels of a train, which do not depend on a layout."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class _Place(NamedTuple):
 
 
 def find_modules(declared: Train) -> Mapping[str, float]:
-    """Return the transverse module [m] of each wheel that declares a module with a unit or is connected by meshes to
+    """Return the transverse module [m] of each wheel that declares a module with a unit, or is connected by meshes to
     such a wheel.
     """
     found = {
@@ -46,10 +46,10 @@ def find_modules(declared: Train) -> Mapping[str, float]:
 
 
 def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
-    """Return the tooth outlines [modules] of all wheels with straight, plane teeth, and the reasons why other wheels
-    have none.
+    """Return the tooth outlines [modules] of all wheels with straight teeth in a plane, and the reasons why other
+    wheels have none.
 
-    If a declared tooth form is invalid, the result has no outlines.
+    The result has no outlines if a declared tooth form is invalid.
     """
     places = _places(train.declaration)
     try:
@@ -59,7 +59,7 @@ def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
 
 
 def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
-    """Yield a note for every wheel whose pairs require different teeth on it (rule W3 of docs/buildability.md)."""
+    """Yield a note for every wheel whose pairs require different teeth (rule W3 of docs/buildability.md)."""
     declared = train.declaration
     for name, problem in find_disagreements(train, _places(declared)).items():
         place = declared.place("links", declared.wheels[name][0], "wheels", name)
@@ -67,7 +67,7 @@ def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
 
 
 def not_cut(wheel: str, problem: Problem) -> Problem:
-    """Return a copy of a problem whose `what` names the wheel and states that it is not cut."""
+    """Return a copy of a problem with a description that names the wheel and states that its teeth are not cut."""
     return replace(problem, what=f"wheel '{wheel}' is not cut: {problem.what}")
 
 
@@ -77,6 +77,6 @@ def _places(declared: Train) -> Mapping[str, _Place]:
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """Return a nominal half cone angle: 0 for a spur wheel without bevel mates, 1 for wheels without plane teeth."""
+    """Return a nominal half cone angle [rad]: 0 for a spur wheel without bevel mates, 1 if teeth are not plane."""
     mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
     return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

@@ -1,9 +1,8 @@
-"""Gear meshes with declared tooth forms, and couplings with variable ratio, built from the
-declaration of a train.
+"""Gear meshes with declared tooth forms, and couplings with variable ratio, built from the declaration of a train.
 
-The module also computes tooth sizes if only the tooth shape is declared. Triangular teeth are determined up to a scale
-factor, and a wheel has the same size in all its pairs. The sizes therefore follow from the first pair of every
-connected set by breadth-first search, with each pair at the centre distance that its transmission function requires.
+The module also computes tooth sizes if only the tooth shape is declared. The size of triangular teeth is arbitrary, but
+a wheel has the same size in all its pairs. So the sizes in every connected set follow from its first pair by
+breadth-first search, with each pair at the centre distance that its transmission function requires.
 """
 
 from __future__ import annotations
@@ -29,12 +28,12 @@ if TYPE_CHECKING:
 
 
 ShaftAngle = Callable[[GearPair], float | None]
-"""Function that returns the shaft angle of a pair [rad]; None for parallel axes."""
+"""Function that returns the shaft angle of a pair [rad]; None for a pair on parallel axes."""
 
 
 @dataclass(frozen=True)
 class CouplingMesh:
-    """Coupling with variable ratio and declared dimensions, and its transmission function."""
+    """Coupling with variable ratio and declared dimensions, together with its transmission function."""
 
     coupling: Coupling
     transmission: TransmissionFunction
@@ -42,14 +41,14 @@ class CouplingMesh:
 
 @dataclass(frozen=True)
 class PinMesh(CouplingMesh):
-    """Coupling by pin and slot with declared dimensions, and its transmission function."""
+    """Pin-and-slot coupling with declared dimensions, together with its transmission function."""
 
     coupling: PinCoupling
     transmission: PinToSlotTransmission
 
     @property
     def reversed(self) -> SlotToPinTransmission:
-        """Transmission function with the slot driving the pin. Raises `RangeError` for a pin follower, whose slot only
+        """Transmission function if the slot drives the pin. Raises `RangeError` for a pin follower, whose slot only
         oscillates and cannot drive the pin.
         """
         from geartrain.teeth.couplings.pin_transmission import SlotToPinTransmission
@@ -60,10 +59,11 @@ class PinMesh(CouplingMesh):
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
     """Return all gear pairs with a declared tooth form, by name.
 
-    The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built on first
-    access to the pair, which raises `GearTrainError` if they cannot be built.
+    The first wheel of a pair is the driver, unless it is changed by `GearMesh.driven_by`. The teeth of a pair are built
+    on first access to the pair; `GearTrainError` is then raised if they cannot be built.
 
-    shaft_angle   function that returns the shaft angle of a pair, called only if its tooth form needs the angle
+    shaft_angle   function that returns the shaft angle of a pair; it is called only if the tooth form requires the
+                  angle
     """
     forms = {gear.name: (at, gear, train.form_of(gear)) for at, gear in enumerate(train.gears)}
 
@@ -86,7 +86,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
 
 
 def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
-    """Build the teeth of all pairs and return the meshes. Raise `GearTrainError` with the problems of all invalid
+    """Return all meshes after building the teeth of every pair. Raise `GearTrainError` with the problems of all invalid
     pairs.
     """
     problems: list[Problem] = []
@@ -101,7 +101,7 @@ def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
 
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
-    """Return the wheels of a pair with the data that tooth forms need."""
+    """Return the wheels of a pair with the data that tooth forms require."""
     first, second = (train.wheels[name][1] for name in gear.pair)
     friction = train.friction_of(gear)
     return MeshingWheels(
@@ -119,19 +119,19 @@ def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
 
 
 def _kind(wheel: Wheel) -> str:
-    """Return the kind of a wheel; "helical" for spur wheels with a helix angle."""
+    """Return the kind of a wheel; for spur wheels with a helix angle, return "helical"."""
     return "helical" if wheel.is_helical else wheel.kind
 
 
 def _width(train: Train, *wheels: Wheel) -> float | None:
-    """Return the face width of the narrowest wheel [m]; None unless all widths are declared."""
+    """Return the minimum face width of some wheels [m]; None unless all widths are declared."""
     declared = [wheel.thickness or train.thickness for wheel in wheels]
     given = [width.si for width in declared if width is not None]
     return min(given) if len(given) == len(wheels) else None
 
 
 def _pitch_distance(*wheels: Wheel) -> float | None:
-    """Return the sum of the pitch radii [m]; None unless all wheels declare a module with a unit."""
+    """Return the sum of the pitch radii of some wheels [m]; None unless all of them declare a module with a unit."""
     halves = [
         wheel.transverse_module * wheel.count / 2
         for wheel in wheels
@@ -141,9 +141,9 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
 
 
 def find_couplings(train: Train, couplings: Iterable[Coupling]) -> tuple[CouplingMesh, ...]:
-    """Return the couplings of a train that have a transmission function.
+    """Return the couplings of a train that have a variable ratio and declared dimensions.
 
-    couplings   couplings with the angles between their axes, as `couplings_on_axes` returns them
+    couplings   couplings with the angles between their axes, as returned by `couplings_on_axes`
     """
     pins = {each.name for each in train.pin_couplings}
     found: list[CouplingMesh] = []
@@ -154,7 +154,7 @@ def find_couplings(train: Train, couplings: Iterable[Coupling]) -> tuple[Couplin
 
 
 def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
-    """Return the tooth sizes of all pairs with a declared tooth form and parallel axes, by name of the pair."""
+    """Return the tooth sizes of all pairs that have a declared tooth form and parallel axes, by name of the pair."""
     tips: dict[str, float] = {}
     found = {}
     for mesh in _in_order(meshes):
@@ -167,8 +167,8 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 
 
 def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
-    """Return the outlines of the cut teeth of all pairs with a declared tooth form and parallel axes, by name of the
-    pair.
+    """Return the outlines of the cut teeth of all pairs that have a declared tooth form and parallel axes, by name of
+    the pair.
     """
     from geartrain.dynamics.wheel_teeth import CHORD
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
@@ -182,8 +182,8 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the pairs in breadth-first order: each pair shares a wheel with an earlier pair, except the first pair of
-    each connected set.
+    """Yield the pairs in breadth-first order. Each pair except the first of a connected set shares a wheel with an
+    earlier pair.
     """
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):

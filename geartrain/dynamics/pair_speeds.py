@@ -1,7 +1,8 @@
-"""Pitch-line speed of a gear pair, needed for friction that depends on speed.
+"""Pitch-line speed of a gear pair, which is required for friction that depends on speed.
 
-Relative to the carrier the pitch-line speed is V = |w_i - w_k| r_i, docs/torques.md (17a). The angular speeds w follow
-from the `rate` of the train or from inputs with units, and the pitch radius r_i from the modules of the wheels.
+Relative to the carrier, the pitch-line speed is V = |w_i - w_k| r_i, equation (17a) of docs/torques.md. The angular
+speeds w follow from the `rate` of the train or from inputs with units, and the pitch radius r_i from the modules of the
+wheels.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def radians_per_second(train: Train, case: StateCase) -> float | None:
-    """Return the train's unit of speed in rad/s; None if its speeds are numbers without a unit.
+    """Return the train's unit of speed [rad/s]; None if its speeds are numbers without a unit.
 
     Speeds have a unit if the train declares a `rate`, which is the speed of the first input that turns, or if its
     inputs have units.
@@ -38,7 +39,7 @@ def radians_per_second(train: Train, case: StateCase) -> float | None:
 def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> float | None:
     """Return the pitch-line speed of one gear pair in one state [m/s]; None if its relative motion is undetermined.
 
-    Raises `GearTrainError` with the missing data if the declaration does not give the speed.
+    Raises `GearTrainError`, which names the missing data, if the speed does not follow from the declaration.
     """
     turning = setting.relative(circuit.i, circuit.carrier)
     if turning is None:
@@ -72,7 +73,7 @@ def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
 
 
 def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
-    """Return the meshes with friction at their pitch-line speeds in one state, where these speeds are known."""
+    """Return the meshes with friction at their pitch-line speeds in one state, as far as these speeds are known."""
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}

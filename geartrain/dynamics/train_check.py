@@ -1,4 +1,4 @@
-"""Checks whether a train can be built, from its declaration and from declared tooth forms."""
+"""Checks of whether a train can be built, based on its declaration and the declared tooth forms."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
-    """Return all findings on parts that cannot be built or are inadvisable (docs/buildability.md)."""
+    """Return all findings on parts that cannot be built or whose design is inadvisable (docs/buildability.md)."""
     cuts = _cuts_teeth(train.declaration)
     found = tuple(check_build(train.declaration, train.tree, train.circuits, lambda: _outlines(train) if cuts else {}))
     if not cuts:
@@ -28,7 +28,7 @@ def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
 
 
 def _cuts_teeth(declared: Train) -> bool:
-    """Return True if any gear pair has a declared tooth form and numpy is installed."""
+    """Return True if a gear pair has a declared tooth form and numpy is installed."""
     # only tooth forms need numpy; other declarations are checked without it
     return any(map(declared.form_of, declared.gears)) and find_spec("numpy") is not None
 

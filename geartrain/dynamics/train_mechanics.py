@@ -1,7 +1,7 @@
 """Mechanics of a train: declared teeth and pins, driving wheels, and the loads of each state.
 
-Every property is computed at the first access and cached. Torques, motion, strength and dynamic simulation take this
-object as input.
+Every property is computed at the first access and cached. This object is the input for torques, motion, strength and
+dynamic simulation.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
-"""Driving directions of each pair, each with the names of the states in which it occurs."""
+"""Driving directions of each pair, as meshes with the names of the states in which they occur."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class TrainMechanics(Shown):
-    """Tooth- and load-dependent analysis of a train: driver of each pair, transmission functions and load cases."""
+    """Analysis of a train that depends on teeth and loads: drivers, transmission functions, and load cases."""
 
     kinematics: TrainKinematics
     """Kinematics of the same train, without teeth and loads."""
@@ -60,15 +60,15 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """-1 for each link whose axis points against the reference direction of the axes parallel to it, by link."""
+        """Signs by link: -1 if the axis points against the reference direction of its parallel axes, else 1."""
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """Train in which each equal planet is a separate link, so that the planets share loads; self if no link
-        represents several planets.
+        """Train in which each of several equal planets is a separate link, so that they share loads; self if no link
+        has copies.
         """
         # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self
@@ -79,7 +79,7 @@ class TrainMechanics(Shown):
 
     @property
     def planets_as_one(self) -> TrainMechanics:
-        """Train in which one planet has the inertia and stiffness of all its copies; self if it has only one copy."""
+        """Train in which one planet has the inertia and stiffness of all its copies; self if no link has copies."""
         return self._as_one if has_copies(self.declaration) else self
 
     @cached_property
@@ -113,8 +113,8 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with a declared tooth form, each with its driving wheel in the first state that determines this
-        wheel.
+        """Gear pairs with a declared tooth form, each with the driving wheel of the first state in which it is
+        determined.
         """
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
@@ -124,16 +124,14 @@ class TrainMechanics(Shown):
         """Driving directions of every pair with a declared tooth form, with the names of the states in which they
         occur.
 
-        A pair with an undetermined driver has both directions.
+        If the driver of a pair is undetermined, both directions are included.
         """
         states = self.kinematics.usable_states
         return _find_driven_ways(self.teeth, ((state, self.meshes_in(state)) for state in states))
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """Problems that prevent the declared teeth from turning in a driving direction that occurs in at least one
-        state.
-        """
+        """Problems that prevent declared teeth from turning in a driving direction that occurs in a state."""
         if not self.teeth:
             return ()
         from geartrain.teeth.gear_mesh import find_faults
@@ -141,7 +139,7 @@ class TrainMechanics(Shown):
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
     def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
-        """Return the gear pairs with a declared tooth form, with their drivers in one state.
+        """Return the gear pairs with a declared tooth form, each with its driver in one state.
 
         state   name of a declared state. None is allowed only for a train without states.
         """
@@ -168,7 +166,7 @@ class TrainMechanics(Shown):
 
     @property
     def pins(self) -> tuple[PinMesh, ...]:
-        """Pin-and-slot couplings among `couplings`."""
+        """Couplings in `couplings` that consist of a pin and a slot."""
         if not self.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import PinMesh
@@ -180,10 +178,10 @@ class TrainMechanics(Shown):
     def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, MeshDriver]:
         """Return the driver of each pair and coupling in one state.
 
-        The driver is declared, or follows from the direction of power relative to the pair's carrier.
+        The driver is declared, or follows from the direction of power flow relative to the pair's carrier.
 
         state     name of a declared state. None is allowed only for a train without states.
-        without   names of pairs to omit
+        without   names of pairs that are omitted
         """
         from geartrain.dynamics.torques.drivers import find_drivers
 
@@ -195,8 +193,8 @@ class TrainMechanics(Shown):
         return self._drivers[key]
 
     def load_case(self, state: str | None = None) -> LoadCase | None:
-        """Return the load case of one state with its speeds and teeth; None if its speeds are neither determined nor
-        free.
+        """Return the load case of one state with its speeds and teeth; None if the verdict on the speeds is neither
+        determined nor free.
 
         state   name of a declared state. None is allowed only for a train without states.
         """
@@ -206,8 +204,8 @@ class TrainMechanics(Shown):
         return self._settings[case.state]
 
     def make_load_case(self, case: StateCase) -> LoadCase | None:
-        """Return the load case with the given prescriptions, which may differ from the declared ones; None if its
-        speeds are neither determined nor free.
+        """Return the load case with the given prescriptions, which may differ from the declared ones; None if the
+        verdict on the speeds is neither determined nor free.
 
         case   prescriptions, with locks given joint by joint, as in `TrainKinematics.cases`
         """
@@ -233,9 +231,9 @@ class TrainMechanics(Shown):
 
 
 def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | None, Sequence[GearMesh]]]) -> DrivenWays:
-    """Return the driving directions of all pairs; a pair with an undetermined driver has both directions.
+    """Return the driving directions of all pairs; both directions are included if the driver of a pair is undetermined.
 
-    driven   states and the pairs as driven in each; the state is None for a train without states
+    driven   states, each with the pairs as driven in it; the state is None for a train without states
     """
     found: dict[str, list[tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: [] for mesh in teeth}
     for state, meshes in driven:
@@ -246,7 +244,7 @@ def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | No
 
 
 def _count(ways: list[tuple[GearMesh, tuple[str, ...]]], mesh: GearMesh, state: str | None) -> None:
-    """Add a state to one driving direction of a pair, in place. A mesh with a known driver replaces one without."""
+    """Add a state to a driving direction of a pair, in place; a mesh with a known driver replaces one without."""
     own = () if state is None else (state,)
     for at, (known, states) in enumerate(ways):
         if known.driver == mesh.driver:

@@ -1,8 +1,8 @@
-"""Teeth of every wheel of a train; a wheel is cut once for all its mates.
+"""Teeth of every wheel of a train, which are cut to suit all its mates.
 
-Drawing, simulation and manufacture use the same teeth. A wheel has the teeth that its pairs declare, otherwise standard
-teeth. If it has several pairs, it gets the deepest roots, and fillets that clear all mates. If its pairs require
-different teeth, the wheel has no teeth.
+Drawing, simulation and manufacture use the same teeth. A wheel has the teeth that its pairs declare, else standard
+teeth. If it is in several pairs, it has the deepest roots that they require, and fillets that clear all mates. If its
+pairs require different teeth, the wheel has no teeth.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ STANDARD = "standard"
 
 
 class ToothingPlace(Protocol):
-    """Protocol of a placed wheel: module [mm] and half cone angle [rad], from which its teeth are built."""
+    """Protocol of a placed wheel: module [mm] and half cone angle [rad], which determine its teeth."""
 
     @property
     def module(self) -> float:
@@ -52,12 +52,12 @@ class ToothingPlace(Protocol):
 
     @property
     def cone(self) -> float:
-        """Half cone angle [rad], 0 for a cylinder."""
+        """Half cone angle [rad]; 0 for a cylindrical wheel."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairBacklash:
-    """Backlash of a pair whose wheels are cut: along the pitch line [mm], and as an angle of each wheel [rad]."""
+    """Backlash of a pair of cut wheels: along the pitch line [mm], and as an angle of each wheel [rad]."""
 
     pair: str
     wheels: tuple[str, str]
@@ -66,22 +66,22 @@ class PairBacklash:
     contact_ratio: float | None = None
     """Contact ratio of conjugate teeth at their design centre distance; None for other teeth."""
     more_contact: str = ""
-    """Advice on how to increase the contact ratio; empty if it is not computed."""
+    """Advice on how to increase the contact ratio; empty if there is none."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainTeeth:
-    """Teeth of all wheels of a train, or the reasons why wheels have none."""
+    """Teeth of all wheels of a train, or the reasons why wheels have no teeth."""
 
     wheels: Mapping[str, WheelTeeth]
-    """Teeth of each wheel. `problems` has the reasons for the wheels without teeth."""
+    """Teeth of each wheel. `problems` contains the reasons why other wheels have no teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
     approximations: Mapping[str, WheelTeeth]
-    """Approximate teeth of each wheel whose pairs require different teeth, cut as its first pair requires."""
+    """Approximate teeth of each wheel whose pairs require different teeth; they are cut for its first pair."""
     flat: frozenset[str]
-    """Names of wheels whose teeth are straight and plane."""
+    """Names of the wheels whose teeth are straight and in one plane."""
     backlashes: tuple[PairBacklash, ...]
-    """Backlash of all pairs in which both wheels have teeth."""
+    """Backlash of each pair in which both wheels have teeth."""
 
 
 def find_train_teeth(
@@ -90,16 +90,16 @@ def find_train_teeth(
     backlash: float | None = None,
     apart: Mapping[str, float] = FrozenDict(),
 ) -> TrainTeeth:
-    """Return the teeth of all wheels with straight, plane teeth.
+    """Return the teeth of all wheels whose teeth are straight and in one plane.
 
     backlash    backlash of pairs without a declared form [mm]; by default a twentieth of the module
-    apart       pair -> centre distance minus its design value [mm], for misplaced wheels
+    apart       pair -> centre distance minus its design value [mm], for displaced wheels
     """
     return _Toothing(train, places, backlash, apart).all()
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """Return the problem of each wheel whose pairs with a declared form require different teeth, by wheel."""
+    """Return the problem of each wheel whose pairs require different declared tooth forms, by wheel."""
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
@@ -140,7 +140,7 @@ class _Toothing:
         return self.meshes.get(gear.name)
 
     def _is_wave(self, gear: GearPair) -> bool:
-        """Return True if a pair is a strain wave gear: a flexible wheel in its ring gear."""
+        """Return True if a pair is a strain wave gear, which consists of a flexible wheel and a ring gear."""
         first, second = (self._wheel(name) for name in gear.pair)
         return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
 
@@ -155,7 +155,7 @@ class _Toothing:
 
     @cached_property
     def standard(self) -> dict[str, StandardTeeth]:
-        """Standard teeth of each wheel whose pairs declare no tooth form."""
+        """Standard teeth of each wheel for whose pairs no tooth form is declared."""
         free = (name for name in self.pairs if name not in self.shaped and not self._wave_pairs(name))
         gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
@@ -180,8 +180,8 @@ class _Toothing:
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
     ) -> tuple[Involute, WheelPair, int]:
-        """Return the standard tooth form of two wheels, their pair with a ring gear second, and the number (1 or 2) of
-        `first` in this pair.
+        """Return the standard tooth form of two wheels, their pair in the order in which a ring gear is second, and the
+        number (1 or 2) of `first` in this pair.
         """
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
         form = standard_form(teeth, its, self._standard_backlash(name))
@@ -193,8 +193,8 @@ class _Toothing:
     # ------------------------------------------------------------------------------------------------ declared forms
 
     def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
-        """Yield the tooth requirements of the pairs with a declared form on a wheel. Mates that are not spur wheels
-        count only if the wheel has no spur mate.
+        """Yield the requirements that pairs with a declared tooth form impose on the teeth of a wheel. Mates that are
+        not spur wheels are only included if the wheel has no spur mate.
         """
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
@@ -247,8 +247,8 @@ class _Toothing:
         return list(self._declared_requested(name) if name in self.shaped else self._standard_requested(name))
 
     def _escapement_sense(self, name: str) -> int:
-        """Return the sense in which an escapement lets its escape wheel turn: 1 or -1, 1 if unknown; 0 for other
-        wheels.
+        """Return the sense in which an escapement lets its escape wheel turn: 1 or -1 (1 if it is unknown), or 0 for
+        other wheels.
         """
         link, wheel = self.declared.wheels[name]
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
@@ -263,7 +263,7 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """Return the problem of each wheel whose pairs with a declared form require different teeth, by wheel."""
+        """Return the problem of each wheel whose pairs require different declared tooth forms, by wheel."""
         found = {}
         for name in self.pairs:
             try:
@@ -286,7 +286,7 @@ class _Toothing:
         return WheelTeeth(name, z, cut.kind, first.form, first.words, cut.tip, cut.root, cut.tooth, cut.pins)
 
     def _backlashes(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairBacklash]:
-        """Yield the backlash of all pairs in which both wheels are cut."""
+        """Yield the backlash of each pair in which both wheels are cut."""
         for gear in self.declared.gears:
             if not set(gear.pair) <= set(found):
                 continue
@@ -301,7 +301,7 @@ class _Toothing:
         """Return the contact ratio of conjugate teeth at their design centre distance, and advice on how to increase
         it.
 
-        The ratio is None for other teeth and for pairs at another centre distance.
+        The ratio is None for other teeth, and for pairs at a different centre distance.
         """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
@@ -315,9 +315,10 @@ class _Toothing:
         return conjugate_pair_of(form, wheels).path.contact_ratio, form.more_contact
 
     def _backlash(self, gear: GearPair) -> float | None:
-        """Return the backlash of a pair as placed, along the pitch circles [modules].
+        """Return the backlash of a pair along the pitch circles at its actual centre distance [modules].
 
-        The result is None for displaced wheels whose teeth have another transmission function at their centre distance.
+        The result is None if the transmission function of the teeth changes with the centre distance and the wheels are
+        displaced.
         """
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
         if gap is not None and gear.name not in self.waves:
@@ -329,7 +330,7 @@ class _Toothing:
     def _misplaced_backlash(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
         """Return the backlash [modules] at a centre distance that is `gap` [modules] larger than the design value.
 
-        The result is None for teeth that have another transmission function at this distance.
+        The result is None for teeth whose transmission function is different at this distance.
         """
         if mesh is not None:
             return mesh.backlash_apart(gap)

@@ -1,4 +1,4 @@
-"""Teeth of one wheel as cut for all its mates: input of drawings, motion and manufacture."""
+"""Teeth of one wheel, cut to suit all its mates, for use in drawings, motion and manufacture."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _SAME = 1e-9  # rad: angles closer than this coincide
 
 @dataclass(frozen=True, slots=True)
 class WheelTeeth:
-    """Teeth of one wheel. Lengths are in modules."""
+    """Teeth of one wheel, with lengths in modules."""
 
     wheel: str
     z: int
     kind: str
     """Kind of the wheel: `external`, `ring` or `pins`."""
     form: str
-    """Name of the declared tooth form, or `standard`. `words` describes the form to a manufacturer."""
+    """Name of the declared tooth form, or `standard`. `words` is a description of the form for a manufacturer."""
     words: str
     tip: float
     """Tip radius of the wheel [modules]."""
@@ -34,10 +34,10 @@ class WheelTeeth:
     tooth: tuple[Vertex, ...] = ()
     """Outline of the first tooth from root to root, symmetric about the x axis [modules]; empty for pins."""
     pins: LanternPins | None = None
-    """Pins of a lantern, or the separate pins of a ring with pin teeth."""
+    """Pins of a lantern, or separate pins of a ring with pin teeth; None for cut teeth."""
 
     def contours(self, module: float) -> tuple[Contour, ...]:
-        """Return all contours of the wheel [mm], first the outer contour, then holes. The axis is at (0, 0)."""
+        """Return all contours of the wheel about the origin [mm]: the outer contour, followed by the holes."""
         if self.pins is not None and self.kind == "pins":
             return tuple(lantern(self.pins, self.z, module))
         if self.pins is not None:
@@ -47,16 +47,16 @@ class WheelTeeth:
 
     @property
     def depth(self) -> float:
-        """Root radius [modules]; for a ring with pins the radius of the bottom of the pin seats if it is larger."""
+        """Root radius [modules]; for a ring with pins, the radius to the bottom of the pin seats if that is larger."""
         if self.pins is None or self.kind == "pins":
             return self.root
         return max(self.root, self.pins.circle + self.pins.radius)
 
     def section(self) -> tuple[tuple[float, float], ...]:
-        """Return the points of one tooth or pin: radius divided by pitch radius [1], and angle [rad].
+        """Return the points of one tooth or pin, each as radius divided by pitch radius [1] and angle [rad].
 
-        The section of a tooth extends from mid-space to mid-space; a pin is a closed circle. Arcs are replaced by
-        chords.
+        The section of a tooth extends from the middle of one space to the middle of the next; a pin is a closed circle.
+        Arcs are replaced by chords.
         """
         R = self.z / 2
         if self.pins is not None and self.kind == "pins":

@@ -2,25 +2,25 @@
 
 Input is the declaration of a train with its inputs, brakes and locks. Results are fundamental circuits with their
 carriers, speeds as Fractions (or floats with an error estimate), the mobility, a verdict with its certificate, and
-outputs compared with their expected values. `TrainKinematics` provides all of it for one train and computes each part
-once.
+outputs compared with their expected values. `TrainKinematics` provides all results for one train and computes each of
+them once.
 
 The basic equation is Willis' equation, a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair (docs/theory.md, 3 to 9).
 
-train_kinematics                 everything below for one train; remarks on a valid declaration
+train_kinematics                 all results for one train; remarks on a valid declaration
 circuits                         joint tree with its axes and rigid bodies; fundamental circuits
 willis_system                    rows of the Willis system; relative speeds
 willis_matrix                    the same rows as a sparse matrix
-components                       ordinary trains of one carrier, and the reduced system between them
+components                       ordinary trains relative to one carrier, and the reduced system that couples them
 speeds                           propagation, exact elimination, diagnosis; mobility; floats
 formulas                         outputs as rational functions of tooth counts, and as textbook formulas
 levers                           lever analogy: links as points on a line
 gridlock                         locked subgraphs, and the smallest set of meshes to remove
-phasing                          phase closure: whether teeth mesh when a train is assembled
+phasing                          phase closure: check whether the teeth mesh when a train is assembled
 buildability                     parts of a declared train that cannot be built, or should be changed
 planet_copies                    equal planets declared as one link
 graph                            declared links, turning pairs and gear pairs as a networkx graph
-judged_outputs, answer           results; effect of one tooth more or less
+judged_outputs, answer           results; effect of one tooth more or fewer
 """
 
 from __future__ import annotations

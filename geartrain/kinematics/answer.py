@@ -1,4 +1,4 @@
-"""Result of a speed solution in one state: verdict with its certificate, speeds, and evaluated outputs."""
+"""Result of solving for the speeds in one state: verdict with its certificate, speeds, and evaluated outputs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Join names with `mark`; if there are more than 13, replace all after the 12th by the number of omitted names.
+    """Join names with `mark`. If there are more than 13 names, those after the 12th are replaced by their number.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -35,9 +35,9 @@ class Loop(Result):
     carrier: str
     """Link relative to which the ratios of all pairs of the loop are measured."""
     links: tuple[str, ...]
-    """Names of the links in their order around the loop."""
+    """Names of the links, in their order around the loop."""
     pairs: tuple[str, ...]
-    """Ids of the pairs in the order of the loop; the last pair closes the loop."""
+    """Names of the pairs, in their order around the loop; the last pair closes the loop."""
     product: Fraction
     """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one of its pairs is
     redundant. Otherwise the links of the loop are locked to the carrier.
@@ -48,7 +48,7 @@ class Loop(Result):
 
     @property
     def closes(self) -> bool:
-        """True if the product is 1: the loop can turn, and its last pair is redundant."""
+        """True if the product is 1, so that the loop can turn and its last pair is redundant."""
         return self.product == 1
 
     def __str__(self) -> str:
@@ -61,10 +61,10 @@ VerdictKind = Literal["determined", "free", "locked", "contradictory", "refused"
 
 @dataclass(frozen=True, slots=True)
 class Verdict(Result):
-    """Verdict on whether the inputs determine the motion of a train, from the exact rank; the certificate is equation
-    (22) of docs/theory.md.
+    """Verdict on whether the inputs determine the motion of a train, from the exact rank of its equations. The
+    certificate is equation (22) of docs/theory.md.
 
-    A verdict is a result, not an exception. It is true if its kind is `determined`.
+    A verdict is a result, not an exception. Its truth value is True if its kind is `determined`.
 
     Examples
     --------
@@ -75,22 +75,22 @@ class Verdict(Result):
     """
 
     kind: VerdictKind
-    """Kind of the verdict, from the list below.
+    """Kind of the verdict.
 
-    determined: the inputs determine the speed of every link. free: the speeds of `links` are undetermined. locked: the
+    determined: the inputs determine the speed of every link. free: the speeds of `links` are undetermined. locked: an
     input cannot move because of `loops` or `prescriptions`. contradictory: `prescriptions` contradict each other.
     refused: speeds cannot be calculated in this state, because its locks form a linkage or would stop a rotation.
     """
     text: str
-    """Verdict as a sentence, with its cause, in plain text."""
+    """Verdict and its cause as a sentence in plain text."""
     links: tuple[str, ...] = ()
-    """Links whose speeds are undetermined; all links except the frame if no input turns and no link can move. Otherwise
-    empty.
+    """Links whose speeds are undetermined. If no input turns and no link can move, these are all links except the
+    frame.
     """
     fixes: tuple[str, ...] = ()
     """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds; at most 12."""
     prescriptions: tuple[str, ...] = ()
-    """Statements of the inputs, brakes and locks that cause a lock or a contradiction, such as `sun = 1`."""
+    """Descriptions of the inputs, brakes and locks that cause a lock or a contradiction, such as `sun = 1`."""
     loops: tuple[Loop, ...] = ()
     """Loops with a ratio product other than 1, which lock the train or a part of the train."""
 
@@ -113,22 +113,22 @@ class SpeedAccuracy:
     estimate: float
     true_error: float | None
     condition: float | None = None
-    """Component-wise condition number of the speed [1], (25) of docs/theory.md; infinite for a link at rest, None in
-    trains of more than 400 links.
+    """Component-wise condition number of the speed [1], equation (25) of docs/theory.md; infinite for a link at rest,
+    None in trains of more than 400 links.
     """
 
 
 class ClutchActions(TypedDict, total=False):
-    """Keys that the JSON output has only for a train with one-way clutches."""
+    """Keys that the JSON output contains only for a train with one-way clutches."""
 
     one_way: Sequence[OneWayAction]
-    """Active one-way clutches: each holds or overruns."""
+    """Active one-way clutches, each with its behaviour: it holds or overruns."""
     notes: Sequence[str]
-    """Notes on the one-way clutches, such as what happens if the output drives."""
+    """Notes on the one-way clutches, such as their behaviour when the output drives."""
 
 
 class RowResiduals(TypedDict, total=False):
-    """Keys that the JSON output has only for float speeds: residual of each row of the Willis system."""
+    """Keys that the JSON output contains only for float speeds: residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
     """Relative residual of each row, by row label: magnitude of the residual divided by the sum of the magnitudes of
@@ -140,13 +140,13 @@ class RowResiduals(TypedDict, total=False):
 class Answer(FrozenFields, Tabular, TrainResult):
     """Solution of a train in one state: speeds from the Willis equations (4) and (5) of docs/theory.md.
 
-    An answer is true if the verdict is as expected (`determined` unless the state's `expect` names another) and all
+    The truth value is True if the verdict is as expected (`determined`, unless `expect` names another kind) and all
     outputs agree with their expectations. `answer[name]` is the speed of an output or a link, and raises `KeyError` if
     the speed is not determined.
 
     Examples
     --------
-    A sun of 24 teeth turns in a fixed ring of 60, and the carrier makes 24 / (24 + 60) of its turns:
+    A sun with 24 teeth turns in a fixed ring with 60; the carrier's speed is 24 / (24 + 60) of the sun's:
 
     >>> import geartrain
     >>> answer = geartrain.load("planetary-24-18-60").solve()
@@ -175,22 +175,22 @@ class Answer(FrozenFields, Tabular, TrainResult):
     state: str | None
     """Name of the state; None for a train without states."""
     place: str
-    """File and line where the inputs of the state are declared; empty if the verdict is `determined` as expected."""
+    """File and line where the state's inputs are declared; empty if the verdict is `determined` as expected."""
     unit: str
     """Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for numbers without a unit."""
     verdict: Verdict
     """Verdict on the speeds: determined, or the reason why they are not determined."""
     speeds: Mapping[str, SpeedValue]
-    """Speeds of the links whose speed is determined, by link [`unit`]: Fractions or floats, depending on `method`."""
+    """Speed of each link whose speed is determined [`unit`]: a Fraction or a float, depending on `method`."""
     outputs: Mapping[str, OutputResult]
-    """Declared outputs by name, evaluated at the first access."""
+    """Evaluation of each declared output, computed at the first access."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Speed of each link per unit speed of each input, with all other inputs at rest, as `ratios[link][input]`.
-    Computed at the first access; empty for float speeds.
+    """Speed of each link divided by the speed of one input while all other inputs are at rest, as
+    `ratios[link][input]`. Computed at the first access; empty for float speeds.
     """
     method: str
-    """Method of solution: "exact", or "floats" for float64 speeds, found by sparse LU factorisation or by rounding
-    exact speeds.
+    """Method of solution: "exact", or "floats" for float64 speeds, which are computed by sparse LU factorisation or by
+    rounding exact speeds.
     """
     accuracy: Mapping[str, SpeedAccuracy]
     """Error estimate [`unit`] and condition number of the speed of each link. Computed at the first access; empty for
@@ -203,21 +203,22 @@ class Answer(FrozenFields, Tabular, TrainResult):
     first access; empty if the matrix was not used.
     """
     sliding: frozenset[str] = frozenset()
-    """Links that slide; their speeds are travels [mm per unit of the train, or per turn]."""
+    """Links that slide; their speeds are travels [mm per unit of the train, or mm per turn]."""
     contains_pi: Mapping[str, bool] = field(default_factory=dict)
-    """True for each link and output whose exact speed depends on pi; empty without racks, drums and the like. It is
-    found by a second solution with another rational number for pi, at the first access.
+    """True for each link and output whose exact speed depends on pi; empty if the train has no racks, drums and the
+    like. It is computed at the first access, from a second solution with another rational number for pi.
     """
     tolerances: Mapping[str, Fraction] = field(default_factory=dict)
-    """Tolerance [`unit`] of the speed of each link that depends on a coupling with an approximate `ratio`: the sum of
-    the changes of its speed if one ratio after another changes by its tolerance. Computed at the first access.
+    """Tolerance [`unit`] of the speed of each link that depends on a coupling with an approximate `ratio`. It is the
+    sum of the changes of the speed if each of these ratios in turn changes by its tolerance. Computed at the first
+    access.
     """
     expected: str = "determined"
-    """Kind of verdict that the state or the train declares as `expect`; by default `determined`."""
+    """Kind of verdict that `expect` of the state or the train declares; `determined` if it is not declared."""
     one_way: tuple[OneWayAction, ...] = ()
-    """Active one-way clutches in the state: each holds or overruns."""
+    """One-way clutches that are active in the state, each with its behaviour: it holds or overruns."""
     notes: tuple[str, ...] = ()
-    """Notes on the one-way clutches, such as what happens if the output drives."""
+    """Notes on the one-way clutches, such as their behaviour when the output drives."""
     _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)
 
     def _summary(self) -> str:
@@ -231,8 +232,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links of the requested or declared outputs; if there are none, all links that are neither inputs
-        nor fixed.
+        """Return the links of the requested or declared outputs; if none are declared, all links that are neither
+        inputs nor fixed.
         """
         if case is None or self._output is not None:
             return self.speeds
@@ -242,8 +243,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """Return a speed as text; as a multiple of the input speed if exactly one input turns and both speeds are
-        exact.
+        """Return a speed as text. It is given as a multiple of the input speed if exactly one input turns and both
+        speeds are exact.
         """
         speed = self.speeds[link]
         own = inputs.get(turning[0]) if len(turning) == 1 else None
@@ -252,7 +253,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{brief(speed / own)} of {turning[0]}"
 
     def __getitem__(self, name: str) -> SpeedValue:
-        """Return the speed of an output, or of a link [`unit`]; `KeyError` if it is not determined."""
+        """Return the speed of an output or a link [`unit`]; raise `KeyError` if it is not determined."""
         result = self.outputs.get(name)
         speed = result.speed if result is not None else self.speeds.get(name)
         if speed is None:
@@ -261,7 +262,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each determined link: its speed as a float, and as an exact fraction."""
+        """Columns of a table with one row for each determined link: its speed as a float, and as an exact fraction."""
         speeds = self.speeds.values()
         exact = [str(speed) if isinstance(speed, Fraction) else None for speed in speeds]
         return {"link": [*self.speeds], "speed": [float(speed) for speed in speeds], "exact": exact}
@@ -272,27 +273,27 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs that differ from their `expect` or `published` value, or are outside the tolerance of a target.
-        Undetermined outputs are included only if the verdict is `determined`.
+        """Outputs that differ from their `expect` or `published` value, or whose speed is outside the tolerance of a
+        target. Undetermined outputs are included only if the verdict is `determined`.
         """
         # if the verdict has failed, undetermined outputs are its consequence and no further failures
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)
 
     def __bool__(self) -> bool:
-        """Return True if the verdict is as expected, all determined outputs agree with their expectations, and the
-        one-way clutches that must hold do so.
+        """Return True if the verdict is as expected, no output is in `failures`, and all one-way clutches that must
+        hold do hold.
         """
         return self.as_expected and not self.failures and not any(each.fails for each in self.one_way)
 
     @property
     def as_expected(self) -> bool:
-        """True if the kind of the verdict equals the state's `expect`, by default `determined`."""
+        """True if the kind of the verdict equals `expected`."""
         return self.verdict.kind == self.expected
 
     @property
     def speed_figures(self) -> Mapping[str, SpeedFigures]:
-        """Speeds and their errors by link, in the form of the JSON output [`unit`]."""
+        """Speed of each link and its errors [`unit`], in the form of the JSON output."""
         found = {link: speed_figures(speed, link in self.sliding) for link, speed in self.speeds.items()}
         for link, accuracy in self.accuracy.items():
             found[link]["estimate"] = accuracy.estimate

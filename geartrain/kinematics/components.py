@@ -1,9 +1,9 @@
 """Ordinary trains in the frame of each carrier: exact relative ratios, and loops with their ratio products.
 
 Relative to one carrier, the links that mesh form an ordinary train whose relative speeds are rational multiples of one
-unknown. Breadth-first search finds all of them. A mesh that closes a loop is either consistent, and then redundant, or
-it locks the train to its carrier. The components are coupled by the links that they share, and the resulting system is
-small for real trains.
+unknown. Breadth-first search finds all of them. A mesh that closes a loop is redundant if it is consistent with the
+other meshes; otherwise it locks the train to its carrier. The components are coupled by the links that they share, and
+the resulting system is small for practical trains.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 
 @dataclass(frozen=True, slots=True)
 class Components:
-    """Components (ordinary trains of one carrier) as parallel arrays over nodes. A node is a link relative to a
-    carrier.
+    """Components (ordinary trains relative to one carrier) as parallel arrays over nodes. A node is a link relative to
+    a carrier.
     """
 
     links: tuple[str, ...]
@@ -40,7 +40,7 @@ class Components:
     node_group: Sequence[int]
     """Index of the component of each node."""
     ratios: FactoredRatios
-    """Speed of each node's link relative to its carrier, divided by the unknown speed of its component."""
+    """Speed of each node's link relative to its carrier, divided by the unknown speed of the component."""
     node_circuit: Sequence[int]
     """Index of the circuit through which the breadth-first search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
@@ -60,7 +60,7 @@ class Components:
         return self.ratios.parent
 
     def relative(self, node: int) -> Fraction:
-        """Return the speed of a node's link relative to its carrier, divided by the unknown speed of its component."""
+        """Return the speed of a node's link relative to its carrier, divided by the unknown speed of the component."""
         return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
@@ -72,13 +72,13 @@ class Components:
         return self.node_group[self.node(self.index[circuit.i], self.index[circuit.subtracted[0]])]
 
     def ends(self, circuit: Circuit) -> tuple[int, int]:
-        """Return the nodes of links i and j of a circuit."""
+        """Return the nodes of links i and j of a circuit, relative to its carrier."""
         pairs = zip((circuit.i, circuit.j), circuit.subtracted, strict=True)
         first, second = (self.node(self.index[link], self.index[base]) for link, base in pairs)
         return first, second
 
     def loop(self, circuit: int) -> Loop:
-        """Return the loop that a `closing` or `breaking` circuit completes, in order, with its ratio product."""
+        """Return the loop that a `closing` or `breaking` circuit closes, with its ratio product."""
         chord = self.circuits[circuit]
         up, down = self.ends(chord)
         left, right = ways_to_common_ancestor(up, down, self._predecessor)
@@ -94,8 +94,8 @@ class Components:
         )
 
     def closing_product(self, circuit: int) -> Fraction:
-        """Return the ratio product of the loop that a circuit completes, (20) of docs/theory.md; 1 if the loop can
-        turn.
+        """Return the ratio product of the loop that a circuit closes, equation (20) of docs/theory.md; 1 if the loop
+        can turn.
 
         It is the speed ratio of the circuit divided by the ratio along the search tree between the same two links.
         """
@@ -108,8 +108,8 @@ class Components:
         return above if above >= 0 else None
 
     def path(self, nodes: Iterable[int]) -> list[int]:
-        """Return the circuits on the search-tree paths between nodes of one component; they determine the ratio of
-        their speeds.
+        """Return the circuits on the paths in the search tree between nodes of one component. They determine the ratios
+        of the speeds.
         """
         wanted = list(nodes)
         chains = [chain_to_root(node, self._predecessor) for node in wanted]
@@ -122,10 +122,11 @@ class Components:
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
-    """Find the ordinary trains of every carrier by breadth-first search: (18), (19) of docs/theory.md.
+    """Find the ordinary trains relative to every carrier by breadth-first search: equations (18) and (19) of
+    docs/theory.md.
 
-    first   links from which the search starts if possible (the inputs); the unknown of their component is then their
-            own speed, so that fractions with many digits are not multiplied with each other
+    first   links from which the search starts if possible (the inputs); the unknown of a component is then the speed of
+            an input, which avoids products of fractions with many digits
     """
     index = {link: at for at, link in enumerate(links)}
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
@@ -178,10 +179,10 @@ _Edge = tuple[int, int, int, int]
 def _nodes(
     index: Mapping[str, int], circuits: Sequence[Circuit]
 ) -> tuple[list[int], list[int], list[list[_Edge]], list[int]]:
-    """Return the link and carrier of each node, its edges, and the couplings with winding number 0.
+    """Return the link of each node, its carrier, its edges, and the couplings with winding number 0.
 
-    An edge (circuit, far node, a, b) means: relative speed of the far node = a/b times the relative speed of this
-    node.
+    An edge (circuit, other node, a, b) means that the relative speed of the other node is a/b times the relative speed
+    of this node.
     """
     size = len(index)
     node_of: dict[int, int] = {}
@@ -218,10 +219,10 @@ def _nodes(
 class ReducedSystem:
     """Linear system that couples the components: unknowns, equations, and the speed of every link as a linear form.
 
-    Unknowns 0..g-1 belong to the components. They are followed by one unknown for each carrier other than the frame,
-    and one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a
-    link that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1)
-    for a coupling with winding number 0.
+    Unknowns 0 to g - 1 belong to the g components. They are followed by one unknown for each carrier other than the
+    frame, and one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node)
+    for a link that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold",
+    circuit, -1) for a coupling with winding number 0.
     """
 
     components: Components
@@ -231,7 +232,7 @@ class ReducedSystem:
     origin: tuple[tuple[str, int, int], ...]
 
     def form(self, link: int) -> LinearForm:
-        """Return the speed of a link as a linear form of the unknowns."""
+        """Return the speed of a link as a linear form in the unknowns."""
         parts = self.components
         if link == parts.frame:
             return {}
@@ -241,8 +242,8 @@ class ReducedSystem:
         return self.seen_from(parts.nodes_of[link][0])
 
     def unknowns_of(self, link: int) -> tuple[int, ...]:
-        """Return the unknowns that occur in a link's speed, without computing their coefficients, which may have many
-        digits.
+        """Return the unknowns on which a link's speed depends, without computing their coefficients, which may have
+        many digits.
         """
         parts = self.components
         if link == parts.frame:
@@ -255,7 +256,7 @@ class ReducedSystem:
         return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> LinearForm:
-        """Return the speed of a node's link as a linear form: speed of its carrier plus relative speed."""
+        """Return the speed of a node's link as a linear form: the speed of its carrier plus the relative speed."""
         parts = self.components
         row: LinearForm = {parts.node_group[node]: parts.relative(node)}
         carrier = parts.node_carrier[node]
@@ -266,7 +267,7 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Reduce every component to one unknown speed, and return the system that couples them: docs/theory.md, 8."""
+    """Reduce every component to one unknown speed, and return the system that couples them; see docs/theory.md, 8."""
     groups = len(parts.group_carrier)
     # a component that contains a travel has several carriers
     carriers = dict.fromkeys(each for each in (*parts.group_carrier, *parts.node_carrier) if each != parts.frame)
@@ -296,7 +297,7 @@ def reduce_components(parts: Components) -> ReducedSystem:
 
 @dataclass(frozen=True)
 class SolvedPart:
-    """Links and circuits of a train, or of the part that affects requested links; components are computed on first
+    """Links and circuits of a train, or of the part that affects the requested links. Components are computed on first
     use.
     """
 
@@ -308,7 +309,7 @@ class SolvedPart:
 
     @cached_property
     def reduced(self) -> ReducedSystem:
-        """Reduced system: one unknown for each component, and the equations that couple them."""
+        """Reduced system, with one unknown for each component and the equations that couple the components."""
         return reduce_components(find_components(self.links, self.frame, self.circuits, self.first))
 
 
@@ -316,7 +317,7 @@ def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[
     """Return the circuits that can affect the speeds of the links in `keep`, by repeated removal of leaves
     (docs/theory.md, 10).
 
-    A circuit with a link that is not wanted and occurs in no other circuit only determines the speed of that link and
+    If a link is not in `keep` and occurs in only one circuit, this circuit only determines the speed of that link and
     is removed. This is repeated until no such circuit remains. Loops have no leaves, so a locked train stays locked.
     """
     wanted = set(keep)

@@ -1,6 +1,6 @@
 """Train as a networkx graph whose edges carry the declared objects, and its adjacency matrix.
 
-The edges are undirected. The declared object of an edge names the link with the pin, or the link of each wheel.
+The edges are undirected. The declared object of an edge determines which link has which wheel, or has the pin.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def build_graph(train: Train) -> Graph:
-    """Return a graph with links as vertices, and turning pairs, sliding pairs, gear pairs and couplings as edges.
+    """Return a graph whose vertices are links, and whose edges are turning, sliding and gear pairs and couplings.
 
     Edges have the data `kind` (revolute, prismatic, gear, or the kind of a coupling), `label` (axis, or
     name of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or
@@ -39,7 +39,7 @@ def build_graph(train: Train) -> Graph:
 
 
 def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]:
-    """Yield for each edge its two links, its key, kind and label, and the declared object."""
+    """Yield for each edge its two links, its key, its kind, its label, and the declared object."""
     for at, joint in enumerate(train.revolutes):
         first, second = joint.pair
         yield (first, second), f"revolute {at}", "revolute", joint.axis, joint
@@ -58,7 +58,7 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
 _JOINTS = {"revolute": "R", "prismatic": "P"}
 _DOT_STYLES = {"revolute": "penwidth=1", "prismatic": "style=dotted, penwidth=1", "gear": "penwidth=3"}
 MOST_SQUARE = 48
-"""Maximum number of links for which the adjacency matrix is shown by default; its size grows with their square."""
+"""Maximum number of links for which the adjacency matrix is shown by default; its size is quadratic."""
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
@@ -67,8 +67,8 @@ def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
 
 
 def adjacency_labels(train: Train) -> list[list[str]]:
-    """Return the adjacency matrix as text: `R(axis)` for a turning pair, `P(axis)` for a sliding pair, the name of a
-    gear pair or coupling, or "".
+    """Return the adjacency matrix as text. An entry is `R(axis)` for a turning pair, `P(axis)` for a sliding pair, the
+    name of a gear pair or coupling, or "".
     """
     at = {link: position for position, link in enumerate(train.links)}
     cells: list[list[list[str]]] = [[[] for _ in at] for _ in at]
@@ -80,8 +80,8 @@ def adjacency_labels(train: Train) -> list[list[str]]:
 
 
 def adjacency_kinds(train: Train) -> list[list[str]]:
-    """Return the kind of the edge between any two links: revolute, prismatic, gear or the kind of the coupling,
-    "several", or "".
+    """Return the kind of the edge between any two links: revolute, prismatic, gear, or the kind of a coupling;
+    "several" if there are several edges, "" if there is none.
     """
     at = {link: position for position, link in enumerate(train.links)}
     cells = [["" for _ in at] for _ in at]
@@ -92,7 +92,7 @@ def adjacency_kinds(train: Train) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
-    """Return the adjacency matrix of the links: the number of edges between each pair of links."""
+    """Return the adjacency matrix, whose entries are the numbers of edges between each two links."""
     import numpy as np
 
     from geartrain.numerics.labelled_array import labelled_array
@@ -108,7 +108,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Return the graph as Graphviz text: turning pairs thin, gear pairs thick, couplings dashed, the frame as a box."""
+    """Return the graph as Graphviz text: thin turning pairs, thick gear pairs, dashed couplings, a box as frame."""
     lines = [f"graph {_quoted(graph.name)} {{", "  node [shape=circle];"]
     for link, data in graph.nodes(data=True):
         lines.append(f"  {_quoted(link)}{' [shape=box]' if data['frame'] else ''};")
@@ -121,8 +121,8 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also name their wheels, couplings
-    their pin and slot.
+    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also have the names of their wheels,
+    and couplings those of the links with pin and slot.
     """
     import networkx as nx
 
@@ -130,8 +130,8 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also name their wheels, couplings
-    their pin and slot.
+    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also have the names of their
+    wheels, and couplings those of the links with pin and slot.
     """
     import networkx as nx
 

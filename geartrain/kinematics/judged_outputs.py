@@ -1,4 +1,4 @@
-"""Comparison of outputs with expected, published and astronomical values; effect of one tooth more or less."""
+"""Comparison of outputs with expected, published and astronomical values, and the effect of one tooth more or fewer."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ SECONDS_PER_DAY = 86400
 SECONDS_PER_YEAR = 31556952  # 365.2425 d, the mean year of the Gregorian calendar
 SpeedValue = Fraction | float
 Relative = Callable[[str, str], SpeedValue | None]
-"""Function that returns the speed of a link relative to another, about the axis of the first; None if undetermined."""
+"""Function that returns the speed of a link relative to another, about the first's axis; None if undetermined."""
 
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """Speed that a declared target of an output requires, compared with its sign or by its magnitude only."""
+    """Speed that a declared target of an output requires. It is compared with its sign, or only by its magnitude."""
 
     label: str
     """Description of the required speed without its sense of rotation."""
     speed: Fraction
-    """Required speed [unit of the train]; positive if only the magnitude is compared."""
+    """Required speed [unit of the train]; it is positive if only the magnitude is compared."""
     signed: bool
     """True if the sign is compared, False if only the magnitude is compared."""
     sense: str = ""
@@ -42,15 +42,15 @@ class RatioGoal:
         return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
 
     def error(self, speed: SpeedValue) -> SpeedValue:
-        """Return the relative error speed / goal - 1, which is positive for a fast output; the speed itself if the
-        goal is 0.
+        """Return the relative error speed / goal - 1, which is positive if the output is too fast; if the goal is 0,
+        return the speed itself.
         """
         return error_against(speed, self.speed, self.signed)
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared; if `wanted` is 0,
-    the speed is returned.
+    """Return the relative error speed / wanted - 1. Magnitudes are compared if `signed` is False. If `wanted` is 0, the
+    speed is returned.
     """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
@@ -76,11 +76,11 @@ class TargetResult(Result):
     goal: RatioGoal
     """Required speed [unit of the train], and whether its sign is compared."""
     error: SpeedValue
-    """Relative error: output divided by target, minus 1 [1]. Magnitudes are compared if the target has no sign. If
-    the target is 0, the value is the speed of the output.
+    """Relative error [1]: speed of the output divided by the target, minus 1. Magnitudes are compared if the target has
+    no sign. If the target is 0, the value is the speed of the output.
     """
     days_per_century: float | None
-    """Time that the pointer gains on the target [days per 36525 days]. None if the unit of speeds does not contain a
+    """Time that the pointer gains on the target [d per 36525 d]. None if the unit of speeds does not contain a unit of
     time, if the target is 0, or if the value exceeds the range of float64.
     """
     degrees_per_unit: float | None
@@ -97,12 +97,12 @@ class TargetResult(Result):
 
     @property
     def speed(self) -> Fraction:
-        """Required speed [unit of the train]; positive if only the magnitude is compared."""
+        """Required speed [unit of the train]; it is positive if only the magnitude is compared."""
         return self.goal.speed
 
     @property
     def compared(self) -> Literal["speed", "magnitude", "difference"]:
-        """Kind of comparison: speed with its sign, magnitude of the speed, or difference from 0."""
+        """Kind of comparison: "speed" with its sign, "magnitude" of the speed, or "difference" from a target of 0."""
         return ("speed" if self.goal.signed else "magnitude") if self.speed else "difference"
 
     @property
@@ -130,29 +130,29 @@ class SpeedFigures(TypedDict, total=False):
     """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
 
     exact: Required[str | None]
-    """Exact speed as a string such as "2/7" or "36 π"; None if it was solved in floats, contains π in another way, or
-    is not determined.
+    """Exact speed as a string such as "2/7" or "36 π"; None if the speed was computed in floats, contains π in another
+    way, or is not determined.
     """
     value: Required[float | None]
-    """Nearest float64; None beyond its range, or if the speed is not determined."""
+    """Nearest float64; None if the speed is beyond the range of float64 or is not determined."""
     unit: str
-    """Unit `mm` of the travel of a link that slides, per unit of the train or per turn; omitted for links that turn."""
+    """Unit `mm` for the travel of a sliding link, per unit of the train or per turn; omitted for turning links."""
     decimal: str
-    """Decimal number with twelve digits, only for a speed beyond the range of float64."""
+    """Decimal number with twelve digits; only given if the speed is beyond the range of float64."""
     estimate: float | None
-    """Estimated absolute error of a speed that was solved in floats [unit of the train]."""
+    """Estimated absolute error of a speed that was computed in floats [unit of the train]."""
     true_error: float | None
-    """Difference between a speed solved in floats and the exact speed, if the latter is known [unit of the train]."""
+    """Error of a speed computed in floats [unit of the train]; None if the exact speed is not known."""
     tolerance: float
     """Tolerance of a speed that depends on a coupling with an approximate `ratio` [unit of the train]."""
     condition: float | None
-    """Component-wise condition number of a speed that was solved in floats [1]; None for a link at rest, omitted in
+    """Component-wise condition number of a speed that was computed in floats [1]; None for a link at rest, omitted in
     trains of more than 400 links.
     """
 
 
 class JudgedExpectation(NamedTuple):
-    """Declared `expect` of an output, with the result of its comparison with the speed."""
+    """Declared `expect` of an output, and the result of its comparison with the speed."""
 
     value: str
     """Expected value as declared."""
@@ -162,7 +162,7 @@ class JudgedExpectation(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class JudgedFigure(Result):
-    """Declared `published` value of an output, the same quantity of the train, and the result of their comparison."""
+    """Declared `published` value of an output, the calculated value, and the result of their comparison."""
 
     KEYS = ("value", Key("as", "form"), "place", "found", "holds")
 
@@ -173,10 +173,10 @@ class JudgedFigure(Result):
     place: str | None
     """Place in the source where the value is printed."""
     found: SpeedValue | None
-    """Same quantity, calculated for this train; a period in [s]. None if it is not determined."""
+    """Same quantity calculated for this train; a period is in [s]. None if it is not determined."""
     holds: bool | None
-    """True if the published and the calculated value agree in all printed digits, or within a declared tolerance; False
-    if they differ, or if the quantity is not determined.
+    """True if the published and the calculated value agree in all printed digits, or within the declared tolerance;
+    False if they differ, or if the quantity is not determined.
     """
 
 
@@ -204,11 +204,11 @@ class OutputResult(Result):
     relative_to: str
     """Link relative to which the speed is measured."""
     speed: SpeedValue | None
-    """Speed of `of` relative to `relative_to`, about the axis of `of` [unit of the train]. It is exact, or a float
-    if solved in floats; None if undetermined.
+    """Speed of `of` relative to `relative_to`, about the axis of `of` [unit of the train]; a Fraction, or a float if it
+    was computed in floats. None if it is undetermined.
     """
     ratio: SpeedValue | None
-    """Output speed divided by input speed; None unless exactly one input has a non-zero speed."""
+    """Speed of the output divided by the speed of the input; None unless exactly one input has a non-zero speed."""
     expect_holds: bool | None
     """True if the speed agrees with the declared `expect`; False if it differs or is not determined; None if no
     `expect` is declared.
@@ -236,7 +236,7 @@ class OutputResult(Result):
     def found(self) -> SpeedValue | None:
         """Value that is compared with the `published` value; None if it is undefined, or if no value is published.
 
-        A period is in seconds; it is negative if the sense of rotation is opposite to a declared `sense`.
+        A period is in [s]; it is negative if the output turns in the sense opposite to the declared `sense`.
         """
         published = self.output.published
         return None if published is None else _as_published(published, self.speed, self.ratio, self.unit_seconds)
@@ -288,16 +288,14 @@ class OutputResult(Result):
 
     @property
     def differs_in_sign(self) -> bool:
-        """True if a speed of the opposite sign would satisfy every `expect` and `published` value that the output
-        violates.
-        """
+        """True if the output violates `expect` or `published`, and would satisfy both with the opposite sign."""
         if self.speed is None or (self.expect_holds is not False and self.published_holds is not False):
             return False
         expected = self.expect_holds is not False or _expect_holds(self.output, -self.speed)
         return bool(expected and (self.published_holds is not False or self._holds_published(sign=-1)))
 
     def _holds_published(self, sign: int) -> bool | None:
-        """Return whether the output, or the output in the opposite sense (-1), agrees with the published value."""
+        """Return whether the output, multiplied by `sign` (1 or -1), agrees with the published value."""
         published, value = self.output.published, self.found
         if published is None:
             return None
@@ -321,7 +319,7 @@ def magnitude(value: SpeedValue) -> SpeedValue:
 
 def speed_figures(speed: SpeedValue | None, slides: bool = False) -> SpeedFigures:
     """Return a speed in the form of the JSON output; beyond the range of float64, `value` is None and `decimal` is
-    given. `slides` is True for a travel in mm.
+    given. `slides` is True if the speed is a travel in mm.
     """
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
@@ -369,8 +367,8 @@ def judge_outputs(
 
 
 def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
-    """Return True if the speed agrees with the declared `expect`, False if it differs or is undetermined; None without
-    `expect`.
+    """Return True if the speed agrees with the declared `expect`, False if it differs or is undetermined, and None if
+    no `expect` is declared.
     """
     expect = output.expect
     if expect is None or speed is None:
@@ -384,7 +382,7 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
 def _as_published(
     published: Published, speed: SpeedValue | None, ratio: SpeedValue | None, unit: Fraction | None
 ) -> SpeedValue | None:
-    """Return an output as the quantity that the source prints; None if it is undefined.
+    """Return an output converted to the quantity that the source prints; None if it is undefined.
 
     unit   time of one turn at a speed of 1 [s]
     """
@@ -406,7 +404,7 @@ def unit_seconds(train: Train) -> Fraction | None:
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
-    """Return a published value or its tolerance as a number in the unit of `OutputResult.found`: a period in seconds.
+    """Return a published value or its tolerance as a number in the unit of `OutputResult.found`; a period is in [s].
 
     unit   time of one turn at a speed of 1 [s], which is the length of a printed year
     """
@@ -414,7 +412,7 @@ def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
 
 
 def goal_of(train: Train, target: Target) -> RatioGoal:
-    """Return the speed that a target requires, in the unit of the train."""
+    """Return the speed that a target requires [unit of the train], and how it is compared."""
     turns = target.turns.value
     if target.speed is not None:
         return RatioGoal(f"speed {target.speed}", target.speed.value * turns, True)
@@ -447,7 +445,7 @@ def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> Tar
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity(Result):
-    """Exact effect of one tooth fewer and one tooth more of an uncertain wheel on the speed of an output.
+    """Exact change of the speed of an output if an uncertain wheel has one tooth fewer or one tooth more.
 
     Examples
     --------
@@ -471,12 +469,12 @@ class Sensitivity(Result):
     output: str
     """Name of the output."""
     less: float | None
-    """Relative change of the output's speed with one tooth fewer [ppm]; None if the train then cannot turn, or if the
-    output is at rest.
+    """Relative change of the output's speed if the wheel has one tooth fewer [ppm]; None if the train then cannot turn,
+    or if the output is at rest.
     """
     more: float | None
-    """Relative change of the output's speed with one tooth more [ppm]; None if the train then cannot turn, or if the
-    output is at rest.
+    """Relative change of the output's speed if the wheel has one tooth more [ppm]; None if the train then cannot turn,
+    or if the output is at rest.
     """
 
 
@@ -486,10 +484,10 @@ def sensitivity(
     solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
 ) -> Iterator[Sensitivity]:
-    """Yield the change of each output that is affected by one tooth fewer or one tooth more of an uncertain wheel
-    [ppm].
+    """Yield the relative change [ppm] of each output that is affected if an uncertain wheel has one tooth fewer or
+    more.
 
-    solve_with   function that solves the train with other circuits, and returns the function for relative speeds
+    solve_with   function that solves the train with the given circuits, and returns the function for relative speeds
     """
     for name, wheel in train.uncertain_wheels():
         teeth = wheel.count

@@ -1,8 +1,8 @@
 """Lever analogy: the elementary epicyclic sets of a train as points on a line.
 
-Relative to its carrier k, all members of a set have fixed speed ratios: w_m = w_k + x_m u, where the speed u is common
-to all members. The points (x_m, w_m) of one state therefore lie on a straight line, with the carrier at x = 0 (Kutzbach
-1927; Benford and Leising 1981).
+Relative to its carrier k, all members m of a set have fixed speed ratios: w_m = w_k + x_m u with constants x_m, where
+the speed u is common to all members. The points (x_m, w_m) of one state therefore lie on a straight line, with the
+carrier at x = 0 (Kutzbach 1927; Benford and Leising 1981).
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, slots=True)
 class Lever(Shown):
     """Lever diagram of one epicyclic gear set: each member m is a point x_m on a line. Its speed is w_m = w_k + x_m u,
-    where w_k is the speed of the carrier and u is common to all members.
+    where w_k is the speed of the carrier and u is a speed common to all members.
     """
 
     carrier: str
-    """Carrier k of the epicyclic set."""
+    """Name of the carrier k of the epicyclic set."""
     abscissae: Mapping[str, Fraction]
     """Exact abscissa x of each link; 0 for the carrier, and at most 1 in magnitude."""
 

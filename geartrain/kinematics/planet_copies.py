@@ -30,7 +30,7 @@ def has_copies(train: Train) -> bool:
 
 
 def check_copies(train: Train, tree: Tree) -> None:
-    """Raise `DeclarationError` if links with `copies` cannot be spaced about a carrier or joined to their mates."""
+    """Raise `DeclarationError` if links with `copies` cannot be spaced around a carrier or connected to their mates."""
     if problems := tuple(_problems(train, tree)):
         raise DeclarationError(problems)
 
@@ -45,15 +45,13 @@ def with_copies(train: Train, tree: Tree) -> Train:
 
 
 def originals(train: Train) -> dict[str, str]:
-    """Return for each link of the expanded train the declared link."""
+    """Return the name of the declared link for each link of the expanded train."""
     own = {link: link for link in train.links}
     return own | {_copy_name(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
 
 
 def as_one(train: Train) -> Train:
-    """Return the train in which one planet has the mass, inertia and stiffness of all its copies, which have equal
-    motion.
-    """
+    """Return the train in which one planet has the mass, inertia and stiffness of all its copies together."""
     if not has_copies(train):
         return train
     links = {name: _with_total_inertia(train, part) for name, part in train.links.items()}
@@ -179,12 +177,12 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
             if train.links[link].copies > 1 and not _allows_copies(train, coupling):
                 what = f"coupling '{coupling.name}' cannot connect {train.links[link].copies} equal links '{link}'"
                 fix = "declare these links one by one, each with its coupling"
-                why = "copies have equal motions and equal pairs, and this coupling would connect each one differently"
+                why = "copies have equal motions and equal pairs, but this coupling connects each one differently"
                 yield Problem(what, why, fix, train.place("couplings", at))
 
 
 def _allows_copies(train: Train, coupling: Coupling) -> bool:
-    """Return True if the coupling keeps each of several equal links parallel to one other link."""
+    """Return True if the coupling is of a kind that can keep several equal links parallel to another link."""
     counts = {train.links[link].copies for link in coupling.links(train.wheels)}
     return coupling.FOR_COPIES and 1 in counts
 
@@ -197,7 +195,7 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 @dataclass(frozen=True)
 class _Expansion:
-    """Expansion of a train in which every copy of a link, joint, pair or coupling becomes a separate part; copy 1 is
+    """Expansion of a train, in which every copy of a link, joint, pair or coupling becomes a separate part. Copy 1 is
     the declared part.
     """
 
@@ -257,7 +255,7 @@ class _Expansion:
         return found
 
     def _copied_link(self, link: str, at: int) -> str:
-        """Return the name of copy `at` of a link; a link without copies is shared by all."""
+        """Return the name of copy number `at` of a link; a link without copies keeps its name."""
         return _copy_name(link, at) if self.declared.links[link].copies > 1 else link
 
     def _link(self, part: Link, at: int) -> Link:
@@ -296,7 +294,7 @@ class _Expansion:
     # ---------------------------------------------------------------------------------------------------------- places
 
     def _axis(self, label: str, at: int) -> Axis:
-        """Return the axis of copy `at`, rotated about the axis of the carrier."""
+        """Return the axis of copy number `at`, rotated about the axis of the carrier."""
         carrier, number = self._carriers[label]
         about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
         axis, angle = self.declared.axes[label], tau * (at - 1) / number
@@ -316,7 +314,7 @@ class _Expansion:
 
     @cached_property
     def _carriers(self) -> Mapping[str, tuple[str, int]]:
-        """Carrier and number of copies for each axis of a copied link."""
+        """Carrier and number of copies of the link on each axis, for the axes of links with copies."""
         found = {}
         for link, (_, axis) in self.tree.parent.items():
             number, carrier = self.declared.links[link].copies, self.tree.top[link]
@@ -362,6 +360,6 @@ def _with_divided_share(gear: GearPair, number: int) -> GearPair:
 
 
 def _decimal(part: float) -> str:
-    """Return a number as text with at most 15 digits; rounding errors of angles and declared numbers become 0."""
+    """Return a number as text with at most 15 digits; rounding errors are removed."""
     # lengths below 1e-9 mm are out of range
     return f"{round(part, 13):.15g}" if abs(part) >= 1e-9 else "0"

@@ -1,8 +1,8 @@
 """Kinematics of a train: joint tree, circuits, mobility and speeds, each computed once on first access.
 
-A state is solved in four steps: read its inputs, brakes and locks; find the part of the train that affects the
-requested links; choose the method; evaluate the outputs. Remarks are notes, not errors: they describe conventions and
-mean values in the answers.
+A state is solved in four steps: its inputs, brakes and locks are read, the part of the train that affects the requested
+links is found, the method is chosen, and the outputs are evaluated. Remarks are not errors; they describe conventions
+and mean values in the answers.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ _CONTINUOUS = 20  # teeth of a mate with which a wheel of two teeth may still dr
 
 def lint_train(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[Problem]:
     """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
-    and for each coupling that does not move uniformly.
+    and for each coupling with non-uniform motion.
     """
     places: dict[str, Loc] = {gear.name: ("gears", at) for at, gear in enumerate(train.gears)}
     places |= {name: ("couplings", at) for at, each in enumerate(train.couplings) for name in each.row_names}
@@ -88,8 +88,8 @@ def lint_train(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterato
 
 
 def _is_finger(train: Train, gear: GearPair, name: str, mate: str) -> bool:
-    """Return True if a spur wheel of a pair has too few teeth for continuous motion: one, or two that meet more than
-    20.
+    """Return True if a spur wheel has too few teeth to drive its mate continuously: one tooth, or two if the mate has
+    more than 20.
     """
     wheel, other = train.wheels[name][1], train.wheels[mate][1]
     # teeth of helical wheels overlap
@@ -107,7 +107,7 @@ Method = Literal["auto", "exact", "sparse", "floats"]
 @final
 @dataclass(frozen=True, eq=False)
 class TrainKinematics(Shown):
-    """Kinematic analysis of a declared train, which does not depend on tooth forms."""
+    """Kinematic analysis of a declared train. It does not depend on tooth forms."""
 
     declaration: Train
     """Declaration of the train."""
@@ -119,7 +119,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def tree(self) -> Tree:
-        """Turning pairs as a spanning tree rooted at the frame."""
+        """Turning and sliding pairs as a spanning tree rooted at the frame."""
         tree = find_tree(self.declaration)
         if has_copies(self.declaration):
             check_copies(self.declaration, tree)
@@ -132,7 +132,7 @@ class TrainKinematics(Shown):
         return find_circuits(self.declaration, self.tree)
 
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        """Return all circuits except the circuits of the given pairs.
+        """Return all circuits except those of the given pairs.
 
         names   names of the omitted pairs
         """
@@ -159,10 +159,9 @@ class TrainKinematics(Shown):
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return True if all axes between two links are parallel, so that their relative speed is the speed of a
-        rotation.
+        """Return True if all axes between two links are parallel, so that their relative motion is a rotation.
 
-        of, base   two links; the order does not matter
+        of, base   two links, in any order
         """
         # without sums all axes between links and the frame are parallel, so that no path is examined
         return not self.joint_sums or self._axes.is_rotation(of, base)
@@ -183,7 +182,7 @@ class TrainKinematics(Shown):
         return tuple(state for state, case in self.cases.items() if not case.problems)
 
     def case(self, state: str | None = None) -> StateCase:
-        """Return the inputs, brakes and locks of one state.
+        """Return the prescriptions (inputs, brakes and locks) of one state.
 
         state   a declared state; None only for a train without states
         """
@@ -201,7 +200,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def mobility(self) -> Mobility:
-        """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by counting and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         from geartrain.kinematics.speeds import find_mobility
 
         declared = self.declaration
@@ -209,14 +208,14 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if the assembly condition can be checked: axes have positions or directions, and gear pairs form
+        """True if the assembly condition can be checked, because axes have positions or directions and gear pairs form
         loops.
         """
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Locked parts of the train, and meshes whose removal frees it; fast if the train is not locked."""
+        """Locked parts of the train, and meshes whose removal frees it; computed quickly if nothing is locked."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
@@ -228,7 +227,7 @@ class TrainKinematics(Shown):
         return tuple(lint_train(self.declaration, self.tree, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
-        """Return exact speeds and the verdict of one state, without a limit on the computing time.
+        """Return the exact speeds and the verdict for one state, without a limit on the computing time.
 
         case   one of `cases`
         """
@@ -250,7 +249,7 @@ class TrainKinematics(Shown):
         return self._system(self.whole, case)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Return speeds and evaluated outputs in one state; see `GearTrain.solve`.
+        """Return the speeds and evaluated outputs in one state; see `GearTrain.solve`.
 
         state    a declared state; None only for a train without states
         output   an output or a link; only the circuits that can affect it are solved
@@ -280,7 +279,7 @@ class TrainKinematics(Shown):
         return self._build_answer(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
-        """Yield the effect of one tooth fewer or more of each uncertain wheel on each output.
+        """Yield the effect on each output if an uncertain wheel has one tooth fewer or more.
 
         answer   result of `solve`
         """
@@ -296,7 +295,7 @@ class TrainKinematics(Shown):
         state: str | None = None,
         inputs: Mapping[str, Sequence[float]] | None = None,
     ) -> FloatSpeeds:
-        """Return float64 speeds by sparse LU with error estimates; several input speeds share one factorisation.
+        """Return float64 speeds with error estimates by sparse LU, with one factorisation for all input speeds.
 
         state    a declared state; None only for a train without states
         inputs   input link -> speeds, one for each case, instead of the declared speeds [unit of the train]
@@ -366,7 +365,7 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Return the answer with float speeds and error estimates, and with true errors if the exact solution is
+        """Return the answer with float speeds and error estimates, and with their true errors if the exact solution is
         known.
         """
         from geartrain.kinematics.speeds import solve_floats
@@ -425,8 +424,8 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """Return the answer with evaluated outputs, restricted to the links `wanted`; `ratios` is None for float
-        speeds.
+        """Return the answer with evaluated outputs, restricted to the links `wanted` if given; `ratios` is None for
+        float speeds.
         """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
@@ -480,17 +479,17 @@ class TrainKinematics(Shown):
         )
 
     def _seen(self, relative: Relative) -> Relative:
-        """Return the function for relative speeds in which the second link is replaced by the nearest link with a
-        comparable motion (`Tree.reference`): for a turning link, the nearest link that turns.
+        """Return a function for relative speeds in which the second link is replaced by the nearest link with a
+        comparable motion (`Tree.reference`). For a turning link, this is the nearest link that turns.
         """
         return lambda of, base: relative(of, self.tree.reference(of, base))
 
     def _solved_with(self, circuits: Sequence[Circuit], case: StateCase) -> Relative:
-        """Return the function for relative speeds if `circuits` replace the circuits of the train."""
+        """Return the function for relative speeds of the train in which `circuits` replace its circuits."""
         return self._seen(solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative)
 
     def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:
-        """Return whether the speed of each link and output changes if another rational number replaces pi."""
+        """Return for each link and output whether its speed changes if another rational number replaces pi."""
         other = [_with_other_pi(circuit) if circuit.travels else circuit for circuit in self.circuits]
         found, frame = self._solved_with(other, case), self.declaration.frame
         changes = {link: found(link, frame) != speed for link, speed in speeds.items()}
@@ -500,8 +499,8 @@ class TrainKinematics(Shown):
         return changes
 
     def _ratio_tolerance(self, case: StateCase, relative: Relative) -> Callable[[str, str], Fraction] | None:
-        """Return a function that sums the changes of a relative speed as each approximate ratio changes by its
-        tolerance; None if all ratios are exact.
+        """Return a function that returns the sum of the changes of a relative speed if each approximate ratio in turn
+        changes by its tolerance; None if all ratios are exact.
         """
         approximate = [each for each in self.declaration.couplings if each.bounds is not None]
         if not approximate:

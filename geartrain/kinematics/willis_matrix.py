@@ -1,8 +1,8 @@
-"""Willis system as a sparse matrix, for the float solvers and for solvers of the user; its residuals in twice the
-working precision.
+"""Willis system as a sparse matrix, for the float solvers and for other solvers, and residuals in twice the working
+precision.
 
-The entries are tooth counts and their sums, integers far below 2**53. A float64 matrix represents them exactly, so the
-error of a float solution is due only to the solver.
+The entries are tooth counts and their sums, which are integers far below 2**53. A float64 matrix represents them
+exactly, so the error of a float solution is due only to the solver.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _GIVEN = -1  # column of prescribed speeds
 
 
 class PaddedRows:
-    """Integer rows of a linear system as arrays, padded to a common number of terms."""
+    """Integer rows of a linear system as arrays, which are padded to a common number of terms."""
 
     def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
         self.at = {link: column for column, link in enumerate(links)}
@@ -51,8 +51,8 @@ class PaddedRows:
         return csc_array(entries, shape=(size, len(self.at)))
 
     def factorise(self) -> Any:
-        """Return the sparse LU factors of the matrix, computed by SuperLU with the ordering COLAMD, the only one that
-        never takes quadratic time.
+        """Return the sparse LU factors of the matrix, computed by SuperLU with the column ordering COLAMD, the only
+        ordering that never takes quadratic time.
         """
         from scipy.sparse import linalg
 
@@ -72,9 +72,7 @@ class PaddedRows:
         return total + low
 
     def prescribe(self, x: Floats, right: Floats) -> None:
-        """Set prescribed speeds, which have rows with a single coefficient 1, to their exact values in `x`, in
-        place.
-        """
+        """Set prescribed speeds in `x` to their exact values, in place; their rows have a single coefficient 1."""
         single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
         own = self.coefficients[single, 0] == 1
         x[self.columns[single[own], 0]] = right[single[own]]
@@ -118,9 +116,9 @@ class WillisMatrix(Shown):
     rows: tuple[WillisEquation, ...]
     """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
-    """Links of the columns: all links except the frame, or all links if the whole system was requested."""
+    """Links of the columns: all links except the frame, or all links if the whole system is requested."""
     omitted: tuple[str, ...]
-    """Labels of omitted rows: the row of the frame, and rows that follow from others."""
+    """Labels of omitted rows: the row of the frame, and rows that follow from other rows."""
 
     def _summary(self) -> str:
         rows, columns = self.matrix.shape
@@ -128,7 +126,7 @@ class WillisMatrix(Shown):
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """Labels of the rows: pairs and prescriptions."""
+        """Labels of the rows, which are names of pairs and prescriptions."""
         return tuple(row.label for row in self.rows)
 
     @property
@@ -142,8 +140,8 @@ def build_matrix(
 ) -> WillisMatrix:
     """Build the arrays of a Willis system.
 
-    redundant   labels of rows known to follow from others
-    whole       True to include the frame, and rows that follow from others
+    redundant   labels of rows that are known to follow from other rows
+    whole       True to include the frame, and rows that follow from other rows
 
     Raises `RangeError` if a prescribed speed is beyond the range of float64.
     """
@@ -161,10 +159,11 @@ def build_matrix(
 def independent_rows(
     links: Sequence[str], equations: Sequence[WillisEquation], redundant: Sequence[str]
 ) -> tuple[list[str], list[WillisEquation]]:
-    """Return the moving links, and the rows without the frame's row and without redundant rows.
+    """Return the moving links, and the rows without the row of the frame and without redundant rows.
 
-    There are as many rows as moving links if the speeds are determined, and more if rows contradict each other: all of
-    these are kept. Redundant rows are found by Gaussian elimination modulo a prime if there are too many rows.
+    If the speeds are determined, there are as many rows as moving links. There are more if rows contradict each other,
+    because all such rows are kept. Redundant rows are found by Gaussian elimination modulo a prime if there are too
+    many rows.
     """
     frame = next(row.terms[0][0] for row in equations if row.kind == "frame")
     links, idle = [link for link in links if link != frame], set(redundant)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def axis_sense(of: str, base: str, signs: Mapping[str, int]) -> int:
-    """Return 1, or -1 if the reference senses of two links' axes are opposite.
+    """Return 1 if the axes of two links have the same reference sense, and -1 if their senses are opposite.
 
     signs   -1 for links whose axis is opposite to the reference direction of its parallel axes
     """
@@ -63,8 +63,8 @@ def relative_speed(
 class WillisSystem(Shown):
     """Willis system of a train in one state, with links as columns and labelled equations as rows.
 
-    There is one row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of
-    docs/theory.md, one row for the frame, and one for each input, brake and lock.
+    The rows are an equation a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling (equations (4) and (5) of
+    docs/theory.md), one equation for the frame, and one for each input, brake and lock.
 
     Examples
     --------
@@ -81,14 +81,14 @@ class WillisSystem(Shown):
     equations: tuple[WillisEquation, ...]
     """Equations of the rows, with their labels."""
     exact: bool = True
-    """False if radians were converted to turns or turns to radians; numbers are then shown as decimals."""
+    """False if radians were converted to turns or turns to radians. Numbers are then shown as decimals."""
     redundant: tuple[str, ...] = ()
-    """Names of redundant pairs, which close loops with ratio product 1; empty if not determined."""
+    """Names of redundant pairs, which close loops with ratio product 1; empty if they were not determined."""
     sliding: frozenset[str] = frozenset()
-    """Sliding links of couplings; their speeds x are travels in mm."""
+    """Sliding links of couplings; their speeds are travels in mm."""
 
     def __str__(self) -> str:
-        """Return the equations as printed by `geartrain inspect equations`."""
+        """Return the equations in the form printed by `geartrain inspect equations`."""
         return self.text()
 
     def _summary(self) -> str:
@@ -100,13 +100,13 @@ class WillisSystem(Shown):
         Parameters
         ----------
         whole : bool
-            True to include the column and row of the frame and rows that follow from others, as in `text`. Otherwise
-            the matrix is square and regular if the train is determined.
+            True to include the column and row of the frame and rows that follow from other rows, as in `text`.
+            Otherwise the matrix is square and regular if the train is determined.
 
         Returns
         -------
         WillisMatrix
-            A new object at each call.
+            Matrix and right-hand side, as a new object at each call.
         """
         from geartrain.kinematics.willis_matrix import build_matrix
 
@@ -141,11 +141,11 @@ def assemble_willis_system(
     signs: Mapping[str, int],
     redundant: Sequence[str] = (),
 ) -> WillisSystem:
-    """Assemble the equations of all circuits, of the frame, and of the inputs, brakes and locks of one state (`case`),
-    if it is given.
+    """Assemble the equations of all circuits, of the frame, and of the inputs, brakes and locks in `case`, if it is
+    given.
 
     signs       -1 for links whose axis is opposite to the reference direction of its parallel axes
-    redundant   names of pairs known to follow from others
+    redundant   names of pairs whose equations are known to follow from others
     """
     rows = [WillisEquation("frame", "frame", ((frame, 1),))]
     rows += [

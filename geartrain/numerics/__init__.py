@@ -1,30 +1,28 @@
 """Mathematics, quantities, results, files and parallel tasks, independent of gears.
 
-Most modules serve the rest of the package. Users meet quantities and figures in declarations, labelled arrays and
-long floats in answers, and run long computations with an executor and a journal.
+Most modules are used by the rest of the package. Users encounter quantities and figures in declarations and labelled
+arrays in results, and run long computations with an executor and a journal.
 
 Exact numbers
     exact, factored_ratios                integers and Fractions of any length, and their text
     elimination                           sparse linear systems over the rationals
     integer_lattice                       integer rows in a rational span
-    rational_angles                       angles as fractions of a turn
 Floats
     rounding_bounds, bounded_polynomials  error-free transformations; quotients of polynomials with error bounds
     roots                                 bracketed roots, one by one and vectorised
     chebyshev, polynomial_pieces          Chebyshev series and piecewise polynomials
-    periodic_function                     periodic functions through points and of harmonics, with their extremes
+    periodic_function                     periodic functions given by points or harmonics, and their extremes
     confidence_intervals                  confidence intervals of means and probabilities
     vectors, polylines                    vectors in space, exact for exact numbers; polylines
     kernels                               functions in plain Python that numba can compile
 Graphs
-    graphs, lazy_graph                    paths in a rooted forest, union-find; a lazy graph of networkx
-    block_triangular                      matching, then strongly connected components (Dulmage and Mendelsohn)
-Values with names and units, and their forms
-    quantity                              values with a unit, their limits, and the number as it was written
+    graphs, lazy_graph                    paths in a rooted forest, union-find; networkx graph with lazy attributes
+    block_triangular                      matching and strongly connected components (Dulmage and Mendelsohn)
+Values with names and units, and their representation
+    quantity                              values with a unit, their limits, and numbers as written
     arrays, labelled_array                array types, named tuples of arrays; arrays with labelled axes
-    results                               results as JSON, as tables, as pictures
+    results                               results as JSON, tables and pictures
     containers                            immutable mappings
-    markdown_text                         text that Markdown takes literally
 Files, work, modules
     files                                 atomic output of finished texts and tables
     work                                  independent tasks, their journal, and their executors
@@ -44,9 +42,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.labelled_array import LabelledArray as LabelledArray
     from geartrain.numerics.quantity import Figure as Figure
     from geartrain.numerics.quantity import Quantity as Quantity
-    from geartrain.numerics.work.executors import open_executor as open_executor
     from geartrain.numerics.work.journal import Journal as Journal
     from geartrain.numerics.work.task_runner import Execution as Execution
+    from geartrain.numerics.work.task_runner import open_executor as open_executor
     from geartrain.numerics.work.task_runner import run as run
 
 __getattr__, __all__ = public_names(
@@ -56,8 +54,7 @@ __getattr__, __all__ = public_names(
         "exact": "decimal",
         "labelled_array": "LabelledArray",
         "quantity": "Figure Quantity",
-        "work.executors": "open_executor",
         "work.journal": "Journal",
-        "work.task_runner": "Execution run",
+        "work.task_runner": "Execution open_executor run",
     },
 )

@@ -1,12 +1,12 @@
 """Block triangular form of a sparse system from its sparsity pattern, by Dulmage-Mendelsohn decomposition.
 
-A maximum matching pairs rows with columns. In a square system each column then depends on the other columns of its
-row, and the strongly connected components of that graph are the diagonal blocks. Any other system splits into three
-parts along alternating paths from unmatched rows and columns (Dulmage and Mendelsohn 1958): an overdetermined, a
-square and an underdetermined part. Each part depends only on the parts before it.
+A maximum matching pairs rows with columns. In a square system each column then depends on the other columns of its row,
+and the strongly connected components of that graph are the diagonal blocks. Any other system is divided into three
+parts by alternating paths from unmatched rows and columns (Dulmage and Mendelsohn 1958): an overdetermined, a square
+and an underdetermined part. Each part depends only on the parts before it.
 
-The algorithms are implemented here because commands that need them should load neither numpy nor networkx. They are
-iterative, because a train can be deeper than Python's recursion limit.
+The algorithms are implemented here so that commands that use them need not load numpy or networkx. They are iterative,
+because a train can be deeper than Python's recursion limit.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ class Block(NamedTuple):
 
 
 def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
-    """Return the block triangular form of a square system; None if no perfect matching of rows and columns exists.
+    """Return the blocks of the block triangular form of a square system; None if no perfect matching exists.
 
     Each block follows all blocks that it depends on. Run time is linear for trees, and proportional to rows times
     entries in the worst case.
 
-    rows   columns with an entry, for each row
+    rows   indices of the columns with an entry, for each row
     """
     row_of = _maximum_matching(dict(enumerate(rows)))
     if len(row_of) < len(rows):
@@ -38,7 +38,7 @@ def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
 
 
 def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
-    """Return the strongly connected components in order of dependence, by Tarjan's algorithm without recursion."""
+    """Return the strongly connected components in order of dependence, by an iterative form of Tarjan's algorithm."""
     order: dict[int, int] = {}
     low = [0] * len(rows)
     done = [False] * len(rows)
@@ -80,8 +80,8 @@ def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequenc
 def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int) -> list[Block]:
     """Return the blocks of the Dulmage-Mendelsohn decomposition, in an order in which they can be solved.
 
-    Only the first part can have more rows than columns, and only the last more columns than rows. `rows` maps each row
-    to its columns.
+    Only the first block can have more rows than columns, and only the last block can have more columns than rows.
+    `rows` maps each row to its columns.
     """
     row_of = _maximum_matching(rows)
     column_of = {row: column for column, row in row_of.items()}
@@ -99,7 +99,7 @@ def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int)
 
 
 def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) -> list[Block]:
-    """Return the blocks of the square part with its original row and column numbers."""
+    """Return the blocks of the square part, with the original row and column numbers."""
     names = list(rows)
     columns = sorted({column for held in rows.values() for column in held}.difference(known))
     number = {column: at for at, column in enumerate(columns)}
@@ -111,7 +111,7 @@ def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) 
 
 
 def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
-    """Return a maximum bipartite matching, as a mapping from column to row, by augmenting paths.
+    """Return a maximum bipartite matching as a mapping from column to row, found by augmenting paths.
 
     Each round visits every column at most once.
     """
@@ -127,7 +127,7 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Extend the matching by a row through breadth-first search; return True if an augmenting path exists."""
+    """Extend the matching by a row by breadth-first search; return True if an augmenting path exists."""
     # column -> the row that reached it, and the column matched to that row
     came: dict[int, tuple[int, int | None]] = {}
     queue: list[tuple[int, int | None]] = [(root, None)]

@@ -21,7 +21,7 @@ from geartrain.numerics.exact import log10
 from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF
 
 Monomial = tuple[tuple[int, int], ...]
-"""Product of powers of variables: pairs (variable, power) in ascending order of variables; powers are positive or
+"""Product of powers of variables, as pairs (variable, power) in ascending order of variables. Powers are positive or
 negative, never 0.
 """
 
@@ -32,16 +32,16 @@ Product = Callable[[Monomial], Floats]
 """Function that returns the values of a monomial at all points, as an array that can be broadcast."""
 
 _SAFE = 250
-"""Limit of the decimal exponents of terms: between 10^-250 and 10^250 no product underflows or overflows in float64."""
+"""Limit of the decimal exponents of terms: no product underflows or overflows in float64 between 10^-250 and 10^250."""
 
 
 def monomial_of(exponents: Iterable[int]) -> Monomial:
-    """Return the monomial with the given exponents of all variables."""
+    """Return the monomial that has the given exponents of all variables."""
     return tuple((variable, power) for variable, power in enumerate(exponents) if power)
 
 
 def products_of(columns: Sequence[Floats]) -> Product:
-    """Return a `Product` that multiplies columns of values, one for each variable; powers must be 1 or more."""
+    """Return a `Product` that multiplies columns of values, one for each variable. Powers must be 1 or more."""
 
     def product(monomial: Monomial) -> Floats:
         found: Floats = np.ones(())
@@ -54,7 +54,7 @@ def products_of(columns: Sequence[Floats]) -> Product:
 
 
 def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[Floats, Floats]:
-    """Return the sum of arrays in order, and the sum of their absolute values; zeros of `shape` without any array."""
+    """Return the sum of arrays in order, and the sum of their absolute values; zeros of `shape` for an empty sum."""
     each = list(terms)
     if not each:
         return np.zeros(shape), np.zeros(shape)
@@ -62,7 +62,7 @@ def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[
 
 
 def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> int:
-    """Return an upper bound on the number of roundings of a sum of monomials: in one term, and in the summation.
+    """Return an upper bound on the number of roundings of a sum of monomials, in one term and in the summation.
 
     roundings   number of roundings in the value of each variable
     """
@@ -93,7 +93,7 @@ def bounded_quotient(
     upper, lower   terms of numerator and denominator
     roundings      number of roundings in the value of each variable
 
-    A bound is infinite at poles, and at points where no digit is certain.
+    A bound is infinite at poles, and at points at which no digit is certain.
     """
     # divided by the largest coefficient, which may be out of the range of float64
     scale = max((abs(coefficient) for coefficient, _ in (*upper, *lower)), default=1)

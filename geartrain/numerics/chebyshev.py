@@ -1,4 +1,4 @@
-"""Chebyshev series on an interval: interpolation, measure of convergence, and differentiation at nodes."""
+"""Chebyshev series on an interval: interpolation, a measure of convergence, and differentiation at nodes."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 def series_through(values: Floats, start: float, end: float) -> Chebyshev:
-    """Return the series on [start, end] that interpolates values at the Chebyshev points of `points`."""
+    """Return the series on [start, end] that interpolates the values at the Chebyshev points (see `points`)."""
     _, inverse = points(len(values))
     # a series on a point is a constant: numpy needs an interval
     return Chebyshev(inverse @ values, domain=[start, end if end != start else nextafter(start, inf)])
 
 
 def tail(series: Chebyshev) -> float:
-    """Return the maximum magnitude of the last four coefficients divided by the maximum magnitude of all coefficients,
-    a measure of convergence.
+    """Return the maximum magnitude of the last four coefficients divided by that of all coefficients. It is a measure
+    of convergence.
     """
     size = np.abs(series.coef)
     return float(size[-4:].max() / max(size.max(), 1e-300))  # the last coefficient only may be 0 by symmetry
@@ -31,7 +31,7 @@ def tail(series: Chebyshev) -> float:
 
 @lru_cache(maxsize=32)
 def points(count: int) -> tuple[Floats, Floats]:
-    """Return the Chebyshev points of the second kind on [-1, 1], and the matrix from values to coefficients."""
+    """Return the Chebyshev points of the second kind on [-1, 1], and the matrix that maps values to coefficients."""
     x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
     # at these points the matrix is as well conditioned as a cosine transform, so that inverting it is accurate
     return x, np.asarray(np.linalg.inv(cheb.chebvander(x, count - 1)), dtype=np.float64)
@@ -39,7 +39,7 @@ def points(count: int) -> tuple[Floats, Floats]:
 
 @lru_cache(maxsize=32)
 def differentiation(count: int) -> Floats:
-    """Return the differentiation matrix at the Chebyshev points of `points` (barycentric form, rows summing to 0)."""
+    """Return the differentiation matrix at the Chebyshev points, in barycentric form with row sums of 0."""
     x, _ = points(count)
     weights = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
     # barycentric weights of these points (Berrut and Trefethen 2004)

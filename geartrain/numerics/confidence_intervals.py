@@ -21,7 +21,7 @@ PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)  # 95 % range, quartiles and median
 
 
 def deviations(confidence: float = CONFIDENCE) -> float:
-    """Return the number of standard deviations within which a normal variable lies with probability `confidence`."""
+    """Return the number of standard deviations within which a normal variable is with probability `confidence`."""
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 
@@ -31,7 +31,7 @@ class ProbabilityEstimate(Result):
 
     Examples
     --------
-    For 0 of 256 trials the upper end is z^2 / (256 + z^2), z = 1.96.
+    For 0 successes in 256 trials, the upper end of the interval is z^2 / (256 + z^2) with z = 1.96:
 
     >>> never = ProbabilityEstimate(0, 256)
     >>> never.value, [round(end, 5) for end in never.interval]
@@ -57,9 +57,9 @@ class ProbabilityEstimate(Result):
 
 
 def wilson(count: float, of: float) -> tuple[float, float]:
-    """Return Wilson's 95 % score interval for `count` successes in `of` trials; (0, 1) without trials.
+    """Return the 95 % Wilson score interval for `count` successes in `of` trials; (0, 1) if there were none.
 
-    For weighted trials `count` and `of` are effective numbers, which need not be integers.
+    For weighted trials, `count` and `of` are effective numbers, which need not be integers.
     """
     if not of:
         return 0.0, 1.0
@@ -74,7 +74,7 @@ def wilson(count: float, of: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class IntervalEstimate:
-    """Estimate of a quantity with its 95 % confidence interval.
+    """Estimate of a quantity, with a 95 % confidence interval.
 
     Examples
     --------
@@ -100,7 +100,7 @@ def in_degrees(figure: IntervalEstimate) -> list[float | None]:
 
 
 def mean_of(values: Floats) -> IntervalEstimate:
-    """Return the mean of values with its 95 % confidence interval, by the normal approximation."""
+    """Return the mean of some values with its 95 % confidence interval, by the normal approximation."""
     n = len(values)
     if n < 2:
         return IntervalEstimate(float(values[0]) if n else nan, -inf, inf)
@@ -109,12 +109,12 @@ def mean_of(values: Floats) -> IntervalEstimate:
 
 
 def deviation_of(values: Floats) -> IntervalEstimate:
-    """Return the standard deviation of values with Bonett's 95 % interval, which is also valid for non-normal
+    """Return the standard deviation of n values with Bonett's 95 % interval, which is also valid for non-normal
     distributions.
 
     D. G. Bonett, Approximate confidence interval for standard deviation of nonnormal distributions, Comput. Stat. Data
-    Anal. 50 (2006) 775-782: ln(c s^2) +- z c sqrt((g - (n - 3)/n) / (n - 1)), with the kurtosis g about a trimmed mean
-    and c = n / (n - z).
+    Anal. 50 (2006) 775-782: ln(c s^2) +- z c sqrt((g - (n - 3)/n) / (n - 1)), where s is the standard deviation, g the
+    kurtosis about a trimmed mean, z = 1.96 and c = n / (n - z).
     """
     n, z = len(values), deviations()
     if n < 5:
@@ -134,7 +134,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
 
 
 def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
-    """Return a percentile of sorted values, with a distribution-free 95 % interval between two order statistics."""
+    """Return a percentile of sorted values, with a distribution-free 95 % interval between order statistics."""
     n, p = len(ordered), percent / 100
     if not n:
         return IntervalEstimate(nan, -inf, inf)
@@ -145,11 +145,11 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
 
 @cache
 def _counts_below(n: int, p: float) -> tuple[int, int]:
-    """Return the shortest range of the number of values below quantile p, out of n, that has a probability of at least
-    95 %.
+    """Return the shortest range that contains the number of values below quantile p, out of n, with probability 95 % or
+    more.
 
     The count is binomial (H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1). The numbers 0 and
-    n leave an end of the interval open, and are included only if 95 % cannot be reached without them.
+    n correspond to an interval with an open end, and are only included if 95 % cannot be reached otherwise.
     """
     from scipy.special import bdtr
 
@@ -167,6 +167,6 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
 
 
 def percentiles_of(values: Floats) -> dict[float, IntervalEstimate]:
-    """Return the percentiles in `PERCENTILES` of some values, with their confidence intervals, by percentage."""
+    """Return the percentiles listed in `PERCENTILES` of some values, with their confidence intervals, by percentage."""
     ordered = np.sort(values)
     return {percent: percentile_of(ordered, percent) for percent in PERCENTILES}

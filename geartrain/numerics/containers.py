@@ -1,4 +1,4 @@
-"""Immutable mappings, mappings that are created on access, and a pause of the garbage collector."""
+"""Immutable mappings, mappings that are created on access, and a context that suspends the garbage collector."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class FrozenDict(dict[K, V]):
     __slots__ = ()
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
-        """Raise `TypeError` for any modification of the mapping."""
+        """Raise `TypeError` for any attempt to modify the mapping."""
         raise TypeError("this mapping is immutable: copy it with dict(...) and change the copy")
 
     __setitem__ = __delitem__ = __ior__ = _refuse
@@ -75,7 +75,7 @@ class LazyMapping(Mapping[K, V]):
 class ItemwiseMapping(Mapping[K, V]):
     """Mapping with given keys, whose values are created one by one on first access.
 
-    With `keep` False, each value is created anew on every access; for long numbers this saves memory.
+    If `keep` is False, each value is created anew at every access, which saves memory for long numbers.
 
     >>> requested = []
     >>> found = ItemwiseMapping("ab", lambda key: requested.append(key) or key.upper())
@@ -114,7 +114,7 @@ class ItemwiseMapping(Mapping[K, V]):
 
 
 class FrozenFields:
-    """Base class of frozen dataclasses that replaces their dictionaries by immutable dictionaries."""
+    """Base class of frozen dataclasses, which replaces dictionaries in their fields by immutable dictionaries."""
 
     __slots__ = ()
 
@@ -130,7 +130,7 @@ class FrozenFields:
 def collector_paused() -> Iterator[None]:
     """Suppress garbage collection while many long-lived objects are created.
 
-    Each pass of the collector visits all objects created so far, which would make linear work quadratic.
+    Each pass of the collector visits all existing objects, so that linear work would take quadratic time.
     """
     running = gc.isenabled()
     gc.disable()

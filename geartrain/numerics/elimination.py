@@ -1,6 +1,6 @@
 """Sparse linear systems over the rationals: elimination, rank modulo a prime, and feasibility by the simplex method.
 
-Only the standard library is imported, so that exact verdicts on a train do not wait for an array library.
+Only the standard library is imported, so that exact verdicts on a train do not require loading an array library.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from typing import Any, Protocol, TypeVar
 T = TypeVar("T")
 
 PRIME = (1 << 61) - 1
-"""Mersenne prime. The rank modulo it is a lower bound of the rank, and equal to the rank except with probability 1e-18.
-"""
+"""Mersenne prime. The rank modulo it is a lower bound on the rank, and equals it except with probability 1e-18."""
 
 LinearForm = dict[int, Fraction]
 """Linear form as a mapping from column to coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are
@@ -27,12 +26,12 @@ treated as known.
 
 @dataclass(frozen=True, slots=True)
 class Echelon:
-    """Echelon form: pivots in the order of elimination, conditions that contain only symbols, and redundant rows."""
+    """Echelon form, which consists of pivots in the order of elimination, conditions on symbols, and redundant rows."""
 
     pivots: tuple[tuple[int, LinearForm], ...]
-    """Pairs (column, rest), which mean: unknown = -(rest). `rest` contains no column of an earlier pair."""
+    """Pairs (column, rest), which mean that the unknown is -(rest). `rest` contains no column of an earlier pair."""
     conditions: tuple[LinearForm, ...]
-    """Rows without unknowns, each of which must be 0 for a consistent system."""
+    """Rows that contain only symbols, each of which must be 0 for a consistent system."""
     redundant: tuple[int, ...]
     """Indices of redundant rows, which elimination reduces to 0 = 0."""
 
@@ -42,7 +41,7 @@ class Echelon:
         return len(self.pivots)
 
     def forms(self, budget: int | None = None) -> dict[int, LinearForm]:
-        """Return the unknown of every pivot as a linear form of symbols and free unknowns, by back substitution.
+        """Return the unknown of every pivot as a linear form in symbols and free unknowns, by back substitution.
 
         Many free unknowns lead to long forms. `TooDenseError` is raised after `budget` operations.
         """
@@ -85,8 +84,8 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
     """Eliminate unknowns by sparse Gaussian elimination over the rationals or modulo a prime; see `eliminate_units`.
 
     rows      linear forms that must be 0; columns < 0 are symbols
-    budget    maximum number of operations, weighted by the length of numbers; `TooDenseError` beyond it
-    modulus   0 for exact rationals, else a prime; coefficients must then be integers
+    budget    maximum number of operations, weighted by the length of numbers; `TooDenseError` is raised beyond it
+    modulus   0 for exact rational numbers, or a prime, for which coefficients must be integers
     """
     field = Residues(modulus) if modulus else RATIONALS
     pivots, left = eliminate_units(rows, field, budget)
@@ -103,7 +102,7 @@ class Ring(Protocol[T]):
         ...
 
     def inverse(self, entry: T) -> T | None:
-        """Return the inverse of a coefficient; None if it is not a unit of the ring."""
+        """Return the inverse of a coefficient; None if the coefficient is not a unit of the ring."""
         ...
 
     def words(self, entry: T) -> int:
@@ -133,7 +132,7 @@ class Residues:
     modulus: int
 
     def inverse(self, entry: Any) -> Any:
-        """Return the inverse of a residue modulo the prime."""
+        """Return the inverse of a residue, modulo the prime."""
         return pow(int(entry), -1, self.modulus)
 
     def words(self, entry: Any) -> int:
@@ -146,15 +145,15 @@ def eliminate_units(
 ) -> tuple[list[tuple[int, dict[int, T]]], list[tuple[int, dict[int, T]]]]:
     """Eliminate unknowns over any commutative ring by sparse Gaussian elimination with units as pivots.
 
-    The shortest row is eliminated first, and its pivot is the column with the fewest entries (Markowitz pivoting in
-    part). Rows with one or two unknowns are plain substitutions, so chains, trees and cascades take linear time.
-    Fill-in appears only where circuits are truly coupled.
+    The shortest row is eliminated first, and its pivot is the column with the fewest entries (a simplified Markowitz
+    rule). Rows with one or two unknowns are substitutions, so chains, trees and cascades take linear time. Fill-in
+    occurs only where circuits are coupled.
 
-    rows     linear forms that must be 0; columns < 0 are symbols, never pivots
-    budget   maximum number of operations, weighted by the length of coefficients; `TooDenseError` beyond it
+    rows     linear forms that must be 0; columns < 0 are symbols, which are never pivots
+    budget   maximum number of operations, weighted by the length of coefficients; `TooDenseError` is raised beyond it
 
-    Returns the pivots in the order of elimination, (column, rest) with column = -(rest), and the remaining rows with
-    their indices: first rows without unknowns, then rows in which no unknown has a unit.
+    Returns the pivots in the order of elimination as (column, rest), which means that the unknown is -(rest), and the
+    remaining rows with their indices: first rows without unknowns, then rows in which no coefficient is a unit.
     """
     modulus = ring.modulus
     active = {index: dict(row) for index, row in enumerate(rows)}
@@ -218,19 +217,19 @@ def eliminate_units(
 
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:
-    """Return a multiple of a rational row with integer coefficients modulo a prime."""
+    """Return a multiple of a rational row whose coefficients are integers, reduced modulo a prime."""
     # one factor for the whole row does not change the rank, and avoids inverting denominators modulo the prime
     scale = math.lcm(*(value.denominator for value in row.values()))
     return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]
 
 
 def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) -> int:
-    """Return the rank of rational rows modulo a prime, a lower bound that is almost always equal to the true rank."""
+    """Return the rank of rational rows modulo a prime, which is a lower bound and almost always the true rank."""
     return eliminate((residues(row, modulus) for row in rows), modulus=modulus).rank
 
 
 def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
-    """Return True if values of the unknowns exist for which every linear form is nonnegative, by phase 1 of the simplex
+    """Return True if there are values of the unknowns for which no linear form is negative, by phase 1 of the simplex
     method.
 
     Bland's rule, by which the entering and the leaving variables have the lowest possible index, prevents cycling.

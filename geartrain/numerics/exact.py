@@ -1,7 +1,7 @@
-"""Integers and Fractions of any length: products with few gcds, nearest floats, multiples of pi, and decimal text, full
-or abridged.
+"""Integers and Fractions of any length: products with few gcds, nearest floats, multiples of pi, and full or abridged
+text.
 
-Python's limit on the number of digits in text is neither exceeded nor changed.
+Python's limit on the number of digits in conversions to text is neither exceeded nor changed.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from fractions import Fraction
 def coprime(numerator: int, denominator: int) -> Fraction:
     """Return a Fraction from coprime numerator and positive denominator without the gcd of the Fraction constructor.
 
-    The gcd of long integers takes quadratic time, and products along a train are already reduced.
+    The gcd of long integers takes quadratic time, and is not required for products that are already in lowest terms.
     """
     value = Fraction()
     value._numerator = numerator  # type: ignore[attr-defined]
@@ -24,9 +24,9 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 
 
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
-    """Return n/d times a/b as a reduced fraction (numerator, positive denominator).
+    """Return the product of n/d and a/b as (numerator, positive denominator) in lowest terms.
 
-    n/d must be reduced. a and b have few digits, so that the gcds take little time.
+    n/d must be in lowest terms. a and b should have few digits, so that the gcds take little time.
     """
     if b < 0:
         a, b = -a, -b
@@ -46,7 +46,7 @@ def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
 
 
 def whole_multiple(values: Iterable[Fraction | int]) -> list[int]:
-    """Return the smallest integers proportional to the values, with the same signs."""
+    """Return the smallest integers that are proportional to the values and have the same signs."""
     some = list(values)
     if all(abs(value) == 1 for value in some):
         return [int(value) for value in some]
@@ -57,7 +57,7 @@ def whole_multiple(values: Iterable[Fraction | int]) -> list[int]:
 
 
 def log10(value: Fraction) -> float:
-    """Return the decimal logarithm of |value| for numbers of any size; -inf for zero."""
+    """Return the decimal logarithm of the magnitude of a number of any size; -inf for zero."""
     if not value:
         return -math.inf
     # logarithms of long integers are floats, even if their quotient overflows
@@ -76,7 +76,7 @@ def as_float(value: Fraction | float) -> float | None:
 
 
 def nearest_float(value: Fraction) -> float:
-    """Return the nearest float64; 0 or an infinity, with the sign of the value, beyond its range."""
+    """Return the nearest float64; beyond its range, return 0 or an infinity with the sign of the value."""
     number = as_float(value)
     if number is not None:
         return number
@@ -113,14 +113,13 @@ def decimal(value: Fraction, digits: int = 10) -> str:
 
 
 _PLAIN, _SHORT = 2000, 600
-"""Maximum bits and maximum digits of integers that Python converts itself; Python's limit on digits is never below 640.
-"""
+"""Maximum bits and maximum digits of integers that Python converts itself; its limit is never below 640 digits."""
 
 
 def fraction_text(value: Fraction | int) -> str:
     """Format an integer or Fraction of any size with all digits, as `str` does.
 
-    Python refuses to convert integers beyond 4300 digits. This function does not change the limit of the process.
+    By default, Python does not convert integers with more than 4300 digits. This function does not change that limit.
 
     >>> fraction_text(Fraction(-254, 19)), len(fraction_text(7**20_000))
     ('-254/19', 16902)
@@ -130,7 +129,7 @@ def fraction_text(value: Fraction | int) -> str:
 
 
 def read_fraction(text: str) -> Fraction:
-    """Parse the text of `fraction_text`, for numbers of any size.
+    """Parse a number of any size from text in the format of `fraction_text`.
 
     >>> read_fraction("-254/19"), read_fraction(fraction_text(7**20_000)) == 7**20_000
     (Fraction(-254, 19), True)
@@ -142,7 +141,7 @@ def read_fraction(text: str) -> Fraction:
 
 
 def abridged_text(value: Fraction | int, most: int = 40) -> str:
-    """Format a number with all digits if these fit in `most` characters, else with the number of its digits.
+    """Format a number with all digits if they fit in `most` characters, else give only the number of digits.
 
     >>> abridged_text(Fraction(11, 10) ** 5), abridged_text(Fraction(11, 10) ** 5000)
     ('161051/100000', '(5207 digits)/(5001 digits)')
@@ -187,7 +186,7 @@ def percent_of_text(part: Fraction, whole: str) -> str:
 
 
 def plural(count: int, noun: str) -> str:
-    """Format a count with its noun: `1 loop`, `2 loops`."""
+    """Return a count with its noun in singular or plural form: `1 loop`, `2 loops`."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
@@ -222,8 +221,7 @@ def _digits(number: int) -> str:
 PI = Fraction(3141592654841143, 1000000000398317)
 """Quotient of two primes that differs from pi by a factor of 1 + 1.7e-19, less than the rounding error of float64.
 
-The primes are above every tooth count, so that identities in pi are preserved and no other number cancels by
-coincidence.
+The primes exceed every tooth count, so that identities in pi are preserved and no other number cancels by coincidence.
 """
 
 OTHER_PI = Fraction(3141592654637417, 1000000000333469)
@@ -233,13 +231,13 @@ _LONGEST = 24  # characters of the rational factor: longer factors are not print
 
 
 def touches_pi(value: Fraction) -> bool:
-    """Return True if a number has a prime factor of `PI`, as all of its rational multiples have."""
+    """Return True if a number has a prime factor of `PI`; all rational multiples of `PI` have one."""
     parts = value.numerator, value.denominator
     return bool(value) and any(part % prime == 0 for part in parts for prime in (PI.numerator, PI.denominator))
 
 
 def _factor(value: Fraction) -> tuple[Fraction, int]:
-    """Return the rational factor of a multiple of a power of pi, 1 or -1, and the power; (value, 0) otherwise."""
+    """Return the rational factor and the power of a rational multiple of pi or 1/pi; (value, 0) for other numbers."""
     if value and value.numerator % PI.numerator == 0 and value.denominator % PI.denominator == 0:
         return value / PI, 1
     if value and value.numerator % PI.denominator == 0 and value.denominator % PI.numerator == 0:
@@ -248,13 +246,13 @@ def _factor(value: Fraction) -> tuple[Fraction, int]:
 
 
 def with_other_pi(value: Fraction) -> Fraction:
-    """Return a multiple of pi or 1/pi computed with `OTHER_PI` instead of `PI`; other numbers are unchanged."""
+    """Return a multiple of pi or 1/pi computed with `OTHER_PI` instead of `PI`; return other numbers unchanged."""
     factor, power = _factor(value)
     return factor * OTHER_PI**power
 
 
 def integer_factors(number: int, pi: str = "π") -> list[str]:
-    """Return the factors of a positive coefficient as texts: an integer, unless it is 1, and the letter pi.
+    """Return the factors of a positive coefficient as strings: an integer, unless it is 1, and the letter pi.
 
     In a quotient of polynomials with powers of `PI`, all terms have the same total number of factors that are its
     numerator or denominator, so that the denominator can be omitted.
@@ -270,8 +268,8 @@ def integer_factors(number: int, pi: str = "π") -> list[str]:
 
 
 def pi_text(value: Fraction) -> str:
-    """Format an exact number; a multiple of pi or of 1/pi with a short factor is written with the letter, other numbers
-    with a factor of `PI` as decimals.
+    """Format an exact number. Short multiples of pi or 1/pi are written with the letter, other numbers with a factor of
+    `PI` as decimals.
 
     >>> pi_text(36 * PI), pi_text(-PI), pi_text(5 / (96 * PI)), pi_text(Fraction(5, 4)), pi_text(1 + PI)
     ('36 π', '-π', '5/(96 π)', '5/4', '≈ 4.14159265359')

@@ -1,6 +1,6 @@
-"""Numbers stored as a short ratio to another number, and multiplied out on access.
+"""Numbers that are stored as short ratios to other numbers and multiplied out on access.
 
-Along a train every speed is the speed of a neighbouring link times a ratio of tooth counts. If the factors do not
+Along a train, every speed is the speed of a neighbouring link times a ratio of tooth counts. If the factors do not
 cancel, the speed after a thousand links has thousands of digits, and storage of all speeds takes quadratic memory. Each
 number is therefore stored as a short ratio to an earlier one.
 """
@@ -13,17 +13,17 @@ from fractions import Fraction
 from geartrain.numerics.exact import coprime, times
 
 _SHORT = 256
-"""Maximum number of bits of numerator and denominator for which a number is multiplied out immediately."""
+"""Maximum number of bits in numerator and denominator for which a number is multiplied out immediately."""
 
 _KEPT = 64
-"""Maximum number of long numbers that are kept; numbers accessed one after another are usually near each other."""
+"""Maximum number of long numbers that are kept, because consecutive accesses are usually near each other."""
 
 
 class FactoredRatios:
     """Numbers by index: roots with given values, and numbers defined as a ratio times an earlier number.
 
     parent           index of the number from which it is derived; -1 for a root
-    anchor           index of the number that is multiplied by `top` / `bottom`; -1 if the quotient is the value
+    anchor           index of the number that is multiplied by `top`/`bottom`; -1 if this quotient is the value itself
     top, bottom      ratio in lowest terms, bottom > 0; bottom is 0 if the number is not yet known
     """
 
@@ -35,11 +35,11 @@ class FactoredRatios:
         self._kept: dict[int, Fraction] = {}
 
     def set_root(self, at: int, top: int, bottom: int = 1) -> None:
-        """Set the value of a root, a fraction in lowest terms."""
+        """Set the value of a root, which is a fraction in lowest terms."""
         self.top[at], self.bottom[at] = top, bottom
 
     def follow(self, at: int, parent: int, a: int, b: int) -> None:
-        """Define a number as a / b times a known number; a and b are integers of few digits."""
+        """Define a number as a/b times a known number; the integers a and b have few digits."""
         n, d = times(self.top[parent], self.bottom[parent], a, b)
         self.parent[at] = parent
         if n.bit_length() <= _SHORT and d.bit_length() <= _SHORT:

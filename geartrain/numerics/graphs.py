@@ -1,4 +1,4 @@
-"""Paths in a rooted forest, and disjoint sets (union-find), also with known ratios between elements.
+"""Paths in a rooted forest, and disjoint sets (union-find), optionally with known ratios between elements.
 
 A forest is given by a function that returns the parent of a vertex, and None for a root. All algorithms are iterative,
 so that the forest can have any depth.
@@ -23,9 +23,9 @@ def chain_to_root(vertex: V, above: Callable[[V], V | None]) -> list[V]:
 
 
 def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple[list[V], list[V]]:
-    """Return the paths from two vertices of one tree up to their lowest common ancestor, which ends both.
+    """Return the paths from two vertices of one tree to their lowest common ancestor, with which both paths end.
 
-    The two paths and the edge i j form the fundamental cycle of this edge.
+    The two paths and the edge (i, j) form the fundamental cycle of this edge.
 
     >>> ways_to_common_ancestor("c", "d", {"c": "b", "b": "a", "d": "b"}.get)
     (['c', 'b'], ['d', 'b'])
@@ -39,13 +39,13 @@ def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple
 
 
 class DisjointSets(Generic[V]):
-    """Disjoint sets that can only be merged (union-find); an element not seen before is a set of its own."""
+    """Disjoint sets that can only be merged (union-find). An element that has not been merged is a set by itself."""
 
     def __init__(self) -> None:
         self._above: dict[V, V] = {}
 
     def find(self, thing: V) -> V:
-        """Return the representative of an element's set, the same for all its elements until sets are merged."""
+        """Return the representative of an element's set; it is the same for all elements until sets are merged."""
         above = self._above
         while (head := above.setdefault(thing, thing)) != thing:
             above[thing] = above[head]  # path halving
@@ -64,7 +64,7 @@ class DisjointSets(Generic[V]):
 class RatioSets(Generic[V]):
     """Sets of quantities with known ratios: union-find with exact weights.
 
-    A quantity not seen before has a known ratio only to itself. `join` does not change ratios that are already known.
+    The ratio of a new quantity is known only to itself. `join` does not change ratios that are already known.
 
     >>> sizes = RatioSets()
     >>> sizes.join("inch", "foot", Fraction(12))
@@ -77,7 +77,7 @@ class RatioSets(Generic[V]):
         self._above: dict[V, tuple[V, Fraction]] = {}
 
     def root(self, thing: V) -> tuple[V, Fraction]:
-        """Return the representative of a quantity's set, and the quantity divided by its representative."""
+        """Return the representative of a quantity's set, and the quantity divided by this representative."""
         way = []
         while (step := self._above.get(thing)) is not None:
             way.append((thing, step[1]))
@@ -104,8 +104,8 @@ class RatioSets(Generic[V]):
 def joined_groups(things: Iterable[V], joints: Iterable[Iterable[V]]) -> list[list[V]]:
     """Return groups of elements that are connected by joints; a joint connects any number of elements.
 
-    Groups are in the order of their first members, and members in the given order. Names in a joint that are not among
-    the elements are ignored.
+    Groups are in the order of their first members, and members are in the given order. Members of a joint that are not
+    in `things` are ignored.
 
     >>> joined_groups("abcde", ["cax", "eb", "xd"])
     [['a', 'c'], ['b', 'e'], ['d']]

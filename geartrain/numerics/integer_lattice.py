@@ -10,12 +10,12 @@ Row = dict[int, int]
 
 
 def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], list[Row], int]:
-    """Return a basis of the saturated lattice of integer rows, its dual columns, and the index of the rows in it.
+    """Return a basis of the saturated lattice of integer rows, its dual columns, and the index of the given rows in it.
 
-    The saturated lattice consists of all integer rows in the rational span. Unimodular column operations bring the rows
-    to triangular form, Y V = [H 0], which is Hermite's normal form without reduction of its entries. The basis is H^-1
-    Y, and the first columns of V are dual to it. The index is det H, and is 1 if the rows are already a basis. Linearly
-    dependent rows are dropped.
+    The saturated lattice consists of all integer rows in the rational span. Unimodular column operations V bring the
+    rows Y to triangular form, Y V = [H 0], which is the Hermite normal form without reduction of its entries. The basis
+    is H^-1 Y, and the first columns of V are dual to it. The index is det H, and is 1 if the rows are already a basis.
+    Linearly dependent rows are omitted.
     """
     columns: dict[int, Row] = {}
     for at, row in enumerate(rows):
@@ -42,7 +42,7 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
 
 
 def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | None:
-    """Reduce the entries of one row by Euclid's algorithm until at most one column has an entry; return this column."""
+    """Reduce the entries of one row by Euclid's algorithm until only one column has an entry; return this column."""
     live = [key for key, column in columns.items() if at in column]
     while len(live) > 1:
         # divide by the smallest entry: remainders, and the numbers in `moves`, stay short

@@ -1,16 +1,16 @@
 """Kernels: numerical functions in plain Python that numba can compile and cache on disk.
 
-A function decorated with `@kernel` is called like any function and then runs as Python. Its attribute `compiled` is
-the same function as machine code, compiled by numba, an optional dependency (the extra `fast`). numba caches the
-machine code in the package's folder. If that is not writable, it uses the user's cache folder or `NUMBA_CACHE_DIR`.
+A function decorated with `@kernel` is called like any function and then runs as Python. Its attribute `compiled` is the
+same function as machine code, compiled by numba, an optional dependency (the extra `fast`). numba caches the machine
+code in the package's folder. If this folder is not writable, it uses the user's cache folder or `NUMBA_CACHE_DIR`.
 numba is imported only when a kernel is first compiled or loaded.
 
 A kernel may call other kernels by name, and functions of `math`. The code of the called kernels is part of the cache
-key, so a change anywhere recompiles all callers. Rounding is as in Python: sums are not reordered and products are not
-fused. A division by zero returns an infinity, as in numpy, and does not raise an error as in Python. Arguments should
-keep their types and be C-contiguous writable arrays, because every new type requires a compilation.
+key, so that all callers are recompiled if it changes. Rounding is as in Python: sums are not reordered and products are
+not fused. A division by zero returns an infinity, as in numpy, and does not raise an error as in Python. Arguments
+should keep their types and be C-contiguous writable arrays, because every new type requires a compilation.
 
-Compilation takes seconds. `telling` calls a function when it begins, and Ctrl+C interrupts it.
+Compilation takes several seconds. `telling` calls a function when it begins, and Ctrl+C interrupts it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _listeners: list[Callable[[], None]] = []  # functions called once when a kernel
 
 @contextmanager
 def telling(say: Callable[[], None]) -> Iterator[None]:
-    """Call `say` before the first kernel is compiled within the context; kernels loaded from disk are not reported."""
+    """Call `say` before the first kernel is compiled in this context; loading kernels from disk is not reported."""
     _listeners.append(say)
     try:
         yield
@@ -43,10 +43,11 @@ def telling(say: Callable[[], None]) -> Iterator[None]:
 
 @contextmanager
 def compilation() -> Iterator[None]:
-    """Wrap all work that numba does before a kernel runs, so that Ctrl+C interrupts it.
+    """Return a context for all work that numba does before a kernel runs, in which Ctrl+C interrupts this work.
 
     Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is
-    finalised. Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
+    finalised. In this context the interrupt is recorded without a warning, and raised as soon as the kernel is
+    compiled.
     """
     with ExitStack() as opened:
         if _listeners:
@@ -58,7 +59,7 @@ def compilation() -> Iterator[None]:
 
 
 class _Listener:
-    """Listener for numba's events at the start and end of a compilation."""
+    """Listener for numba's events at the beginning and end of a compilation."""
 
     def notify(self, event: Any) -> None:
         while _listeners:
@@ -97,7 +98,7 @@ _PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # types of global co
 
 
 class Kernel(Generic[P, R]):
-    """Function in plain Python with its compiled form, created by `kernel`."""
+    """Function in plain Python together with its compiled form, created by the decorator `kernel`."""
 
     def __init__(self, function: Callable[P, R]) -> None:
         update_wrapper(self, function)
@@ -109,12 +110,12 @@ class Kernel(Generic[P, R]):
 
     @cached_property
     def compiled(self) -> Callable[P, R]:
-        """Compiled function, loaded from disk if possible. Raises `MissingExtraError` without numba."""
+        """Compiled function, loaded from disk if possible. Raises `MissingExtraError` if numba is not installed."""
         return self._made()
 
     @cached_property
     def _called(self) -> Callable[P, R]:
-        """Function compiled for calls from other kernels only, which takes less time."""
+        """Compiled function that can only be called from other kernels, which takes less time to compile."""
         return self._made(no_cpython_wrapper=True)
 
     def _made(self, **options: bool) -> Callable[P, R]:
@@ -129,11 +130,11 @@ class Kernel(Generic[P, R]):
         return cast("Callable[P, R]", made)
 
     def chosen(self, fast: bool) -> Callable[P, R]:
-        """Return the compiled function if `fast`, else the function in plain Python."""
+        """Return the compiled function if `fast` is True, else the function in plain Python."""
         return self.compiled if fast else self
 
     def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
-        """Return a copy of the function in which some global names refer to other objects."""
+        """Return a copy of the function in which the given global names refer to other objects."""
         own = self._function
         twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)
         twin.__annotations__ = own.__annotations__
@@ -141,7 +142,7 @@ class Kernel(Generic[P, R]):
 
     @property
     def _named(self) -> dict[str, Any]:
-        """Global objects to which the function refers, by name."""
+        """Global objects to which the function refers, by name of the global variable."""
         known = self._function.__globals__
         return {name: known[name] for name in _names(self._function.__code__) if name in known}
 
@@ -149,8 +150,8 @@ class Kernel(Generic[P, R]):
     def digest(self) -> str:
         """Hash of the function's code, the constants of its module that it uses, and the kernels that it calls.
 
-        The named tuples of its module are included too, because the cache on disk contains them as types and cannot be
-        loaded when one of them has been removed.
+        The named tuples of its module are also included, because the cache on disk contains their types and cannot be
+        loaded if one of them has been removed.
         """
         function = self._function
         found = sha256(f"{function.__module__} {function.__annotations__} {_text(function.__code__)}".encode())
@@ -173,7 +174,8 @@ def kernel(function: Callable[P, R]) -> Kernel[P, R]:
 def is_fast(fast: bool | None, seconds: float) -> bool:
     """Return True if kernels are to be compiled for work that takes `seconds` in Python and numpy.
 
-    fast   choice of the user; None to compile if numba is installed and the work is long enough to justify loading it
+    fast   choice of the user; None to compile if numba is installed and the work is long enough to justify loading
+           numba
 
     Raises `MissingExtraError` if `fast` is true and numba is not installed.
     """

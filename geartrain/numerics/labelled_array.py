@@ -20,7 +20,7 @@ _MOST = 40  # labels of an axis that are shown whole
 class LabelledArray(Tabular, Result):
     """Read-only array with a name for every axis and a label for every position on an axis.
 
-    `array["moon"]` or `array["moon", "0"]` is the value or sub-array at these labels. An unknown label raises
+    `array["moon"]` or `array["moon", "0"]` returns the value or sub-array at these labels. An unknown label raises
     `KeyError`.
 
     Examples
@@ -34,7 +34,7 @@ class LabelledArray(Tabular, Result):
     KEYS = ("axes", "labels", "values")
 
     values: NDArray[Any]
-    """Values, a read-only array with one dimension for each axis."""
+    """Values of the array, read-only, with one dimension for each axis."""
     axes: tuple[str, ...]
     """Name of each axis, such as ("link", "case")."""
     labels: tuple[tuple[str, ...], ...]
@@ -53,7 +53,8 @@ class LabelledArray(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each label of the second axis and a column for each label of the first axis.
+        """Columns of a table with a row for each label of the second axis and a column for each label of the first
+        axis.
 
         An array with one axis has a column of labels and a column of values. An array with three or more axes has a row
         for each value.
@@ -84,7 +85,7 @@ class LabelledArray(Tabular, Result):
         return "Value at the labels." if column == "value" else f"Value at {self.axes[0]} {column}."
 
     def __str__(self) -> str:
-        """Return the values as numpy prints them, with the names and labels of the axes."""
+        """Return the values in the format of numpy, with the names and labels of the axes."""
         labels = ", ".join(_names(each) for each in self.labels)
         return f"LabelledArray(values={self.values!r}, axes={self.axes!r}, labels=({labels}))"
 
@@ -103,7 +104,7 @@ class LabelledArray(Tabular, Result):
 
 
 def _shown(count: int) -> list[int | None]:
-    """Return the positions of an axis that are displayed: all, or the first and the last with None between them."""
+    """Return the displayed positions of an axis: all, or the first and the last ones with None between them."""
     if count <= _MOST:
         return list(range(count))
     return [*range(_MOST // 2), None, *range(count - _MOST // 2, count)]

@@ -1,7 +1,7 @@
-"""Multigraph of networkx with attributes that are computed on first access.
+"""networkx multigraph with attributes that are computed on first access.
 
-An attribute of an edge may take longer to compute than the graph. It is stored as `Lazy(make)`, and networkx returns
-the result of `make` whenever the attribute is read.
+Computing an attribute of an edge may take longer than building the graph. Such an attribute is stored as `Lazy(make)`,
+and networkx returns the result of `make` whenever it is read.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import networkx as nx
 
 
 class Lazy:
-    """Value that is computed once, on first access; stored as an attribute of a graph."""
+    """Attribute of a graph whose value is computed once, on first access."""
 
     __slots__ = ("_make", "_value")
 
@@ -30,7 +30,7 @@ class Lazy:
 
 
 class LazyDict(MutableMapping[str, Any]):
-    """Mapping that computes its `Lazy` values on access; callers get only computed values.
+    """Mapping that computes its `Lazy` values on access; callers only receive computed values.
 
     >>> requested = []
     >>> data = LazyDict(id="a", cost=Lazy(lambda: requested.append("cost") or 7))
@@ -65,7 +65,7 @@ class LazyDict(MutableMapping[str, Any]):
         return key in self._stored
 
     def copy(self) -> dict[str, Any]:
-        """Return a plain dictionary of all values; lazy values are computed."""
+        """Return a plain dictionary of all values, in which lazy values are computed."""
         return dict(self)
 
     def __or__(self, other: Mapping[str, Any]) -> dict[str, Any]:
@@ -95,5 +95,5 @@ class LazyGraph(_MultiGraph):
     edge_attr_dict_factory = LazyDict
 
     def __repr__(self) -> str:
-        """Return networkx's summary line with name and numbers of nodes and edges."""
+        """Return networkx's summary line, with the name and the numbers of nodes and edges."""
         return f"<{self}>"

@@ -12,9 +12,8 @@ def public_names(
 ) -> tuple[Callable[[str], Any], list[str]]:
     """Return the function `__getattr__` and the sorted names `__all__` of a package.
 
-    modules       module below `package` -> names that it defines, separated by blanks; with leading dots, relative to a
-                  package above it
-    subpackages   names of packages below `package` that are attributes of it without an import statement, separated by
+    modules       module in `package` -> names that it defines, separated by blanks; leading dots mean parent packages
+    subpackages   names of packages in `package` that are its attributes without an import statement, separated by
                   blanks; they are not part of `__all__`
     """
     homes = {name: module for module, names in modules.items() for name in names.split()}

@@ -1,8 +1,8 @@
-"""Periodic functions of one variable, given by points, harmonics or functions: values, derivatives, extremes, moments.
+"""Periodic functions of one variable, given by points, harmonics or functions, with their derivatives and extremes.
 
 Points are interpolated by a periodic cubic spline, by the monotone cubics of Fritsch and Carlson (PCHIP), by straight
-lines, or by steps. Extremes are found between the points too: every smooth interval is sampled more finely than the
-function varies, and each stationary point between two samples is a bracketed root of the derivative.
+lines, or by steps. Extremes between the points are also found: every smooth interval is sampled more finely than the
+function varies, and each stationary point is found as a bracketed root of the derivative between two samples.
 """
 
 from __future__ import annotations
@@ -27,38 +27,38 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Interpolation = Literal["pchip", "cubic", "linear", "steps"]
-"""Interpolation between points: monotone cubics, a periodic cubic spline, straight lines, or the last point's value."""
+"""Interpolation between points: monotone cubics, periodic cubic spline, straight lines, or the last point's value."""
 
 _FEWEST_POINTS = {"pchip": 3, "cubic": 4, "linear": 2, "steps": 2}
 _PER_WAVE = 32  # samples of the shortest wave
 _INSET = 16 * float(np.finfo(float).eps)  # periods: distance of the samples from breakpoints, several rounding errors
-_FINE = 1e-9  # of a bracket: the value at a stationary point is exact to the square of its error
+_FINE = 1e-9  # [brackets] the value at a stationary point is exact to the square of its error
 _MOST_SAMPLES = 5_000_000
 _GAUSS = np.polynomial.legendre.leggauss(8)  # exact to degree 15
 
 
 class PeriodicFunction(ABC):
-    """Function f with f(x + period) = f(x), smooth between its breakpoints.
+    """Function f with f(x + period) = f(x) that is smooth between its breakpoints.
 
-    period        period, above 0
+    period        period, which is positive
     breakpoints   ascending positions in [0, period) at which the function or one of its derivatives is discontinuous
-    resolution    maximum distance of samples that follow the function between breakpoints
+    resolution    maximum distance between samples that resolve the function between breakpoints
     """
 
     period: float
     breakpoints: Floats
     resolution: float = inf
     per_interval: int = 9
-    """Minimum number of samples of an interval between breakpoints."""
+    """Minimum number of samples in an interval between breakpoints."""
 
     @property
     def waves(self) -> float:
-        """Number of oscillations of the fastest component per period; 0 if only the breakpoints limit the sampling."""
+        """Oscillations of the fastest component in one period; 0 if only breakpoints limit the sampling."""
         return self.period / self.resolution / _PER_WAVE
 
     @abstractmethod
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
 
     def __call__(self, x: ArrayLike) -> Floats:
         """Return the values of the function at any positions."""
@@ -66,7 +66,9 @@ class PeriodicFunction(ABC):
 
     @cached_property
     def _samples(self) -> Floats:
-        """Ascending positions over one period, close to both sides of every breakpoint, at most `resolution` apart."""
+        """Ascending positions over one period, at most `resolution` apart, with positions on both sides of every
+        breakpoint.
+        """
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
         counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)
@@ -80,8 +82,8 @@ class PeriodicFunction(ABC):
         return found
 
     def extremes(self, order: int = 0) -> tuple[float, float]:
-        """Return the minimum and the maximum of the derivative of an order from 0 (the function) to 2 over a period;
-        positions with the value NaN are ignored.
+        """Return the minimum and maximum over a period of the derivative of the given order, from 0 (the function) to
+        2. Positions at which it is NaN are ignored.
         """
         x = self._samples
         slopes = self.derivative(x, order + 1)
@@ -99,11 +101,11 @@ class PeriodicFunction(ABC):
         return float(np.nanmin(values)), float(np.nanmax(values))
 
     def minimum_at(self, order: int = 0) -> float:
-        """Return the approximate position in [0, period) of the minimum of the derivative of an order from 0 to 2."""
+        """Return the approximate position in [0, period) of the minimum of a derivative of order 0 to 2."""
         return float(self._samples[np.argmin(self.derivative(self._samples, order))] % self.period)
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean and the rms deviation from the mean over a period, by Gauss-Legendre quadrature."""
+        """Return the mean and the root mean square deviation from it over a period, by Gauss-Legendre quadrature."""
         x, (nodes, weights) = self._samples, _GAUSS
         half = np.diff(x) / 2
         values = self(x[:-1, None] + half[:, None] * (1 + nodes))
@@ -112,18 +114,18 @@ class PeriodicFunction(ABC):
         return mean, sqrt(float(half @ (values - mean) ** 2 @ weights) / self.period)
 
     def sides(self, order: int) -> tuple[Floats, Floats]:
-        """Return the derivative of an order from 0 to 3 just before and just after each breakpoint."""
+        """Return the left and right limits of the derivative of the given order, from 0 to 3, at each breakpoint."""
         inset = _INSET * self.period
         return self.derivative(self.breakpoints - inset, order), self.derivative(self.breakpoints + inset, order)
 
 
 class PeriodicPieces(PeriodicFunction):
-    """Periodic function with a polynomial on each piece.
+    """Periodic function that is a polynomial on each piece.
 
     starts         ascending positions at which the pieces begin
-    coefficients   coefficients of the powers of the distance from the origin of the piece, from the highest power
-    period         period, at least the difference of the last and the first start
-    origins        origin of each piece; default its start
+    coefficients   coefficients of the powers of the distance from the piece's origin, in descending order of powers
+    period         period, at least the difference between the last and the first start
+    origins        origin of each piece; by default its start
     """
 
     def __init__(self, starts: Floats, coefficients: Floats, period: float, origins: Floats | None = None) -> None:
@@ -134,7 +136,7 @@ class PeriodicPieces(PeriodicFunction):
         self._first, self.per_interval = starts[0], max(self.per_interval, len(coefficients) + 2)
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
         u = np.mod(np.asarray(x, dtype=float) - self._first, self.period)
         piece = np.searchsorted(self._starts, u, side="right") - 1
         u = u - self._origins[piece]
@@ -145,7 +147,7 @@ class PeriodicPieces(PeriodicFunction):
 
 
 class PeriodicTable(PeriodicPieces):
-    """Periodic function through points.
+    """Periodic function that interpolates points.
 
     positions       ascending positions in [0, period)
     values          values at these positions
@@ -167,8 +169,8 @@ class PeriodicTable(PeriodicPieces):
 
 
 def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
-    """Return the coefficients of the cubics between points, shape (4, pieces), from the highest power; the last point
-    is the first one, a period later.
+    """Return the coefficients of the cubics between points, shape (4, pieces), in descending order of powers; the last
+    point is the first one after one period.
     """
     if interpolation == "steps":
         return np.vstack([np.zeros((3, len(x) - 1)), y[:-1]])
@@ -187,10 +189,11 @@ def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
 def check_points(
     positions: Sequence[float], values: Sequence[float], period: float, interpolation: Interpolation
 ) -> None:
-    """Raise `RangeError` unless the points define a periodic function."""
+    """Raise `RangeError` if the points do not define a periodic function."""
     if interpolation not in get_args(Interpolation):
-        what, why = f"'{interpolation}' is not an interpolation", f"known are {', '.join(get_args(Interpolation))}"
-        raise RangeError(Problem(what, why, "give `interpolation: pchip`"))
+        known = ", ".join(get_args(Interpolation))
+        what, why = f"unknown interpolation '{interpolation}'", f"the interpolations are {known}"
+        raise RangeError(Problem(what, why, "write `interpolation: pchip`"))
     fewest = _FEWEST_POINTS[interpolation]
     if len(positions) < fewest or len(positions) != len(values):
         what = f"{len(positions)} positions and {len(values)} values are not enough points"
@@ -205,16 +208,16 @@ def check_points(
             why = "the points repeat after the period, and the end of the period is its start"
             raise RangeError(Problem(what, why, "give each position once, from 0 up to the period, without its end"))
         if at and x <= positions[at - 1]:
-            what = f"the position of point {at + 1}, {x:.10g}, is not above that of the point before it"
-            raise RangeError(Problem(what, "the positions must ascend", "sort the points, without repeated positions"))
+            what = f"the position of point {at + 1}, {x:.10g}, is not greater than that of the previous point"
+            raise RangeError(Problem(what, "positions must ascend", "sort the points, without repeated positions"))
 
 
 def periodic_integral(
     slope: Callable[[Floats], Floats], period: float, breakpoints: Sequence[float] | Floats = ()
 ) -> tuple[PeriodicPieces, float]:
-    """Return the integral of a periodic slope minus its mean slope, from the first breakpoint or from 0, and this mean.
+    """Return the integral of a periodic slope minus its mean, from the first breakpoint or else from 0, and this mean.
 
-    slope         function of positions of shape (n,), which returns an array of that shape
+    slope         function that returns the slope at positions of shape (n,), as an array of the same shape
     period        period
     breakpoints   positions at which the slope or one of its derivatives is discontinuous
     """
@@ -240,11 +243,11 @@ def periodic_integral(
 
 
 class HarmonicSeries(PeriodicFunction):
-    """Sum of a constant and of the harmonics amplitude sin(2 pi n x / period + phase).
+    """Sum of a constant and harmonics of the form amplitude sin(2 pi n x / period + phase).
 
-    terms      order n, a whole number of 1 or more, amplitude, and phase [rad] of each harmonic
+    terms      order n (an integer of 1 or more), amplitude and phase [rad] of each harmonic
     period     period of the first harmonic
-    constant   mean of the function
+    constant   constant, which is the mean of the function
     """
 
     def __init__(self, terms: Sequence[tuple[float, float, float]], period: float, constant: float = 0.0) -> None:
@@ -258,7 +261,7 @@ class HarmonicSeries(PeriodicFunction):
         self.resolution = period / max((n for n, _, _ in terms), default=1) / _PER_WAVE
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
         angle = np.mod(np.asarray(x, dtype=float), self.period) * (2 * pi / self.period)
         found = np.full(angle.shape, 0.0 if order else self.constant)
         for n, amplitude, phase in self.terms:
@@ -273,7 +276,7 @@ class PeriodicSum(PeriodicFunction):
     """Sum of periodic functions with a common period.
 
     parts    functions that are added
-    period   period of the sum, a multiple of the period of each part
+    period   period of the sum, which is a multiple of the period of each part
     """
 
     def __init__(self, parts: Sequence[PeriodicFunction], period: float) -> None:
@@ -292,7 +295,7 @@ class PeriodicSum(PeriodicFunction):
         return found[np.diff(found, prepend=-self.period) > 4 * _INSET * self.period]
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
         x = np.asarray(x, dtype=float)
         found = np.zeros(x.shape)
         for part in self.parts:

@@ -1,4 +1,4 @@
-"""Whole numbers and truth values as declared: a declaration in YAML gives numbers as text."""
+"""Integers and booleans in declarations, in which YAML represents them as text."""
 
 from __future__ import annotations
 
@@ -9,9 +9,7 @@ from pydantic_core import PydanticCustomError
 
 
 def whole_number(raw: object, low: int, high: int) -> int | None:
-    """Return an integer from `low` to `high`, inclusive, given as an integer or as its digits; None for any other
-    value.
-    """
+    """Return an integer from `low` to `high`, inclusive, given as an integer or as text; None for any other value."""
     try:
         # True is an int in Python; converting thousands of digits would take minutes
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else low - 1
@@ -22,7 +20,7 @@ def whole_number(raw: object, low: int, high: int) -> int | None:
 
 
 def whole_from(low: int, high: int, noun: str) -> BeforeValidator:
-    """Return a validator that reads an integer from `low` to `high`; `noun` names it in messages, in the plural."""
+    """Return a validator that reads an integer from `low` to `high`; `noun` is its name in messages, in plural form."""
 
     def read(raw: object) -> int:
         number = whole_number(raw, low, high)
@@ -35,7 +33,7 @@ def whole_from(low: int, high: int, noun: str) -> BeforeValidator:
 
 
 def _boolean(raw: object) -> bool:
-    """Read true or false as in YAML 1.2, where `yes` and `no` are ordinary text."""
+    """Parse true or false as in YAML 1.2, in which `yes` and `no` are ordinary text."""
     if isinstance(raw, bool):
         return raw
     if isinstance(raw, str) and raw.lower() in ("true", "false"):

@@ -11,10 +11,11 @@ if TYPE_CHECKING:
 
 
 def simplified(points: Floats, tolerance: float) -> list[int]:
-    """Return the indices of the points of a polyline (n, 2) that remain after Ramer-Douglas-Peucker simplification.
+    """Return the indices of the points of a polyline, shape (n, 2), that remain after Ramer-Douglas-Peucker
+    simplification.
 
-    All other points are within `tolerance` of the simplified line. Both ends are kept. If they coincide, distances are
-    measured from that point. Ramer, Computer Graphics and Image Processing 1 (1972) 244; Douglas and Peucker,
+    All other points are within `tolerance` of the simplified line. Both ends are kept; if they coincide, distances are
+    measured from this common point. Ramer, Computer Graphics and Image Processing 1 (1972) 244; Douglas and Peucker,
     Cartographica 10 (1973) 112.
 
     >>> simplified(np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.1], [3.0, 5.0], [4.0, 6.0]]), 0.5)

@@ -1,7 +1,7 @@
 """Smooth curves as piecewise polynomials of one degree: fitting and evaluation, vectorised.
 
-A piece is a polynomial in u, which increases from -1 to 1 along the piece. Coefficients have shape (COUNT, pieces), by
-ascending powers of u.
+Each piece is a polynomial in u, which increases from -1 to 1 along the piece. Coefficients have the shape (COUNT,
+pieces), in ascending order of powers of u.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ POWERS = np.array([np.pad(cheb.cheb2poly(row[: at + 1]), (0, COUNT - 1 - at)) fo
 
 
 class PolynomialPiece(NamedTuple):
-    """Piece of a curve with k coordinates: parameter at both ends, coefficients of the powers of u in [-1, 1], shape
-    (COUNT, k), and maximum error of each coordinate, shape (k,).
+    """Piece of a curve with k coordinates: the parameter at both ends, the coefficients of the powers of u in [-1, 1],
+    shape (COUNT, k), and the maximum error of each coordinate, shape (k,).
     """
 
     start: float
@@ -44,8 +44,8 @@ class PolynomialPiece(NamedTuple):
 
 
 def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: int = 0) -> list[PolynomialPiece]:
-    """Return the pieces of a curve with k coordinates by adaptive Chebyshev interpolation to rounding error; `curve`
-    maps parameters of shape (n,) to points of shape (k, n).
+    """Return the pieces of a curve with k coordinates, which are fitted by adaptive Chebyshev interpolation to rounding
+    error. `curve` maps parameters of shape (n,) to points of shape (k, n).
 
     Pieces are bisected until their last coefficients are negligible. Raises `RangeError` if the curve is not smooth.
     """
@@ -79,7 +79,7 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
 
 
 def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floats]:
-    """Return value and derivative at u of the pieces with index `piece`; `coefficients` has shape (COUNT, pieces)."""
+    """Return the value and derivative at u of the pieces with indices `piece`, given their coefficients."""
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
     for row in coefficients[::-1]:  # Horner's rule in place for value and derivative
@@ -91,7 +91,7 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
 
 
 def ends(coefficients: Floats) -> Floats:
-    """Return the values at both ends of the pieces, shape (2, pieces)."""
+    """Return the values of the pieces at both ends, shape (2, pieces)."""
     # all powers of u are 1 or -1 there, so that sums are sufficient
     signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
     return np.stack([signs @ coefficients, coefficients.sum(axis=0)])

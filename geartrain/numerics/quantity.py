@@ -130,12 +130,12 @@ SPELT = {
 
 
 def bad(kind: str, what: str, fix: str, why: str = "") -> PydanticCustomError:
-    """Return a validation error for a declaration, with its cause and its fix."""
+    """Return a validation error for a value in a declaration, with its cause and its fix."""
     return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix} | ({"why": why} if why else {}))
 
 
 def check_range(part: str, value: Any, ends: tuple[Any, Any] | None) -> None:
-    """Raise an error for a range, minimum first, that does not contain a figure or quantity; None is not a range."""
+    """Raise an error if a range (minimum, maximum) does not contain a figure or quantity; None is not checked."""
     if ends is None:
         return
     low, given, high = (
@@ -152,7 +152,7 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle [turn] per unit of time at a speed of 1 in the given unit: 1/360 for deg/s, 1 for rpm or no
+    """Return the angle [turn] per unit of time at a speed of 1 in the given unit: 1/360 for deg/s, and 1 for rpm or no
     unit.
     """
     angle = unit.partition("/")[0] if "/" in unit else TURN
@@ -160,7 +160,7 @@ def turns_in(unit: str) -> Fraction:
 
 
 def same_kind(first: str | None, second: str | None) -> bool:
-    """Return True if one unit is a rational multiple of the other; radians are rational multiples only of radians."""
+    """Return True if one unit is a rational multiple of the other, which radians are only of radians."""
     return (first in IRRATIONAL) == (second in IRRATIONAL)
 
 
@@ -175,13 +175,11 @@ def nearest_unit(unit: str, dimension: str) -> str:
     spelt = {name.casefold(): name for name, meant in SPELT.items() if meant in known.split(", ")}
     names = spelt | {name.casefold(): name for name in known.split(", ")}
     close = nearest_names(unit.casefold(), names)
-    return f"did you mean '{names[close[0]]}'? Known here: {known}" if close else f"use one of: {known}"
+    return f"did you mean '{names[close[0]]}'? Units are: {known}" if close else f"use one of: {known}"
 
 
 def units_of(dimension: str) -> str:
-    """Return all units of a dimension, or of several dimensions joined by `or` in their order, as a string with
-    commas.
-    """
+    """Return all units of a dimension, or of several dimensions joined by `or`, as a string with commas."""
     known = [*UNITS.items(), *IRRATIONAL.items()]
     return ", ".join(unit for wanted in dimension.split(" or ") for unit, (kind, _) in known if kind == wanted)
 
@@ -204,7 +202,7 @@ _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$"
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """Number with its digits as written, which determine its accuracy.
+    """Number and its digits as written; the digits determine its accuracy.
 
     Examples
     --------
@@ -216,7 +214,7 @@ class Figure:
     value: Fraction
     """Value of the number, exactly as written."""
     half: Fraction | None
-    """Half a unit of the last written decimal; None for an integer or a fraction, which is exact."""
+    """Half a unit of the last written decimal place; None for an integer or a fraction, which is exact."""
     text: str
     """Text of the number as written."""
 
@@ -227,15 +225,14 @@ class Figure:
         return self.text
 
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
-        """Return True if a number agrees with the written number within the accuracy of its digits, or within a given
-        tolerance.
+        """Return True if a value agrees with this number within a tolerance, by default the accuracy of its digits.
 
         Parameters
         ----------
         value : Fraction
             Number to compare.
         tolerance : Fraction, optional
-            Maximum difference, 0 or more; by default half a unit of the last written decimal.
+            Maximum difference, 0 or more; by default half a unit of the last written decimal place.
         """
         bound = tolerance if tolerance is not None else self.half or Fraction(0)
         return abs(value - self.value) <= bound if bound else bool(value == self.value)
@@ -247,7 +244,7 @@ class Figure:
         Parameters
         ----------
         raw : str, int, float, Fraction or Figure
-            A number such as "254/19", "1:30", "13.3684"; up to 1e300 and 400 digits.
+            A number such as "254/19", "1:30" or "13.3684", with a magnitude of up to 1e300 and up to 400 digits.
 
         Raises
         ------
@@ -289,7 +286,7 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Amount(Figure):
-    """Number with its digits as written, or a travel with a unit of length; `value` and `half` are then in mm.
+    """Number and its digits as written, or a travel with a unit of length, for which `value` and `half` are in mm.
 
     Examples
     --------
@@ -352,7 +349,7 @@ def _half_unit(text: str) -> Fraction | None:
 
 
 def checked(is_valid: Callable[[Any], bool], message: str, fix: str) -> AfterValidator:
-    """Return a validator of numbers or quantities, whose error has a message with the given `{text}`, and a fix."""
+    """Return a validator of numbers or quantities with a message, which contains `{text}`, and a fix."""
 
     def check(given: Any) -> Any:
         if not is_valid(given):
@@ -369,13 +366,13 @@ Friction = Annotated[Figure, _COEFFICIENT]
 
 
 def parse_friction(raw: object) -> Figure:
-    """Parse a coefficient of friction, 0 or more."""
+    """Parse a coefficient of friction, which must not be negative."""
     return cast(Figure, cast(Any, _COEFFICIENT.func)(Figure.parse(raw)))
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """Number with its unit as written in a declaration, convertible to base units and SI units.
+    """Number with its unit as written in a declaration, which can be converted to base units and SI units.
 
     Use `base` in comparisons and computations, not `value`, because `base` does not depend on the written unit. The
     units are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded
@@ -408,12 +405,12 @@ class Quantity:
 
     @property
     def base(self) -> Fraction:
-        """Value in base units (m, turn, s, turn/s, N m and others in `UNITS`); a number without a unit is unchanged."""
+        """Value in base units (m, turn, s, turn/s, N m and others in `UNITS`); a plain number is unchanged."""
         return self.value if self.unit is None else self.value * scale(self.unit)[1]
 
     @property
     def si(self) -> float:
-        """Value in SI units (m, rad, s, rad/s, N m and others); a number without a unit is unchanged."""
+        """Value in SI units (m, rad, s, rad/s, N m and others); a plain number is unchanged."""
         # radians are SI units already; conversion to turns and back would round twice
         if self.unit in IRRATIONAL:
             return float(self.value)
@@ -427,12 +424,13 @@ class Quantity:
         Parameters
         ----------
         raw : str, int, float, Fraction or Quantity
-            A quantity such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
+            A quantity such as "9.6 mm", "30 deg", "1400 rpm" or 0.98.
         dimension : str
             Required dimension: length, angle, time, speed, velocity, torque, energy, inertia, mass, density, pressure,
-            torsional stiffness, stiffness, torsional damping, damping or fraction; "time or length" allows two.
+            torsional stiffness, stiffness, torsional damping, damping or fraction; "time or length" allows either of
+            two.
         plain : bool
-            True to allow a number without a unit; 0 is always allowed.
+            True to allow a number without a unit; 0 is always allowed without a unit.
 
         Raises
         ------
@@ -471,8 +469,8 @@ class Quantity:
 
 
 def _in_range(quantity: Quantity, dimension: str) -> Quantity:
-    """Return the quantity; raise an error if it is outside the range of its dimension, in which products and squares
-    can be represented in float64.
+    """Return the quantity; raise an error if it is outside the range of its dimension, which is limited so that
+    products and squares can be represented in float64.
     """
     low, high = _BOUNDS.get(dimension, _EXACT)
     if not quantity.value or low <= abs(quantity.base) <= high:
@@ -488,12 +486,12 @@ def _out_of_range(text: str, why: str, fix: str) -> PydanticCustomError:
 
 
 def in_unit(speed: Quantity, unit: str) -> Fraction:
-    """Return a speed in a given unit; a speed that is written in this unit is unchanged, so that radians stay exact."""
+    """Return a speed in a given unit; if it is written in this unit it is unchanged, so radians remain exact."""
     return speed.value if speed.unit == unit else speed.base / scale(unit)[1]
 
 
 def millimetres(length: Quantity) -> Fraction:
-    """Return a length [mm], exact; a number without a unit is a length in mm.
+    """Return the exact length [mm]; a number without a unit is taken as a length in mm.
 
     >>> millimetres(Quantity.parse("1.5 cm", "length", plain=True))
     Fraction(15, 1)
@@ -502,12 +500,13 @@ def millimetres(length: Quantity) -> Fraction:
 
 
 TRAVEL_ARM = 1 / (2000 * PI)
-"""Lever arm [m] at which one turn is a travel of 1 mm. A sliding link is treated as a link that turns once for each
-millimetre of its travel, with its forces at this arm."""
+"""Lever arm at which one turn corresponds to a travel of 1 mm [m]. A sliding link is treated as a link that turns once
+per mm of its travel, with its forces at this lever arm.
+"""
 
 
 def as_rotation(speed: Quantity) -> Quantity:
-    """Return the travel of a sliding link as a speed of rotation, with one turn for 1 mm; other speeds are unchanged.
+    """Return a speed of travel as a speed of rotation with one turn per mm; other speeds are unchanged.
 
     >>> as_rotation(Quantity.parse("5 mm/min", "velocity", plain=False)).unit
     'turn/min'
@@ -521,7 +520,7 @@ def as_rotation(speed: Quantity) -> Quantity:
 
 
 def as_torque(load: Quantity) -> Quantity:
-    """Return a force on a sliding link as the torque [N m] that has the same power; torques are unchanged."""
+    """Return a force on a sliding link as the torque [N m] that has the same power; return torques unchanged."""
     return Quantity(load.base * TRAVEL_ARM, "N m", load.text) if load.dimension == "force" else load
 
 
@@ -563,7 +562,7 @@ Time = Annotated[Quantity, Dimension("time")]
 Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
 InputSpeed = Annotated[Quantity, Dimension("speed or length or velocity", plain=True)]
-"""Prescribed speed of a link: of rotation, or a travel per unit of the train or per time."""
+"""Prescribed speed of a link: a speed of rotation, or a travel per unit of the train or per unit of time."""
 Rate = Annotated[Quantity, Dimension("speed or velocity", plain=True)]
 Velocity = Annotated[Quantity, Dimension("velocity")]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]
@@ -579,16 +578,16 @@ TorsionalDamping = Annotated[Quantity, Dimension("torsional damping")]
 MeshDamping = Annotated[Quantity, Dimension("torsional damping or damping")]
 Share = Annotated[Quantity, Dimension("fraction", plain=True)]
 RelativeError = Annotated[Quantity, Dimension("fraction or clock rate", plain=True)]
-"""Relative error of a speed: a number, a percentage, ppm, or the rate of a clock (s/d, s/year)."""
+"""Relative error of a speed: a number, a percentage, a value in ppm, or the rate of a clock (s/d, s/year)."""
 
 
 def above_zero(fix: str, noun: str = "the value") -> AfterValidator:
-    """Return a validator that requires a number or quantity above 0."""
+    """Return a validator that requires a number or quantity greater than 0."""
     return checked(lambda given: given.value > 0, f"{noun} must be greater than 0, not {{text}}", fix)
 
 
 def below_right_angle(fix: str) -> AfterValidator:
-    """Return a validator that requires an angle below 90 degrees."""
+    """Return a validator that requires an angle of less than 90 degrees."""
     return checked(lambda given: given.si < pi / 2, "{text} is not less than 90 deg", fix)
 
 
@@ -598,10 +597,9 @@ def not_below_zero(fix: str) -> AfterValidator:
 
 
 PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, such as 20 N/um")]
-"""Stiffness of a tooth pair: torque on the driven wheel per angle, or force along the line of action per displacement.
-"""
+"""Stiffness of a tooth pair: torque on the driven wheel per angle, or force per displacement on the line of action."""
 
 PairDamping = Annotated[MeshDamping, not_below_zero("give a damping of 0 or more")]
-"""Damping of a tooth pair: torque on the driven wheel per angular velocity, or force along the line of action per
-velocity.
+"""Damping of a tooth pair: torque on the driven wheel per angular velocity, or force per velocity along the line of
+action.
 """

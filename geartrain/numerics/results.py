@@ -1,10 +1,10 @@
 """Base classes of results: display at the prompt and in notebooks, plain data for JSON, tables and figures.
 
-`Shown` results have a `repr` of one line, print the text of the command that computes them, and appear as tables in a
-notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become strings
-with every digit, arrays and tuples become lists, and results become objects. None remains None. `Tabular` results have
-columns, which can be converted to a pandas DataFrame, a numpy record array or an HTML table. `Pictured` results name
-the function that draws them, which is imported when it is called.
+`Shown` results have a `repr` of one line, print the text of the command that computes them, and are displayed as tables
+in a notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become
+strings with all digits, arrays and tuples become lists, and results become objects. None remains None. `Tabular`
+results have columns, which can be converted to a pandas DataFrame, a numpy record array or an HTML table. `Pictured`
+results contain the name of the function that draws them, which is imported when it is called.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ _SHOWN = 20  # rows of a table that are printed
 class Shown:
     """Result whose `repr` is one line, and whose `str` is the text that its command prints.
 
-    Notebooks show the tables of its HTML page. The line contains only values that are already computed.
+    Notebooks display the tables of its HTML page. The `repr` contains only values that are already computed.
     """
 
     __slots__ = ()
 
     PAGE: ClassVar[str] = ""
-    """Function `package.module:function` that describes the result as a document; it may return None.
+    """Name `package.module:function` of the function that describes the result as a document; it may return None.
 
     The string is empty if no command prints such a result.
     """
     TEXT: ClassVar[str] = ""
-    """Function that returns the text of the command, if this is not the text of the document; otherwise ""."""
+    """Name of the function that returns the text of the command, if this is not the text of the document; else ""."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         """Keep the inherited `__repr__` of a class, which `dataclass` would otherwise replace."""
@@ -53,14 +53,14 @@ class Shown:
             cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
 
     def _summary(self) -> str:
-        """Return the main figures in one line, from values that are already computed."""
+        """Return the main results on one line, using only values that are already computed."""
         return fields_summary(self)
 
     def __repr__(self) -> str:
         return summary_line(type(self).__name__, self._summary())
 
     def __dir__(self) -> list[str]:
-        """List the members, without class constants, which are for internal use."""
+        """List the members without class constants, which are for internal use."""
         return [name for name in super().__dir__() if not name.isupper()]
 
     def __str__(self) -> str:
@@ -71,7 +71,7 @@ class Shown:
         return found if isinstance(found, str) else _text_of(found)
 
     def _repr_html_(self) -> str:
-        """Return the HTML page of the result, or its text if jinja2, the extra `report`, is not installed."""
+        """Return the HTML page of the result, or its text if jinja2 (extra `report`) is not installed."""
         page = _described(self, self.PAGE)
         if page is not None:
             try:
@@ -83,9 +83,7 @@ class Shown:
 
 
 def _described(result: object, name: str) -> Any:
-    """Call the function named `package.module:function` with an object and return its result; None if the name is
-    empty.
-    """
+    """Call the function named `package.module:function` with an object and return its result; None if unnamed."""
     if not name:
         return None
     module, _, function = name.partition(":")
@@ -104,7 +102,7 @@ _LONGEST_VALUE = 40
 
 
 def summary_line(name: str, summary: str) -> str:
-    """Return `<name summary>` on one line; the summary has at most 160 characters.
+    """Return `<name summary>` on one line; the summary is shortened to at most 160 characters.
 
     >>> summary_line("Answer", "worm: determined")
     '<Answer worm: determined>'
@@ -118,7 +116,7 @@ def summary_line(name: str, summary: str) -> str:
 def fields_summary(result: Any) -> str:
     """Return the public fields of a dataclass or named tuple as `name=value`, without fields that are None.
 
-    Numbers have 6 digits. For containers only the length is shown. Mappings that are not yet created are omitted.
+    Numbers have 6 digits. Only the length of containers is shown. Mappings that are not yet created are omitted.
     """
     own = [each.name for each in fields(result)] if is_dataclass(result) else ()
     return values_summary(result, getattr(result, "_fields", own))
@@ -193,7 +191,7 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
 class Tabular(Shown):
     """Result with columns, which can be exported as a table.
 
-    Notebooks show the first rows, or the page of the result if it has one.
+    Notebooks display the first rows, or the HTML page of the result if it has one.
     """
 
     __slots__ = ()
@@ -202,14 +200,14 @@ class Tabular(Shown):
     """Meaning of each column that is not a field, with its unit in brackets; `*` in a name matches any text."""
 
     ROW: ClassVar[str] = ""
-    """Name of the class, in the module of the result, whose fields are the columns."""
+    """Name of the class, in the module of the result, whose fields are the columns of the table."""
     ROWS: ClassVar[str] = ""
-    """Function that returns the rows, each as a dictionary by column; "" for a class that defines `columns`."""
+    """Name of the function that returns the rows as dictionaries by column; "" for a class with own `columns`."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of equal length by name. Numbers are floats, exact numbers are strings in separate columns, and
-        missing values are None.
+        """Columns of equal length, by name. Numbers are floats; exact numbers are strings in separate columns; missing
+        values are None.
         """
         rows = _described(self, self.ROWS) or ()
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
@@ -237,7 +235,7 @@ class Tabular(Shown):
         Raises
         ------
         MissingExtraError
-            If pandas, which the extra `tables` installs, is missing.
+            If pandas (extra `tables`) is not installed.
         """
         try:
             import pandas
@@ -250,7 +248,7 @@ class Tabular(Shown):
         return frame
 
     def to_records(self) -> Any:
-        """Return the table as a numpy record array, `records["link"]` being a column; missing numbers are NaN."""
+        """Return the table as a numpy record array, in which `records["link"]` is a column; missing numbers are NaN."""
         import numpy as np
 
         columns = {name: np.array(_without_gaps(values)) for name, values in self.columns.items()}
@@ -284,13 +282,13 @@ def _property_doc(member: object) -> str:
 
 
 def _unit(meaning: str) -> str:
-    """Return the unit in square brackets in the meaning of a column; "" without a unit."""
+    """Return the unit in square brackets in the description of a column; "" if it has no unit."""
     found = search(r"\[([^\]]+)\]", meaning)
     return found[1] if found else ""
 
 
 def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:
-    """Return a column with None replaced by NaN if it has numbers, or by "" if it has text."""
+    """Return a column with None replaced by NaN if it contains numbers, or by "" if it contains text."""
     if not any(value is None for value in values):
         return values
     texts = any(isinstance(value, str) for value in values)
@@ -306,10 +304,10 @@ def _cell(value: object) -> str:
 def imported_function(module: str, name: str) -> Callable[..., Any]:
     """Import the function that draws or describes a result, by name.
 
-    Modules that draw import modules that calculate, not the reverse. Results call drawing code only through this
-    function, by name, when they are displayed.
+    Drawing modules import computing modules, but not the reverse. So results call drawing code only by name through
+    this function, when they are displayed.
 
-    module   module or package below `geartrain`
+    module   module or package in `geartrain`
     name     name of the public function or class in it
     """
     found: Callable[..., Any] = getattr(import_module(f"geartrain.{module}"), name)
@@ -317,7 +315,7 @@ def imported_function(module: str, name: str) -> Callable[..., Any]:
 
 
 class Pictured:
-    """Result with a picture, drawn by the function `FIGURE`, written `package.module:function`."""
+    """Result with a picture, drawn by the function that `FIGURE` names as `package.module:function`."""
 
     __slots__ = ()
 
@@ -339,23 +337,23 @@ class Pictured:
         Raises
         ------
         MissingExtraError
-            If matplotlib, which the extra `plot` installs, is missing.
+            If matplotlib (extra `plot`) is not installed.
         """
         return imported_function(*self.FIGURE.split(":"))(self, *how)
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Key of a result's plain data, if it differs from the name of the attribute or needs a conversion."""
+    """Key in the plain data of a result whose name differs from the attribute or whose value is converted."""
 
     name: str
-    """Name in the data; "" to merge the keys of a part into the keys of the result."""
+    """Name of the key in the data; "" to merge the keys of a part into the keys of the result."""
     of: str = ""
-    """Path of the attribute, `part.attribute` for an attribute of a part, "." for the object; by default `name`."""
+    """Path of the attribute: `part.attribute` for an attribute of a part, "." for the result; by default `name`."""
     to: Callable[[Any], Any] | None = None
-    """Function that converts each number or object in the attribute; its return annotation is the type in the data."""
+    """Function that converts each number or object of the attribute; its return annotation is the type in the data."""
     keys: tuple[str | Key, ...] = ()
-    """Keys of each object in the attribute, if they differ from the keys of its class."""
+    """Keys of each object in the attribute, if they differ from the keys of the object's class."""
 
     @property
     def path(self) -> str:
@@ -384,13 +382,13 @@ class Result(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TrainResult(Result):
-    """Result for one train, stored together with the declaration of the train, which its text and its tables need."""
+    """Result for one train, stored with the declaration of the train, which its text and its tables require."""
 
     _declaration: Any = field(default=None, kw_only=True, repr=False, compare=False)
 
     @property
     def _named(self) -> str:
-        """Name of the train and the state, as far as they are known."""
+        """Names of the train and of the state, as far as they are known."""
         name = "" if self._declaration is None else self._declaration.name
         state = getattr(self, "state", None)
         return name if state is None else f"{name} state {state}".strip()
@@ -458,7 +456,7 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
 
 
 def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
-    """Convert a sequence of keys and names to keys; a name becomes the key of the attribute with the same name."""
+    """Return the keys for a sequence of keys and names; a name becomes the key of the attribute with this name."""
     return tuple(each if isinstance(each, Key) else Key(each) for each in keys)
 
 
@@ -467,9 +465,9 @@ def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
 
 @cache
 def field_docs(kind: type) -> Mapping[str, str]:
-    """Return the docstrings of the fields of a class and its bases, by field, each on one line.
+    """Return the docstrings of the fields of a class and its bases, each on one line, by field.
 
-    Python discards these docstrings, so they are read from the source. Units are in brackets: `Angle [rad].`
+    Python discards these docstrings, so they are read from the source. Units are in square brackets: `Angle [rad].`
     """
     found: dict[str, str] = {}
     # base classes first, so that a class overrides their docstrings

@@ -1,7 +1,7 @@
 """Bracketed roots of smooth functions, one by one and vectorised.
 
 `roots_by_false_position` uses the Anderson-Bjorck variant of false position, which keeps each root inside its bracket.
-It needs few evaluations if functions are smooth and the values at both ends are known.
+It requires few evaluations if the functions are smooth and their values at both ends are known.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ def roots_by_false_position(
 ) -> Floats:
     """Return a root of each function between `low` and `high`, by the Anderson-Bjorck variant of false position.
 
-    value(x, which)   function that returns the values at x of the functions with the indices `which`
-    at_low, at_high   values of the functions at both ends
+    value(x, which)   function that returns, at x, the values of the functions with the indices `which`
+    at_low, at_high   values of the functions at `low` and `high`
     fine              step length at which the iteration stops
 
-    An iteration that stalls is continued by bisection. A bracket without a change of sign returns its end with the
-    smaller absolute value.
+    An iteration that stalls is continued by bisection. For a bracket without a change of sign, the end at which the
+    function has the smaller absolute value is returned.
     """
     import numpy as np  # scalar root finders do not need numpy
 
@@ -71,7 +71,7 @@ _DEEPEST = 40  # bisections of a bracket whose slope keeps changing sign
 
 
 def bracketed_root(value: Function, low: float, high: float) -> float:
-    """Return the root of `value` between `low` and `high`, where it changes sign, by Chandrupatla's method."""
+    """Return the root of `value` between `low` and `high`, at which it changes sign, by Chandrupatla's method."""
     return root(value, low, high, value(low), value(high))
 
 
@@ -81,7 +81,7 @@ def sign_changes(
     """Yield brackets that contain one root each, by bisection with bounds on the slope.
 
     `bounds(a, b)` returns the minimum and maximum slope. A bracket in which the slope has one sign contains at most one
-    root; other brackets are bisected. At a double root without a change of sign, bisection ends without a bracket.
+    root; other brackets are bisected. At a double root without a change of sign, no bracket is returned.
     """
     at_low, at_high = value(low), value(high)
     minimum, maximum = bounds(low, high)
@@ -108,7 +108,7 @@ def sign_changes(
 def root(value: Function, low: float, high: float, at_low: float, at_high: float) -> float:
     """Return the root of a continuous function between `low` and `high` by Chandrupatla's method, without derivatives.
 
-    Steps are by inverse quadratic interpolation where its condition is satisfied, else by bisection. T. R.
+    A step is found by inverse quadratic interpolation if its condition is satisfied, else by bisection. T. R.
     Chandrupatla, Advances in Engineering Software 28 (1997) 145-149.
     """
     if at_low == 0 or at_high == 0:
@@ -134,7 +134,7 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
 
 
 def _quadratic_share(a: float, b: float, c: float, at_a: float, at_b: float, at_c: float) -> float:
-    """Return the root of the inverse quadratic as a fraction of the distance from a to b; 1/2 if it is unreliable."""
+    """Return the root of the inverse quadratic as a fraction of the distance from a to b; 1/2 if unreliable."""
     if not all(map(isfinite, (at_a, at_b, at_c))) or at_b == at_c or at_a in (at_b, at_c):
         return 0.5
     xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)

@@ -1,8 +1,8 @@
 """Rounding in float64: error-free transformations of sums and products, and constants of a priori error bounds.
 
-The relative error of a term after n roundings is at most n u / (1 - n u) (Higham, Accuracy and Stability of Numerical
-Algorithms, section 3.1). Bounds are of first order in u, times `SLACK`. They are valid without underflow and overflow,
-which the caller must ensure.
+The relative error of a term after n roundings is at most n u / (1 - n u) with the unit roundoff u (Higham, Accuracy and
+Stability of Numerical Algorithms, section 3.1). Bounds are of first order in u, times `SLACK`. They are valid if no
+underflow or overflow occurs, which the caller must ensure.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ SPLITTER = 134217729.0  # 2^27 + 1: splits a float64 into two halves of 26 bits,
 
 
 def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """Return s and e with a + b = s + e exactly (Knuth 1969)."""
+    """Return the floats s and e for which a + b = s + e exactly (Knuth 1969)."""
     s = a + b
     part = s - a  # part of b that is in s; no comparison of a and b is needed
     return s, (a - (s - part)) + (b - part)
 
 
 def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """Return p and e with a b = p + e exactly, without underflow and overflow (Dekker 1971)."""
+    """Return the floats p and e for which a b = p + e exactly, unless underflow or overflow occurs (Dekker 1971)."""
     p = a * b
     a_high, a_low = split(a)
     b_high, b_low = split(b)
@@ -34,7 +34,7 @@ def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 
 def split(a: F) -> tuple[F, F]:
-    """Split a float into a sum of two floats with 26 bits (Dekker 1971; Veltkamp)."""
+    """Split a float into two floats with 26 bits whose sum it is (Dekker 1971; Veltkamp)."""
     big = SPLITTER * a
     high = big - (big - a)  # overflows beyond about 2^996
     return high, a - high
@@ -44,4 +44,4 @@ UNIT_ROUNDOFF = 2.0**-53
 """Maximum relative error of rounding to float64."""
 
 SLACK = 1 + 1e-6
-"""Safety factor for the roundings of the bounds themselves and for the terms of second order."""
+"""Safety factor for the roundings in the bounds themselves and for terms of second order."""

@@ -1,7 +1,7 @@
 """Vectors in space as plain tuples of three numbers.
 
-`dot`, `cross`, `minus`, `across_whole` and `parallel` are exact for exact numbers (integers, Fractions). Functions
-that need a length or a unit vector are for floats.
+`dot`, `cross`, `minus`, `across_whole` and `parallel` are exact for exact numbers (integers, Fractions). Functions that
+use a length or a unit vector are for floats.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ ExactVector = tuple[Fraction, Fraction, Fraction]
 
 N = TypeVar("N", int, float, Fraction)
 
-_PARALLEL = 1e-9  # of a cosine, or mm: smaller values are rounding errors
+_PARALLEL = 1e-9  # [1 or mm] smaller values are rounding errors
 
 
 def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
@@ -35,7 +35,7 @@ def minus(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
 
 
 def parallel(u: tuple[N, N, N], v: tuple[N, N, N]) -> bool:
-    """Return True if two vectors are parallel or antiparallel, tested exactly, without a tolerance."""
+    """Return True if two vectors are exactly parallel or antiparallel; no tolerance is applied."""
     return not any(cross(u, v))
 
 
@@ -56,7 +56,7 @@ def scaled(u: Vector, factor: float) -> Vector:
 
 
 def turned(u: Vector, way: Vector, angle: float) -> Vector:
-    """Return u rotated about a unit vector by an angle [rad], right-handed, by Rodrigues' formula."""
+    """Return u rotated by an angle [rad] about the unit vector `way`, by the right-hand rule (Rodrigues' formula)."""
     along = scaled(way, dot(way, u) * (1 - cos(angle)))
     return plus(plus(scaled(u, cos(angle)), scaled(cross(way, u), sin(angle))), along)
 
@@ -88,8 +88,8 @@ def frame(n: Vector) -> tuple[Vector, Vector]:
 
 
 def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector, Vector]:
-    """Return the two nearest points of two lines that are not parallel; each line is given by a point and a unit
-    vector.
+    """Return the points at which two non-parallel lines are nearest to each other; each line is given by a point and a
+    unit vector.
     """
     apart, turn = minus(other, point), dot(way, cut)
     # squared sine of the angle between the lines; 0 only for parallel lines
@@ -100,14 +100,14 @@ def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector
 
 
 def unit_or_z(u: Vector) -> Vector:
-    """Return a vector scaled to length 1; z for a zero vector."""
+    """Return a vector scaled to length 1; return the unit vector z for a zero vector."""
     length = size(u)
     # a shorter vector is the rounding error of a zero vector
     return scaled(u, 1 / length) if length > 1e-12 else (0.0, 0.0, 1.0)
 
 
 def beside(axis: Vector) -> Vector:
-    """Return a unit vector perpendicular to an axis; y for the axis z, so that a zero mark points upwards."""
+    """Return a unit vector perpendicular to an axis; for the axis z it is y, so that a zero mark points upwards."""
     for way in ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)):
         flat = across(way, axis)
         # y or z has a perpendicular component of at least 0.7, so that cancellation is harmless
@@ -122,7 +122,7 @@ def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return unit vectors right and up for a viewer who looks against a normal; x and y for a normal along +z."""
+    """Return the unit vectors that point right and up for a viewer who looks against a normal; x and y for z."""
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
         return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)

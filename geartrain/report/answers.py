@@ -85,7 +85,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the sections on one state: the pointers with their targets; then, as details, all outputs, targets and
+    """Yield the sections on one state: the pointers with their targets, and, as details, all outputs, targets and
     speeds.
     """
     if answer.outputs:
@@ -180,8 +180,8 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
     """Return the error of an output in seconds per day and seconds per year, and the days after which it is a day off.
 
-    The first two are "" unless the output has a hand of a clock or a target of about a day, the third is "" for shorter
-    targets.
+    The first two strings are "" unless the output has a clock hand or a target of about a day; the third is "" for
+    shorter targets.
     """
     if declared.unit_days is None or target.days_per_century is None:
         return "", "", ""
@@ -193,7 +193,7 @@ def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) ->
 
 
 def _targets(declared: Train, answer: Answer) -> Iterator[Section]:
-    """Yield a section on the errors of outputs against their targets; nothing if no output has a target."""
+    """Yield a section on the errors of outputs against their targets; yield nothing if no output has a target."""
     targets = [
         (
             name,
@@ -304,7 +304,7 @@ def result_words(result: OutputResult) -> str:
 
 
 def only_sign(result: OutputResult) -> str:
-    """Return a remark if an output has the expected magnitude in the opposite sense, and its remedy; otherwise ""."""
+    """Return a remark and a remedy if an output has the expected magnitude in the opposite sense; otherwise ""."""
     if not result.differs_in_sign:
         return ""
     published = result.output.published
@@ -354,7 +354,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a time as a string: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
+    """Return a time as a string in years if the unit is a year, otherwise in days, hours, minutes or seconds.
 
     Return a number without a unit if the train has no unit of time.
     """
@@ -455,7 +455,7 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def clutch_lines(answer: Answer) -> Iterator[str]:
-    """Yield a line for each one-way clutch of a state, which holds or overruns, and the notes on them."""
+    """Yield a line on each one-way clutch of a state, which reports if it holds or overruns, and notes on clutches."""
     yield from (each.text(answer.unit) for each in answer.one_way)
     yield from answer.notes
 
@@ -468,9 +468,7 @@ def answer_text(answer: Answer) -> str:
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return a document on the outputs, targets and speeds of one state; None if the result does not refer to its
-    train.
-    """
+    """Return a document on the outputs, targets and speeds of one state; None if the result has no train."""
     if answer._declaration is None:
         return None
     train = GearTrain(answer._declaration)
@@ -478,7 +476,9 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Return the reason why a system was solved in floats, the estimated error, and how to get exact fractions."""
+    """Return the reason why a system was solved in floating-point arithmetic, the estimated error, and how to get exact
+    fractions.
+    """
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
     return (
@@ -488,7 +488,9 @@ def why_floats(answer: Answer) -> str:
 
 
 def _speed(speed: SpeedValue | None, tolerance: Fraction | None, slides: bool = False) -> str:
-    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio; a travel has its unit."""
+    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio, and with its unit if the
+    link slides.
+    """
     text = exact(speed) + " mm" if slides and speed is not None else exact(speed)
     return f"≈ {text.removeprefix('≈ ')}" if tolerance else text
 
@@ -506,7 +508,7 @@ def _pi(answer: Answer, name: str) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return the condition number, estimated error and true error of a speed solved in floats, as a string; "" for an
+    """Return the condition number, estimated error and true error of a floating-point speed as a string; "" for an
     exact speed.
     """
     accuracy = answer.accuracy.get(link)

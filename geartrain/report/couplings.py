@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 
 
 def coupling_sections(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the sizes of the couplings of a train and on what is not modelled; nothing for kinds without
-    remarks."""
+    """Yield a section on the sizes of the couplings of a train and on effects that are not modelled; kinds of couplings
+    without remarks are omitted.
+    """
     shown = [each for each in train.declaration.couplings if each.about or each.UNKNOWN]
     if shown:
         lengths = dict(_belt_lengths(train)) if any(each.kind == "belt" for each in shown) else {}
@@ -58,7 +59,7 @@ class VaryingCoupling(Result):
     at_once: bool
     """True if the driven link moves in instantaneous steps; its speed ratio is then the value between the steps."""
     formula: str
-    """Driven angle q as a function of the driver's angle S; empty without a closed form."""
+    """Driven angle q as a function of the driver's angle S; empty if no closed form is known."""
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:

@@ -95,8 +95,8 @@ def _body(part: Schema) -> Schema:
 
 
 def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
-    """Return an example value of each key of each part: the shortest in the examples of the part itself, else in all
-    examples.
+    """Return an example value of each key of each part: the shortest in the examples of the part itself, otherwise in
+    all examples.
     """
     found: dict[tuple[str, str], tuple[bool, int, Any]] = {}
     for source, data in example_data():

@@ -112,8 +112,8 @@ def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool
     """Return a table with one row for each result; all results have the same class.
 
     columns   name of a field, or `field:digits` for a number; the head of the column is the name with the unit from the
-              field's docstring, unless it is given as in `head=field:digits`. Or a pair of a head and a function that
-              returns the cell of a result.
+              field's docstring, unless it is given as in `head=field:digits`. A column can also be a pair of a head and
+              a function that returns the cell of a result.
     """
     rows = list(results)
     kind: type = type(rows[0]) if rows else object
@@ -193,7 +193,7 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, else it prints `url`."""
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, and otherwise prints it."""
 
     cite: str
     url: str = ""
@@ -211,7 +211,7 @@ class PageExtras:
     """Short remarks below the summary, such as the extra to install for pictures."""
     pictures: Sequence[Picture] = ()
     viewer: str = ""
-    """Complete HTML page with the animated train; "" for none."""
+    """Complete HTML page with the animated train; "" if there is none."""
     sections: Sequence[Section] = ()
     """Sections that follow the sections of the document."""
     references: Mapping[str, SourceReference] = field(default_factory=dict)

@@ -82,7 +82,7 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
 
 
 def formula_section(train: GearTrain, state: str | None, explained: bool = True) -> Iterator[Section]:
-    """Yield a section with the formulas of one state that contain tooth counts; nothing if there are none.
+    """Yield a section with the formulas of one state that contain tooth counts; yield nothing if there are none.
 
     explained   True to begin the section with an explanation of the notation
     """

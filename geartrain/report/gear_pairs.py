@@ -57,7 +57,7 @@ _MOST_PAIRS = 12  # with more, a report as text omits their tables
 
 
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
-    """Yield sections on the pairs with a declared tooth form and on the pins of a train; nothing if it has neither."""
+    """Yield sections on the pairs with a declared tooth form and on the pins of a train, if there are any."""
     if pairs:
         yield _teeth(train, pairs)
     if pins:

@@ -26,7 +26,7 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """Return a document on the states of a gearbox: ratios, speeds, slip and torques, and the maximum load of each
+    """Return a document on the states of a gearbox: ratios, speeds, slip, torques, and the maximum load of each
     element.
     """
     return Document(f"Gearbox {found.name}", (found.title,) if found.title else (), tuple(gearbox_sections(found)))

@@ -26,8 +26,8 @@ WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")  # digits of a decimal number after the second place
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
-"""Sources that the content security policy allows on pages with a viewer, whose frame inherits the policy; hashes of
-its scripts are unknown.
+"""Sources that the content security policy allows on pages with a viewer. Its frame inherits the policy, and the hashes
+of its scripts are unknown.
 """
 
 
@@ -194,9 +194,7 @@ def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
 
 
 def _policy(script: str, framed: bool) -> str:
-    """Return the content security policy of a page: it loads nothing and runs only its own script, identified by a
-    hash.
-    """
+    """Return the content security policy of a page, which loads nothing and runs only its own script (by its hash)."""
     if framed:
         return _POLICY + _INTO_FRAMES
     return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"

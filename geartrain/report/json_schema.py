@@ -155,7 +155,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
 
     kind   annotation of the values
     to     function that converts a value to plain data
-    keys   keys to include, by default those of the class
+    keys   keys to include, by default the keys of the class
     """
     origin, parts = get_origin(kind), get_args(kind)
     if origin is Annotated and isinstance(parts[1], WingResult):
@@ -237,7 +237,7 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; "" without docstring."""
+    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; "" if it has none."""
     first, _, rest = path.partition(".")
     if rest:
         whole_kind = attribute_kind(kind, first)

@@ -72,8 +72,8 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state;
-    angles in rad, and travels of links that slide in mm.
+    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state. Angles
+    are in rad, and travels of links that slide are in mm.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -179,9 +179,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state. Yield nothing if the train has neither declared tooth forms nor pins with
-    dimensions.
-    """
+    """Yield the motion in every state; yield nothing if the train has neither tooth forms nor pins with dimensions."""
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -249,9 +247,7 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
-    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if it has not been
-    run.
-    """
+    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if it was not run."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import MotionRun
 
@@ -307,7 +303,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" without such pairs."""
+    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" if all speed ratios vary."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -336,7 +332,9 @@ def _by_unit(
     head: Callable[[str], tuple[str, ...]],
     rows: Callable[[RunningStatistics], Sequence[tuple[str, ...]]],
 ) -> tuple[Table, ...]:
-    """Return a table of the outputs that turn, with angles in deg, and one of the links that slide, in mm."""
+    """Return a table of the outputs that turn, with angles in deg, and a table of the links that slide, with travels in
+    mm.
+    """
     groups = {unit: [tally for tally in tallies if _unit(tally.slides) == unit] for unit in ("deg", "mm")}
     return tuple(
         Table(head(unit), [row for tally in own for row in rows(tally)]) for unit, own in groups.items() if own
@@ -423,7 +421,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
-    """Yield a section on the couplings that move in steps; nothing if there are none."""
+    """Yield a section on the couplings that move in steps; yield nothing if there are none."""
     rows = []
     for source in motion._forward.used:
         transmission = source.transmission
@@ -458,7 +456,7 @@ def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
 
 
 def _amount(slides: bool, value: float, digits: int = 6) -> str:
-    """Return an angle in degrees as a string, or the travel of a link that slides in mm."""
+    """Return an angle in degrees, or the travel of a link that slides in mm, as a string."""
     # joints that cancel leave rounding errors
     value = value if abs(value) > _ROUNDING else 0.0
     return f"{value if slides else degrees(value):.{digits}g}"

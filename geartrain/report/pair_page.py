@@ -57,9 +57,7 @@ class FormedPair(Result):
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """Pair of wheels with triangular teeth outside a train, with the effects of impacts if operating conditions are
-    given.
-    """
+    """Pair of wheels with triangular teeth outside a train, with the effects of impacts under operating conditions."""
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
@@ -94,8 +92,8 @@ def describe_pair(
 ) -> Document:
     """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
-    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or of a
-    clearance factor that is out of range.
+    The arguments are the same as in `collect_pair`. The document gives the permitted range of a friction coefficient or
+    of a clearance factor that is out of range.
     """
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."
@@ -117,9 +115,7 @@ def describe_pair(
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
-    """Return the design of conjugate teeth; None for other tooth forms, and at a centre distance where the ratio
-    varies.
-    """
+    """Return the design of conjugate teeth; None for other tooth forms, and at a distance where the ratio varies."""
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
@@ -277,7 +273,9 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends of contact intervals and inside."""
+    """Return a section on speed ratio, instant centre and moment arms at the ends of contact intervals and
+    within them.
+    """
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))
@@ -342,7 +340,7 @@ def _losses(mesh: TriangularMesh) -> Section:
 
 
 def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
-    """Return the impacts under operating conditions; None without such conditions, and for teeth that never touch."""
+    """Return the impacts under operating conditions; None if no conditions are given or the teeth never touch."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
     return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)

@@ -30,9 +30,7 @@ class Soundness:
     file: str
     answers: Sequence[Answer]
     failures: tuple[str, ...]
-    """Undetermined speeds, unmet expectations, parts that cannot be built, and teeth that cannot turn, one line for
-    each.
-    """
+    """Lines on undetermined speeds, unmet expectations, parts that cannot be built, and teeth that cannot turn."""
     whole: bool = True
     """True if the checks of teeth, loads and closure of loops, which need numpy, are included."""
 
@@ -114,7 +112,7 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _neglected(train: GearTrain) -> Iterator[str]:
-    """Yield the effects that computed torques neglect, for each loaded state; nothing if teeth cannot turn."""
+    """Yield the effects that computed torques neglect, for each loaded state; yield nothing if teeth cannot turn."""
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:
@@ -172,9 +170,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Return the unit of speed of a train in turns per second; None if its speeds have no unit and no input rate is
-    declared.
-    """
+    """Return the unit of speed of a train in turns per second; None if speeds have no unit and no rate is declared."""
     if declared.unit_speed is not None:
         return declared.unit_speed
     case = declared.case(answer.state)

@@ -102,8 +102,8 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """Return a document with a table of polyhedra: which sets of gears on them turn, how many meshes must be removed
-    otherwise, and the angles between axes.
+    """Return a document with a table of polyhedra, which shows whether their gears turn, how many meshes must be
+    removed otherwise, and the angles between axes.
     """
     table = result_table(
         rows,
@@ -123,7 +123,7 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
     """Return a document on suggested tooth counts of gears on a sphere, for which loops close and tooth tips clear each
-    other, in the order of `found`, and on rejected sets.
+    other, and on rejected sets. The order is the order of `found`.
     """
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = []

@@ -158,7 +158,9 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
-    """Yield the pull of each belt at the driven pulley [N], torque divided by half of the pitch diameter."""
+    """Yield the pull of each belt at the driven pulley [N], which is the torque divided by half of the pitch
+    diameter.
+    """
     for belt in declared.couplings:
         if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
             continue
@@ -208,7 +210,7 @@ def torques_document(found: Torques | TorqueCycle) -> Document | None:
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
-    """Yield sections on the torques in each loaded state of a train; the first explains the units."""
+    """Yield sections on the torques in each loaded state of a train; the first section explains the units."""
     sections = (section for each in found for section in torque_sections(each))
     for at, section in enumerate(sections):
         yield section if at else replace(section, paragraphs=(_units(found), *section.paragraphs))
@@ -313,7 +315,7 @@ def _held(found: Torques, amounts: _Amounts) -> Iterator[Table]:
 
 
 def uncounted_words(found: Torques) -> str:
-    """Return the effects that an efficiency neglects, as a suffix to its value; "" if none."""
+    """Return the effects that an efficiency neglects, as a suffix to its value; "" if there are none."""
     uncounted = ", ".join(map(str, found.uncounted))
     return f" without {uncounted}" if uncounted else ", mean over a turn" if found.neglected else ""
 
@@ -356,9 +358,7 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """Yield a table of the losses of each pair and bearing, with the total in the last row; impacts have separate
-    columns.
-    """
+    """Yield a table of the losses of each pair and bearing, and their total; impacts have separate columns."""
     if not flow.losses and not impact_power:
         return
     struck = {node: impact_power[node.name] for node in flow.nodes if node.kind == "pair" and node.name in impact_power}
@@ -379,7 +379,9 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a table row: a loss, its shares of input power and of all losses, the power of impacts and its share."""
+    """Return a table row with a loss and its shares of the input power and of all losses, and the power of impacts and
+    its share.
+    """
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")
@@ -456,7 +458,7 @@ def _run(found: TorqueCycle) -> str:
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
     """Yield sentences on the fractions of the run in which the train locks, all energy is lost, or results are
-    ambiguous; then on efficiency, the largest loss, flank changes and recirculating power.
+    ambiguous, and on efficiency, the largest loss, flank changes and recirculating power.
     """
     shares = {
         "no torque balances: the train locks": found.locked_share,
@@ -513,7 +515,9 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return a table of energies over a run with their shares of all energy put in, without rounding errors."""
+    """Return a table of energies over a run with their shares of the energy input; amounts as small as rounding errors
+    are omitted.
+    """
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()

@@ -108,9 +108,7 @@ class TrainReport(TrainAnswers):
     gridlock: Gridlock
     """Links that are locked together by meshes, and a minimal set of meshes whose removal frees them."""
     closure: MeshPhasing | None
-    """Assembly condition: whether the teeth of every loop mesh at the declared positions; None if axes have no
-    positions.
-    """
+    """Assembly condition: whether the teeth of every loop mesh at the declared positions; None without positions."""
     sources: Mapping[str, str]
     """Full citation of each source, by its key."""
     circuits: tuple[Circuit, ...]
@@ -136,9 +134,7 @@ class TrainReport(TrainAnswers):
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Motion in every state of a train with declared tooth forms or pins; an entry with `error` if it cannot be
-    computed.
-    """
+    """Motion in every state of a train with tooth forms or pins; an entry with `error` if it cannot be computed."""
     errata: tuple[Erratum, ...]
     """Declared errors in the published sources."""
 
@@ -232,9 +228,7 @@ def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:
-    """Return True if the loads of a state have units, a wheel has a material, and the package `simulation` is
-    installed.
-    """
+    """Return True if loads of a state have units, a wheel has a material, and the package `simulation` is installed."""
     if not has_wing("simulation"):
         return False
     if declared.material is None and all(wheel.material is None for _, wheel in declared.wheels.values()):

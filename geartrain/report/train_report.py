@@ -42,10 +42,10 @@ from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
+    from geartrain.dynamics.clock_rate import Timekeeping
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
     from geartrain.train.fusees import FuseeSpring
-
 
 _CIRCUITS_ABREAST = 6  # columns of circuits that fit into one table
 _MOST_SPACED, _MOST_LETTERS = 32, 72  # maximum links of a matrix with blanks between columns, and of any matrix
@@ -159,8 +159,6 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
 
         yield from loaded_sections(found.torques)
     for clock in found.timekeeping:
-        from geartrain.report.clock_report import timekeeping_section
-
         yield timekeeping_section(clock)
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
@@ -199,7 +197,7 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
-    """Return the train as a gearbox; None if it has no shift elements and states or is not a valid gearbox."""
+    """Return the train as a gearbox; None if it has no shift elements or no states, or is not a valid gearbox."""
     try:
         return train.gearbox() if train.declaration.clutches and train.states else None
     except GearTrainError:
@@ -253,7 +251,7 @@ def _structure(train: GearTrain) -> Iterator[Section]:
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
-    """Yield the adjacency matrix with one letter in each cell; nothing if it is wider than a line."""
+    """Yield the adjacency matrix with one letter in each cell; yield nothing if it is wider than a line."""
     links = list(train.declaration.links)
     if len(links) > _MOST_LETTERS:
         return
@@ -309,9 +307,7 @@ def _circuits(train: GearTrain) -> Section:
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return a table with one column for each fundamental circuit, and rows for its links, carrier, tooth counts and
-    ratio.
-    """
+    """Return a table with one column for each fundamental circuit: its links, carrier, tooth counts and ratio."""
     from geartrain.teeth.coupling import coupling_model
 
     wheels = declared.wheels
@@ -380,7 +376,7 @@ def mobility_document(found: Mobility) -> Document:
 
 
 def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
-    """Yield a section on phase closure; nothing if axes have no positions or the pairs form no loop."""
+    """Yield a section on phase closure; yield nothing if axes have no positions or the pairs form no loop."""
     if closure is None or closure.kind == "open":
         return
     rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
@@ -393,7 +389,9 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return the adjacency matrix of links as a table: R(axis) for a turning pair, ids for gear pairs and couplings."""
+    """Return the adjacency matrix of links as a table, with R(axis) for turning pairs and ids for gear pairs and
+    couplings.
+    """
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
@@ -447,7 +445,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Yield a table of wheels with sources, status and notes; nothing if only tooth counts are declared."""
+    """Yield a table of wheels with sources, status and notes; yield nothing if only tooth counts are declared."""
     rows = []
     for name, (link, wheel) in declared.wheels.items():
         uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None
@@ -461,3 +459,55 @@ def _wheels_with_sources(declared: Train) -> Iterator[Section]:
     # the first three columns are in the structure already
     if len(table.header) > 3:
         yield Section("Wheels and their sources", (), (replace(table, rows=cut(table.rows)),))
+
+
+_PER_DAY = 86400.0
+
+
+def timekeeping_section(found: Timekeeping) -> Section:
+    """Return a section on the energy, the amplitude and the rate of a clock in one state."""
+    lines = [f"{verdict}."] if (verdict := _verdict(found)) else []
+    lines.append(
+        "Friction of pivots is included only as declared by `bearing`. Rates are for a constant amplitude; friction on "
+        "the dead faces, backlash of the crutch and air drag are not modelled."
+    )
+    return Section(titled(found.state, "timekeeping"), lines, (Table(("quantity", "value"), list(_rows(found))),))
+
+
+def _verdict(found: Timekeeping) -> str:
+    if found.efficiency <= 0:
+        return f"The clock does not go: friction takes all of the torque at '{found.source}'"
+    if found.goes is None:
+        return ""
+    needed = _torque(found, found.minimum_torque) if found.minimum_weight is None else f"{found.minimum_weight:.4g} kg"
+    return f"The clock {'goes' if found.goes else 'does not go'}: at least {needed} is needed at '{found.source}'"
+
+
+def _torque(found: Timekeeping, size: float | None) -> str:
+    return "" if size is None else f"{size:.6g} {'N' if found.slides else 'N m'}"
+
+
+def _rows(found: Timekeeping) -> Iterator[tuple[str, str]]:
+    kind = "force" if found.slides else "torque"
+    yield f"{kind} at {found.source}", _torque(found, found.torque)
+    yield f"power at {found.source}", f"{1e6 * found.power:.6g} uW"
+    yield "efficiency up to the escape wheel", f"{found.efficiency:.6f}"
+    if found.lost_in_bearings:
+        yield "lost in pivots", f"{100 * found.lost_in_bearings:.4g} %"
+    yield "energy per beat", f"{1e6 * found.beat_energy:.6g} uJ"
+    if found.amplitude is not None:
+        yield "amplitude of the pendulum", f"{degrees(found.amplitude):.5g} deg"
+    if found.minimum_torque is not None:
+        yield f"minimum {kind} at {found.source}", _torque(found, found.minimum_torque)
+    if found.minimum_weight is not None:
+        yield "minimum weight", f"{found.minimum_weight:.4g} kg"
+    if found.descent is not None:
+        yield "descent of the weight", f"{1000 * _PER_DAY * found.descent:.6g} mm/day"
+    if found.going_time is not None:
+        yield "going time", f"{found.going_time / _PER_DAY:.5g} days"
+    rates = (
+        ("rate, circular error", found.circular, "s/day"),
+        ("rate, escapement error", found.escapement, "s/day"),
+        ("rate, thermal expansion", found.thermal, "s/day per kelvin"),
+    )
+    yield from ((what, f"{rate:+.4g} {unit}") for what, rate, unit in rates if rate is not None)

@@ -11,7 +11,7 @@ SolidModel   wheels, arbors and plates as closed surfaces, in the sizes of `Manu
 
 context         a train, its answer in one state and its layout, from which all parts of a scene are derived
 construction    construction of the scene of a train; phases of wheels; exact speeds as functions of tooth counts
-train_scene     the scene as plain data; its records are in `elements`, its formulas in `count_formulas`
+train_scene     the scene as plain data; its records are in `elements`
 bodies          links and wheels with their teeth; flexible wheels of strain waves
 joints          gear pairs, and pins in slots
 movement        exact speeds and transmission errors, as tables and steps; evaluated by `pose`

@@ -42,11 +42,11 @@ class BentWheel:
     axis: str
     """Label of the axis of the wave generator."""
     offset: Vector
-    """Vector from the generator's axis to the wheel's declared axis [mm], which gives amplitude and direction of the
-    wave.
+    """Vector from the generator's axis to the wheel's declared axis [mm], which gives the amplitude and the direction
+    of the wave.
     """
     lobes: int
-    """Number of lobes of the wave: the tooth count of the ring minus that of the flexible wheel."""
+    """Number of lobes of the wave: the tooth count of the ring minus the tooth count of the flexible wheel."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
@@ -70,7 +70,7 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Return the bodies and wheels, with flexible wheels moved onto the axes of their wave generators, and the strain
+    """Return the bodies and wheels, with flexible wheels moved to the axes of their wave generators, and strain
     waves.
     """
     bent, moved, waves = list(bodies), list(wheels), []
@@ -108,8 +108,8 @@ def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of an internal gear, shaped like the tooth space of an external wheel, `height` [modules]
-    high.
+    """Return a nominal tooth of an internal gear, `height` [modules] high, shaped like an external wheel's
+    tooth space.
     """
     most = 1 + 2 * DEDENDUM / z
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
@@ -164,9 +164,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread around its axis; `height` is the addendum divided by the pitch
-    radius.
-    """
+    """Return the axial section of a worm's thread around its axis; `height` is the addendum over the pitch radius."""
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -193,8 +191,8 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angular thickness [rad] of an involute tooth, undercut by a rack, at `r` pitch radii from the
-    axis.
+    """Return half the angular thickness [rad] of an involute tooth, undercut by a rack, at the radius `r` [pitch
+    radii].
     """
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
@@ -217,9 +215,7 @@ def _swept(z: float, r: float) -> float:
 
 
 def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
-    """Return a whole tooth, from the middle of one tooth space to the middle of the next, given one flank from root to
-    tip.
-    """
+    """Return a whole tooth between the middles of two tooth spaces, given one flank from root to tip."""
     root = flank[0][0]
     before = [(r, -angle) for r, angle in flank]
     return ((root, -pi / z), *before, *reversed(flank), (root, pi / z))
@@ -266,9 +262,7 @@ def _role(stage: SceneContext, link: str) -> str:
 
 
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
-    """Return the tooth profile of every wheel, nominal if it cannot be cut as declared, and notices with the
-    reasons.
-    """
+    """Return the tooth profile of every wheel, nominal if it cannot be cut as declared, and notices with reasons."""
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
         wheel: ToothProfile(each.form, each.section(), each.kind == "pins")
@@ -282,9 +276,7 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield one notice for each reason why planar wheels are not drawn as cut, and for each flexible wheel without a
-    wave.
-    """
+    """Yield a notice for each reason why planar wheels are not drawn as cut, and each flexible wheel without a wave."""
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -394,8 +386,8 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Return the helix angle of teeth, or of a worm's thread, relative to the axis [rad], positive for a right-hand
-    helix.
+    """Return the helix angle of teeth, or of a worm's thread, relative to the axis [rad]; it is positive for a
+    right-hand helix.
     """
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
@@ -405,7 +397,9 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """Return -1 if the declared axis of a wheel is opposite to the reference direction of its parallel axes, else 1."""
+    """Return -1 if the declared axis of a wheel is opposite to the reference direction of parallel axes,
+    otherwise 1.
+    """
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
@@ -426,7 +420,7 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of input power lost at each wheel, half the loss of its pairs; empty if unknown."""
+    """Return the fraction of the input power lost at each wheel, half the loss of its pairs; empty if unknown."""
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

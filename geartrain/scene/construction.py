@@ -28,7 +28,6 @@ from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, size
 from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.coupling_shapes import find_shapes
 from geartrain.scene.dial_pointers import (
     angles_at_start,
@@ -44,7 +43,7 @@ from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.layout.train_layout import pitch_directions
 from geartrain.scene.movement import MovementStart, find_movement
 from geartrain.scene.scene_run import find_run
-from geartrain.scene.train_scene import Scene, TourStop
+from geartrain.scene.train_scene import CountCondition, CountFormula, Scene, SceneFormulas, TourStop
 from geartrain.train import Output
 
 if TYPE_CHECKING:
@@ -66,7 +65,8 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector
     """Return the directions of contact of a pair and its sense; None for screw pairs and for coaxial wheels.
 
     The directions are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their
-    axes. The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, else -1.
+    axes. The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, otherwise
+    -1.
     """
     one, other = (stage.train.declaration.wheels[name][1] for name in circuit.wheels)
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
@@ -156,8 +156,8 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return the lead of a driver's tooth over the phase that its transmission function requires [pitches, -1/2 to
-        1/2].
+        """Return the distance by which a driver's tooth is ahead of the phase that its transmission function requires
+        [pitches, -1/2 to 1/2].
         """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
@@ -199,7 +199,7 @@ class _Mounting:
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
     def _position(self, circuit: Circuit, at: int) -> float:
-        """Return the initial position of the first tooth of a placed wheel, counted forwards from the contact point
+        """Return the initial position of a placed wheel's first tooth, counted forwards from the contact point
         [pitches].
         """
         wheel = circuit.wheels[at]
@@ -219,7 +219,7 @@ class _Mounting:
         return azimuth(self.meetings[circuit.id][0][at], axis, place.reference) - rest
 
     def _way(self, circuit: Circuit, at: int) -> int:
-        """Return 1 if a wheel turns in the positive sense about its body's direction, else -1."""
+        """Return 1 if a wheel turns in the positive sense about its body's direction, otherwise -1."""
         driver, setting = self._driver(circuit), self.moved.driving.get(circuit.id)
         links = (circuit.i, circuit.j)[driver], circuit.carrier
         own, base = (self.stage.sense(link) * (self.stage.speed(link) or 0) for link in links)
@@ -308,7 +308,7 @@ def _original(wheel: str, own: dict[str, str], link: str) -> str:
 
 
 def _parent(train: Train) -> str:
-    """Return the name by which a declaration can extend the train: that of the bundled example, or that of the file."""
+    """Return the name by which a declaration can extend the train: the name of the bundled example or of the file."""
     from geartrain.train.declaration_files import shipped
 
     file = train.place("name").rpartition(":")[0]

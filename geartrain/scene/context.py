@@ -44,7 +44,7 @@ class SceneContext:
 
     @cached_property
     def outputs(self) -> Mapping[str, Output]:
-        """Outputs declared in the state; for a train without outputs, the first 100 links of the train."""
+        """Outputs declared in the state, or the first 100 links of a train without declared outputs."""
         from geartrain.train import Output
 
         declared = self.train.declaration
@@ -78,8 +78,8 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link divided by that of the driving link; None if undetermined or if no link is
-        driven.
+        """Return the exact speed of a link divided by the speed of the driving link; None if it is not determined or if
+        no link is driven.
         """
         found = self.speed(link)
         if found is None or self.driving_link is None:
@@ -87,8 +87,8 @@ class SceneContext:
         return found / self.case.inputs[self.driving_link]
 
     def shown(self, speed: Fraction | None, link: str) -> str | None:
-        """Return the speed of a link as a string, exact if the inputs are exact and rounded if not, with the unit of a
-        travel; None if the speed is None.
+        """Return the speed of a link as a string with its unit if the link slides, exact if the inputs are exact and
+        otherwise rounded; None if the speed is None.
         """
         if speed is None:
             return None
@@ -96,18 +96,20 @@ class SceneContext:
         return text + self._unit(link)
 
     def rounded(self, speed: Fraction | None, link: str) -> str:
-        """Return the speed of a link as a decimal string, with the unit of a travel; empty if the speed is None."""
+        """Return the speed of a link as a decimal string, with its unit if the link slides; empty if the speed
+        is None.
+        """
         return "" if speed is None else decimal(speed) + self._unit(link)
 
     def _unit(self, link: str) -> str:
         return " mm" if link in self.train.kinematics.tree.lines else ""
 
     def sense(self, link: str) -> int:
-        """Return -1 if a link's axis is opposite to the reference direction of its parallel axes, else 1."""
+        """Return -1 if a link's axis is opposite to the reference direction of its parallel axes, otherwise 1."""
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Return the starting angle of a link [rad]: from the epoch or as declared, 0 by default."""
+        """Return the starting angle of a link [rad], which follows from the epoch or is declared; the default is 0."""
         angle = self.train.declaration.links[link].angle
         return self.set_angles.get(link, 0.0 if angle is None else angle.si)
 
@@ -117,8 +119,8 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def line(self, axis: str) -> Vector:
-        """Return the unit direction in which links slide on an axis: as declared, along the axis of a screw, vertical
-        for the weight of a drum so that it falls as the train runs, otherwise along x.
+        """Return the unit direction in which links slide on an axis. It is the declared direction, the axis of a screw,
+        the vertical for the weight of a drum, which falls as the train runs, or otherwise x.
         """
         declared = self.train.declaration.axes.get(axis)
         if declared is not None and "direction" in declared.model_fields_set:
@@ -139,8 +141,8 @@ class SceneContext:
         return (0.0, 1.0 if (self.speed(drum.slides) or 0) < 0 else -1.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared axis parallel
-        to it.
+        """Return the unit direction of an axis, reversed if opposite to z or to the first declared axis
+        parallel to it.
         """
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
@@ -162,8 +164,8 @@ class SceneContext:
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with their computed tooth geometry; empty if it cannot be computed (`unbuilt` gives the
-        reasons).
+        """Gear pairs with their computed tooth geometry; empty if it cannot be computed, for the reasons in
+        `unbuilt`.
         """
         return self._built[0]
 

@@ -130,7 +130,7 @@ def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: in
 
 
 def circle(radius: float, centre: Point = (0.0, 0.0), start: float = 0.0, sweep: float = 2 * pi) -> list[Point]:
-    """Return points on a circle; on an arc of `sweep` from `start` [rad] both ends are included."""
+    """Return points on a circle, or on an arc of `sweep` from `start` [rad] including both ends."""
     whole = abs(abs(sweep) - 2 * pi) < _NONE
     count = max(ceil(abs(sweep) / _ARC), 2)
     angles = [start + sweep * at / count for at in range(count + (not whole))]
@@ -173,21 +173,23 @@ def millimetres_of(length: Quantity | None, default: float) -> float:
 
 
 def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a box on the carrier for a coupling that is known by its ratio, and the ends of the two shafts."""
+    """Yield the housing of a coupling that is known by its ratio, and its two shafts with flanges."""
     place = places[0]
     half = 8.0 + 0.2 * place.apart
-    box = [(-half, -half), (place.apart + half, -half), (place.apart + half, half), (-half, half)]
-    yield place.flat(place.circuit.carrier, "box", place.driver_at, place.towards, box, height=2 * half)
-    for link, at, low, high in (
-        (place.circuit.j, place.driver_at, -2 * half, 0.0),
-        (place.circuit.i, place.driven_at, 0.0, 2 * half),
-    ):
-        yield place.turned(link, "shaft", at, 0.2 * half, low, high)
+    holes = [circle(0.09 * half, (0.38 * half * x, 0.38 * half * y)) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    for kind, radius, middle, height in (("box", 1.0, 0.0, 1.8), ("lid", 1.15, -0.9, 0.2), ("lid", 1.15, 0.9, 0.2)):
+        ends = circle(radius * half, (0.0, 0.0), pi / 2, pi), circle(radius * half, (place.apart, 0.0), -pi / 2, pi)
+        at = plus(place.driver_at, place.axis, middle * half)
+        yield place.flat(place.circuit.carrier, kind, at, place.towards, [*ends[0], *ends[1]], height=height * half)
+    for link, at, side in ((place.circuit.j, place.driver_at, -1), (place.circuit.i, place.driven_at, 1)):
+        yield place.turned(link, "shaft", at, 0.2 * half, min(0, 2 * side) * half, max(0, 2 * side) * half)
+        end = plus(at, place.axis, 1.8 * side * half)
+        yield place.flat(link, "flange", end, place.towards, circle(0.55 * half), *holes, height=0.2 * half)
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the pulleys of a belt, and the straight parts and arcs of the belt itself, fixed to the carrier; a belt
-    with an idle pulley is off.
+    """Yield the pulleys of a belt, and the straight parts and arcs of the belt, which are fixed to the carrier; the
+    belt is omitted if a pulley idles.
     """
     first = places[0]
     ends = (first.circuit.j, *(place.circuit.i for place in places))
@@ -240,8 +242,8 @@ def belt_outlines(
 ) -> Iterator[list[Point]]:
     """Yield the outlines of the parts of a closed belt: for each pulley its arc, then the straight part to the next.
 
-    The belt passes the pulleys in the order given. `senses` is 1 for pulleys that turn as the first, -1 for pulleys
-    touched by the other side of the belt. Straight parts are common tangents of two circles.
+    The belt passes the pulleys in the order given. `senses` is 1 for pulleys that turn in the sense of the first
+    pulley, and -1 for pulleys touched by the other side of the belt. Straight parts are common tangents of two circles.
     """
     count = len(centres)
     # centres in order of a positive turn about the first pulley, otherwise the belt would run round them backwards
@@ -276,7 +278,8 @@ def belt_outlines(
 def _rolling(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     """Yield two non-circular wheels that roll on each other without slip, from their transmission function.
 
-    At the driver's angle S the speed ratio q' gives the radii C q'/(1 + q') and C/(1 + q') with the axis distance C.
+    At the driver's angle S, the radii are C q'/(1 + q') and C/(1 + q'), with the axis distance C and the speed ratio
+    q'.
     """
     import numpy as np
 

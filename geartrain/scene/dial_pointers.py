@@ -199,7 +199,9 @@ def _is_placed(dial: Dial, axis: AxisPlace | None, right: Vector, up: Vector) ->
 
 @lru_cache(maxsize=64)
 def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """Return the engraved lines of a scale as integer steps from point to point, in 1/4,000 of the dial's radius."""
+    """Return the engraved lines of a scale as integer steps from point to point, in 1/4,000 parts of the dial's
+    radius.
+    """
     return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
 
 
@@ -314,9 +316,7 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials in the same order, with radii reduced so that they do not overlap; dials about one axis are
-    nested.
-    """
+    """Return the dials in the same order, with radii reduced to avoid overlaps; dials about one axis are nested."""
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -422,8 +422,8 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> SceneEpoch | None:
-    """Return the declared date in turns of the driving link, with the angles of the pointers at that date; None without
-    a date, a time unit or a driven link.
+    """Return the declared date in turns of the driving link, with the angles of the pointers at that date; None if the
+    date, the time unit or the driven link is missing.
     """
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
@@ -461,7 +461,7 @@ def _settings(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[
 def angles_at_start(
     stage: SceneContext, epoch: SceneEpoch, pointers: Sequence[Pointer], dials: Sequence[DialFace]
 ) -> dict[str, float]:
-    """Return the angles of links at 0 turns [rad] at which pointers have their angles at the epoch."""
+    """Return the angles of links at 0 turns [rad] for which the pointers have their declared angles at the epoch."""
     links, found = tuple(stage.body), dict[str, float]()
     for setting in epoch.settings:
         pointer = pointers[setting.pointer]
@@ -482,8 +482,8 @@ def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return the target speeds of an output relative to the driving link; one without a sense takes the sense of
-    `speed`.
+    """Return the target speeds of an output relative to the driving link; a target without a sense of rotation takes
+    the sense of `speed`.
     """
     if stage.driving_link is None or speed is None:
         return ()

@@ -50,7 +50,7 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """Reading of a pointer: turn of the spiral and cell, both counted from 1, then the name of the group of cells that
+    """Reading of a pointer: the turn of the spiral and the cell, both counted from 1, the name of the group that
     contains the cell, and the number of the cell within this group.
 
     The name is empty, and `within` is 0, at cells without a name.
@@ -79,9 +79,7 @@ class DialScale:
     cell: str = _CELL
     """Name of one division, such as `cell` or `degree`."""
     names: tuple[tuple[str, Fraction, Fraction], ...] = ()
-    """Names of groups of divisions: name, number of divisions before the group, and number of divisions in the
-    group.
-    """
+    """Groups of divisions: name of the group, number of divisions before it, and number of divisions in it."""
     numerals: tuple[tuple[str, int], ...] = ()
     """Numerals at division lines, each with the number of divisions before its line."""
     glyphs: tuple[tuple[int, str], ...] = ()
@@ -95,9 +93,7 @@ class DialScale:
     inscriptions: tuple[tuple[str, str], ...] = ()
     """Pairs of a name and a different text that is engraved for it."""
     counted: int = 0
-    """Number of divisions after which declared numerals restart; 0 if no numerals are declared and cells are counted
-    from 1.
-    """
+    """Number of divisions after which declared numerals restart; 0 if cells are counted from 1 without numerals."""
 
     def radius(self, turned: float) -> float:
         """Return the relative radius of the scale after a number of turns from its inner end; `outer` for a circle."""
@@ -109,7 +105,7 @@ class DialScale:
 
     def read(self, turned: Fraction) -> ScaleReading:
         """Return the reading of a pointer after a number of turns; a pointer on a division line reads the cell after
-        the line.
+        it.
         """
         along = turned % self.turns
         done = along / self.turns * self.divisions
@@ -119,16 +115,16 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: its own number, or that of the numbered division line before the
-        cell.
+        """Return the number by which a cell is read: its own number, or the number of the numbered division line before
+        the cell.
         """
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading as a string such as `Leo, degree 14`, with the glyph of the cell; empty for a circle that
-        is not divided.
+        """Return the reading as a string such as `Leo, degree 14`, with the glyph of the cell; empty if the circle has
+        no divisions.
         """
         read, parts = self.read(turned), []
         if self.turns > 1:
@@ -180,7 +176,7 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the numerals with their division lines, as declared, or up to twelve from 0 on a circle without names."""
+    """Return the declared numerals with their division lines, or up to twelve from 0 on a circle without names."""
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -281,7 +277,7 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield names in the middles of their groups of divisions; if they do not fit, every second to sixth name, or
+    """Yield the names in the middles of their groups of divisions; if space is short, every second to sixth name, or
     none.
     """
     radius = scale.outer - _BAND
@@ -331,8 +327,8 @@ def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
-    """Yield glyphs, or names, in their cells, in a common size that fits in all cells; names that would be too small
-    are omitted.
+    """Yield the glyphs or names of the cells in a common size that fits in all cells; names that would be too small are
+    omitted.
     """
     texts = scale.glyphs or tuple((cell, _engraved(scale, name)) for cell, name in enumerate(scale.cells, 1))
     height = min([_TALL, *(_fitting(text, radius, scale.turn_of(1)) for _, text in texts)])

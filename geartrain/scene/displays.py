@@ -37,7 +37,7 @@ _TYRE = 0.1  # thickness of a road wheel divided by its radius
 
 
 def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weight"]:
-    """Return the drive of a train: as declared; by default a motor for a speed in real time, otherwise a hand."""
+    """Return the declared drive of a train; by default, a motor for a speed in real time, and a hand otherwise."""
     drive = stage.case.drive
     declared = stage.train.declaration
     if drive is None:
@@ -46,7 +46,7 @@ def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weigh
 
 
 def fusee_radii(stage: SceneContext) -> tuple[float, ...]:
-    """Return radii of the fusee of the drive at equal angles from its start to its end [mm]; empty without a fusee."""
+    """Return radii of the fusee of the drive [mm] at equal angles from its start to its end; empty without a fusee."""
     spring = stage.case.drive.spring if stage.case.drive is not None else None
     chained = None if spring is None else spring.chained
     if chained is None:
@@ -76,7 +76,9 @@ def _part(stage: SceneContext, link: str, name: str, at: Vector, way: Vector, **
 
 
 def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield a standing figure in a robe, its outstretched arm, which points as a hand would, and the rod below it."""
+    """Yield a standing figure in a robe, its outstretched arm, which points like a hand, and the rod below the
+    figure.
+    """
     up, point = facing(stage, name), _origin(stage, link)
     feet = _reach(stage, point, up)[0] + _STAND
     high = _HEIGHT * train_width(stage)
@@ -89,7 +91,7 @@ def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
 
 
 def _road_wheel(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield a spoked wheel outside of the train on its axle, with its hub and the axle."""
+    """Yield a spoked road wheel outside the train, its hub and its axle."""
     point, axis = _origin(stage, link), stage.reference(_axis(stage, link))
     own = [place for place in stage.layout.wheels.values() if place.axis == _axis(stage, link) and place.link == link]
     mine = sum(dot(minus(place.centre, point), axis) for place in own)

@@ -49,9 +49,7 @@ class ScenePart(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneHanger(Shown):
-    """Part that hangs from a train, such as a pendulum, the line of a weight or the weight, or that connects two
-    bodies.
-    """
+    """Part that hangs from a train, such as a pendulum or a weight with its line, or that connects two bodies."""
 
     kind: Literal["pendulum", "line", "weight", "rod"]
     """Kind of the part: a pendulum swings with its escape wheel; a weight falls on its line as the barrel turns; a
@@ -99,7 +97,7 @@ class SceneBody(Shown):
     direction: Vector
     """Unit vector along the link's axis, in the reference direction of all axes that are parallel to it."""
     sense: int
-    """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; else 1."""
+    """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; otherwise 1."""
     speed: str | None
     """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined. For
     a link that slides, one turn corresponds to a travel of 1 mm.
@@ -136,7 +134,7 @@ class ToothProfile(Shown):
     """
 
     form: str
-    """Tooth form: triangular, involute, cycloidal, ...
+    """Tooth form, such as triangular, involute or cycloidal.
 
     It is `standard` if no form is declared, and `likeness` for nominal teeth of a wheel without a flat outline.
     """
@@ -203,9 +201,7 @@ class SceneWheel(Shown):
     declared loads.
     """
     helix: float = 0.0
-    """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right-hand
-    helix.
-    """
+    """Helix angle of the teeth, or of a worm's thread, relative to the axis [rad]; positive for a right-hand helix."""
     holes: Sequence[Sequence[float]] = ()
     """Outlines of holes in the wheel as built, for pins that move in it or for an eccentric on which it turns. Each
     outline has alternating x and y from the middle of the wheel [mm], with x through the first tooth.
@@ -274,9 +270,7 @@ class SceneCoupling(Shown):
     text: str
     """Equation of the coupling's fundamental circuit as a string."""
     slot_turn: float = 0.0
-    """Angle from the line of `slot_at` and `pin_at` to the slot in the zero pose [rad]; 0 if no starting angles are
-    declared.
-    """
+    """Angle from the line of `slot_at` and `pin_at` to the slot in the zero pose [rad]; 0 without starting angles."""
     pins_at: Sequence[Vector] = ()
     """Centres of all pins in round holes in the zero pose [mm]; empty for a pin in a slot."""
     holes_at: Sequence[Vector] = ()

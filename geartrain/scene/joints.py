@@ -80,9 +80,7 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield pairs whose tooth forms cannot run together, in the form of loops (`_loop_data`), with reason and
-    remedy.
-    """
+    """Yield pairs whose tooth forms cannot run together, as faulty loops (`_loop_data`), with reason and remedy."""
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
@@ -154,9 +152,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the unit vector from the axis of the pin's link to its first pin; pins in holes are kept off carried
-    axes.
-    """
+    """Return the unit vector from the axis of the pin's link to its first pin; pins in holes avoid carried axes."""
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.pin_couplings if isinstance(each, PinsInHoles))
@@ -190,8 +186,8 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
 
 
 def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """Return the angle between a slot and the line to its pin in the zero pose [rad]; starting angles can make it
-    nonzero.
+    """Return the angle [rad] between a slot and the line to its pin in the zero pose, which follows from starting
+    angles.
     """
     setting = moved.driving.get(circuit.id)
     if setting is None:
@@ -201,7 +197,7 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset [mm]: as declared, or scaled to axes that are `apart` [mm], or in default
+    """Return the pin radius and the offset [mm] as declared, scaled to axes that are `apart` [mm], or in default
     proportions.
     """
     if declared.pin_radius is not None and declared.offset is not None:

@@ -164,8 +164,8 @@ def tables_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """Return the transmission error as piecewise polynomials, in the smallest table accurate to `TOLERANCE` driven
-    pitches.
+    """Return the transmission error as piecewise polynomials, in the smallest table within `TOLERANCE` [driven
+    pitch].
     """
     import numpy as np
 
@@ -239,9 +239,7 @@ class MovementStart:
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement in a state: `still` if no speed is determined, `mean` with a reason if errors cannot be
-    computed.
-    """
+    """Return the movement in a state: `still` if no speed is determined, `mean` if errors cannot be computed."""
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))

@@ -40,7 +40,7 @@ class Theme:
     quiet: str
     """Colour of secondary text."""
     line: str
-    """Colour of secondary lines: grids, borders."""
+    """Colour of secondary lines, such as grids and borders."""
     accent: str
     """Colour of headings and links of a page."""
     fault: str

@@ -118,7 +118,7 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
 
 
 def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats) -> None:
-    """Compute a step's errors in `delta` in place, directly if all drivers are known, else by iteration."""
+    """Compute a step's errors in `delta` in place, directly if all drivers are known, otherwise by iteration."""
     sources, known = list(step.sources), list(step.known)
     base = np.array(step.from_known).reshape(len(sources), len(known)) @ delta[known]
     # fixed-point iteration, which converges if transmission errors vary slowly with the angle

@@ -46,7 +46,7 @@ class LinkCourse(Result):
     samples: Ints
     """Indices of the simulation samples at which `angles` are stored. Shape (n,)."""
     angles: Floats
-    """Angle that the link has turned since the start, minus `rate` multiplied by the time [rad]. Shape (n,)."""
+    """Angle by which the link has turned since the start, minus `rate` multiplied by the time [rad]. Shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,9 @@ class SceneContact(Result):
     changes: Ints
     """Indices of the samples at which the contact changes to the corresponding entry of `states`. Shape (n,)."""
     states: str
-    """One letter per change: `d` drive flank, `c` coast flank, `a` no contact; empty for a contact without flanks."""
+    """One letter per change: `d` for the drive flank, `c` for the coast flank, `a` for no contact; empty for a contact
+    without flanks.
+    """
     impact_times: Floats
     """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
@@ -95,7 +97,7 @@ class SceneRun(Result):
     rate: float
     """Mean speed of the driving link [rad/s]."""
     period: float
-    """Time of one turn of the driving link at its mean speed [s]; the duration if that speed is 0."""
+    """Time of one turn of the driving link at its mean speed [s], or the duration if the mean speed is 0."""
     skip: float
     """Simulated time before the replayed part [s]."""
     duration: float
@@ -107,7 +109,7 @@ class SceneRun(Result):
     torque: float
     """Mean torque at the link where power enters [N m]."""
     complete: bool
-    """True if the simulation ran to its end, False if it was stopped before."""
+    """True if the simulation ran to its end, False if it was stopped earlier."""
     links: Sequence[LinkCourse]
     """Angles of the links, in the order of the scene's bodies."""
     contacts: Sequence[SceneContact]
@@ -280,8 +282,8 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the point where pallets touch a link's largest wheel, without mates if possible [mm]; the origin without
-    wheels.
+    """Return the point where pallets touch the largest wheel of a link, preferably one without mates [mm]; the origin
+    if the link has no wheels.
     """
     if not wheels:
         return (0.0, 0.0, 0.0)

@@ -53,8 +53,8 @@ HANDS: Mapping[str, HandOutline] = {name: _hand(*drawn) for name, drawn in _HAND
 def hand_with_ball(reach: float, ball: float) -> HandOutline:
     """Return the outline of an arm with a round end.
 
-    reach   distance of the far side of the end from the axis, and `ball`, its radius, relative to the radius of the
-            scale
+    reach   distance of the far side of the round end from the axis; `ball` is the radius of the end, and both are
+            relative to the radius of the scale
     """
     arm, radius = 0.12 * ball / reach, ball / reach
     steps = [pi * at / 12 for at in range(1, 13)]
@@ -143,9 +143,7 @@ _SMALL, _SIMPLE = 0.025, 6  # relative height of letters whose strokes of over s
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital of height 1 on the base line y = 0, and its width; a box for an unknown
-    character.
-    """
+    """Return the strokes of a capital of height 1 on the line y = 0, and its width; a box for an unknown character."""
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)

@@ -18,7 +18,6 @@ from typing import Any, Literal
 
 from geartrain.numerics.results import Shown, plain
 from geartrain.numerics.vectors import Vector
-from geartrain.scene.count_formulas import SceneFormulas
 from geartrain.scene.dial_scale import DialScale
 from geartrain.scene.elements import (
     SceneBody,
@@ -33,6 +32,57 @@ from geartrain.scene.elements import (
 )
 from geartrain.scene.movement import Movement
 from geartrain.scene.scene_run import SceneRun
+
+
+@dataclass(frozen=True, slots=True)
+class CountFormula(Shown):
+    """Ratio of two polynomials in the tooth counts, with integer coefficients, for one speed or one condition."""
+
+    wheels: Sequence[int]
+    """Indices in `SceneFormulas.wheels` of the counts in the formula, repeated for equal planets that share a count."""
+    numerator: Sequence[tuple[str, Sequence[int]]]
+    """Terms of the numerator, each as a coefficient (a string) and the power of each entry of `wheels`, 0 or more."""
+    denominator: Sequence[tuple[str, Sequence[int]]]
+    """Terms of the denominator, in the same form as the terms of the numerator."""
+
+
+@dataclass(frozen=True, slots=True)
+class CountCondition(Shown):
+    """Condition on tooth counts under which the formulas of a scene are valid."""
+
+    formula: CountFormula
+    """Function of the tooth counts that must be 0, or must not be 0."""
+    zero: bool
+    """True if the value of `formula` must be 0, False if it must not be 0."""
+    text: str
+    """Description of the condition, such as `loop a - b - c closes`."""
+    carrier: int | None = None
+    """Index of the body relative to which the wheels of a loop turn; None if the condition does not concern a loop."""
+
+
+@dataclass(frozen=True, slots=True)
+class SceneFormulas(Shown):
+    """Speeds of a scene as functions of tooth counts, at the declared inputs and in the train's unit."""
+
+    wheels: Sequence[str]
+    """Names of the declared wheels whose counts may be changed."""
+    count: Sequence[int | None]
+    """Index in `wheels` of the tooth count of each wheel of the scene; None if the count is not in `wheels`."""
+    formulas: Sequence[CountFormula]
+    """Distinct functions of the tooth counts, to which `bodies` and `pointers` refer."""
+    bodies: Sequence[int | None]
+    """Index in `formulas` of the speed of each body of the scene; None if the speed is not determined."""
+    pointers: Sequence[int | None]
+    """Index in `formulas` of the speed of each pointer of the scene; None if the speed is not determined."""
+    conditions: Sequence[CountCondition]
+    """Conditions of validity. If one is violated, the formulas do not describe the motion."""
+    input: str
+    """Exact declared speed of the driving link, in the train's unit."""
+    exact: bool
+    """True if speeds are displayed as fractions, False if as decimals."""
+    parent: str
+    """Name of the bundled example, or of the file, that the declaration of a train with changed counts extends."""
+
 
 FORMAT = 1
 
@@ -59,7 +109,7 @@ class DialFace(Shown):
     """Divisions of the scale; its radii are relative to `radius`."""
     look: Literal["scale", "ball"] = "scale"
     """Appearance: a scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball,
-    `radius` is the radius of the ball, and `normal` the direction of its axis of rotation, which passes through its
+    `radius` is the radius of the ball, and `normal` is the direction of its axis of rotation, which passes through its
     centre.
     """
     note: str = ""
@@ -73,9 +123,9 @@ class DialFace(Shown):
     title: str = ""
     """Caption: the dial's name, followed in brackets by its outputs if dials on several axes share the name."""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
-    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
-    radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
-    relative to the centre, each further point to the previous point.
+    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in units of 1/4,000
+    of the radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
+    relative to the centre, and each further point is relative to the previous point.
     """
 
 
@@ -86,7 +136,7 @@ class PointerTarget(Shown):
     label: str
     """Name of the target speed."""
     speed: str
-    """Speed relative to the driving link, exact. A target without a sense of rotation takes the sense of the output."""
+    """Exact speed relative to the driving link. A target without a sense of rotation takes the sense of the output."""
     source: str = ""
     """Key of the source of the target; empty if no source is declared."""
 
@@ -110,7 +160,7 @@ class SceneEpoch(Shown):
     """Date that corresponds to a number of turns of the driving link, and the duration of one turn."""
 
     julian_day: str
-    """Julian day of the date, exact [d]."""
+    """Exact Julian day of the date [d]."""
     turns: str
     """Exact number of turns of the driving link at that date."""
     days: str
@@ -122,12 +172,14 @@ class SceneEpoch(Shown):
     note: str
     """Declared note on the date."""
     settings: Sequence[SceneSetting] = ()
-    """Pointers that are set at that date. Each pointer is listed after the pointer that sets its base."""
+    """Pointers that are set at that date. Each pointer is listed after the pointer that determines the position of its
+    base.
+    """
     unset: Sequence[str] = ()
     """Names of the outputs on a zodiac whose pointers are not set."""
     elements: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
     """Mean elements of the Earth, the Moon and the planets as polynomials like `SceneSetting.angle`: body -> longitude,
-    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty without settings.
+    perihelion (for the Moon, perigee and node) [deg], eccentricity, distance [au]; empty if `settings` is empty.
     """
 
 
@@ -187,7 +239,7 @@ class Pointer(Shown):
     hand: str = "needle"
     """Declared shape of the hand."""
     ball: float = 0.0
-    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 without a sphere."""
+    """Radius of the sphere at the end of the hand relative to the radius of the dial; 0 if the hand has no sphere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,12 +268,12 @@ class Scene(Shown):
     driving_link: int | None
     """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None
-    """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
+    """Index of the body that is turned by hand: the declared crank, or the driving link; None if neither exists."""
     drive: Literal["hand", "motor", "spring", "weight"]
-    """Drive of the crank's body: as declared; by default a motor for a speed in real time, otherwise a hand."""
+    """Declared drive of the crank's body; by default, a motor for a speed in real time, and a hand otherwise."""
     fusee: Sequence[float]
-    """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty without a
-    fusee."""
+    """Radii of the fusee of the drive at equally spaced angles from its start to its end [mm]; empty if there is none.
+    """
     up: Vector
     """Upward unit vector of the picture: y, or the direction towards an observer who looks from above."""
     step: str
@@ -255,16 +307,17 @@ class Scene(Shown):
     back: Movement | None = None
     """Deviations of angles with the driving link reversed, on the coast flanks; None if equal to `movement`."""
     unit_days: str | None = None
-    """Length of the unit in days, exact, if the unit is a time; otherwise None."""
+    """Exact length of the unit in days if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order of declaration."""
     epoch: SceneEpoch | None = None
-    """Date at a number of turns of the driving link; None without date, time unit or driven link, and for a run.
+    """Declared date, expressed in turns of the driving link; None if a date, time unit or driving link is missing, or
+    for a run.
     """
     tour: Sequence[TourStop] = ()
     """Declared tour of the train."""
     formulas: SceneFormulas | None = None
-    """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
+    """Speeds as functions of tooth counts; None if they are not requested or not available, or if a run is replayed."""
     asks: bool = True
     """True if outputs are declared, False if links are shown as outputs instead."""
     run: SceneRun | None = None
@@ -276,7 +329,9 @@ class Scene(Shown):
     waves: Sequence[SceneWave] = ()
     """Strain waves that deflect flexible wheels into mesh with their rings."""
     shapes: Sequence[ScenePart] = ()
-    """Parts of couplings other than pins, such as belts, cams and stars; also in a scene that is not built."""
+    """Parts of couplings other than pins, such as belts, cams and stars, which are also present in a scene that is not
+    built.
+    """
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"

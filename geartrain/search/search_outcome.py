@@ -13,7 +13,7 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Counts of the candidates that a search rejected, by reason, which explain an empty or short list of solutions."""
+    """Numbers of candidates that a search rejected, by reason. They explain an empty or short list of solutions."""
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
 
@@ -25,7 +25,7 @@ class Shortfall(Result):
     """
     nearest: str = ""
     """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
-    ratio error, or of a constraint that no candidate satisfies; "" if there is a solution or the search was
+    ratio error, or of a constraint that no candidate satisfies. It is "" if there is a solution or the search was
     interrupted.
     """
     advice: str = ""
@@ -56,7 +56,7 @@ class CountSizes(ABC):
 
     @property
     def largest(self) -> int:
-        """Maximum tooth count; 0 without tooth counts."""
+        """Maximum tooth count; 0 if there are no tooth counts."""
         return max(self.counts, default=0)
 
     @property

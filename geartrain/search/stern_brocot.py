@@ -45,7 +45,7 @@ class Approximant(Result):
 
 @dataclass(frozen=True, slots=True)
 class Approximants(Tabular, Result):
-    """Fractions that approximate a ratio: those on the path to the ratio in the Stern-Brocot tree."""
+    """Fractions that approximate a ratio, on the path to this ratio in the Stern-Brocot tree."""
 
     ROWS = "search.tooth_numbers_report:approximant_rows"
     ROW = "Approximant"
@@ -78,7 +78,7 @@ class SternBrocotRun:
     far: IntegerPair
     """Numerator and denominator (P, Q) of the end on the opposite side of the number."""
     whole: int
-    """Length of the run if bounds are ignored, a term of the continued fraction. The fraction at this index is a
+    """Length of the run without bounds, which is a term of the continued fraction. The fraction at this index is a
     convergent.
     """
     length: int
@@ -177,7 +177,7 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
 
 
 def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
-    """Return the largest fraction <= `value` and the smallest >= `value` with denominators up to `most`.
+    """Return the largest fraction <= `value` and the smallest fraction >= `value` with denominators up to `most`.
 
     `value` must be 0 or more, and `most` 1 or more.
 

@@ -123,11 +123,12 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     "year_julian / month_metonic"      revolution of the first, so the ratio is the speed with the second period
                                        divided by the speed with the first. Each side is a time or the name of a
                                        period.
-    "metonic_months_per_year"          a name from that table whose row is a speed (revolutions per year) or a count
+    "metonic_months_per_year"          a name from the table of periods whose row is a speed (revolutions per year) or a
+                                       count
     "month_synodic_J2000" and `per`    a single period: its number of revolutions in one period `per`
 
-    Units of time are d, h, min, s and the like. Any other word names counted objects. Retrograde speeds of the table
-    are taken by their magnitude.
+    Units of time are d, h, min, s and the like. Any other word names counted objects. For retrograde speeds in the
+    table, the magnitude is used.
 
     Examples
     --------

@@ -1,21 +1,21 @@
-"""Gears on a sphere: axes through one point, on the faces, vertices and edges of polyhedra or on planar graphs.
+"""Gears on a sphere, whose axes pass through one point. They are placed on polyhedra, or determined by a planar graph.
 
-Inputs are a solid, by name or by its vertices, or a graph of meshing gears, and the tooth number of each kind of gear.
-The result is a `Configuration` of axes, meshes and kinds. Functions check whether the set turns and whether its teeth
-mesh around every loop, compute sizes, search for tooth numbers with nearly one pitch, and convert the set to a gear
-train.
+Inputs are a solid (by name or by its vertices) or a graph of meshing gears, and the tooth number of each kind of gear.
+The result is a `Configuration` of axes, meshes and kinds. Functions check whether the set can turn and whether its
+teeth mesh around every loop, compute sizes, search for tooth numbers for which all pitches are nearly equal, and
+convert the set to a gear train.
 
 Two meshing gears with z_i and z_j teeth, whose axes are at the angle S, have pitch cones with the half-angles rho_i =
 atan2(sin S, cos S + z_j/z_i) and the pitch lambda = sin rho_i / z_i (docs/sphere.md, equation 1). Their speeds w about
 outward axes satisfy z_i w_i = -z_j w_j. The teeth of a loop mesh if its phases close (docs/closure.md).
 
-polyhedra                                    solids from vertices and by name, with their symmetries
-polyhedron_gears                             sets of gears on a solid (axes, kinds, names); a survey of solids
+polyhedra                                    solids by name or from vertices, with their symmetries
+polyhedron_gears                             sets of gears on a solid (axes, kinds, names); survey of solids
 circle_packing, graph_set                    sets of gears from any planar graph
 configuration, assembly                      axes, meshes and kinds of gear of a set; its assembly conditions
 gear_sphere, gear_sizes                      mobility and assembly of a set; sizes of its gears
 pitch_cones                                  pitch and base cones of a pair
-tooth_count_search                           tooth numbers that nearly share one pitch (exhaustive search)
+tooth_count_search                           tooth numbers with nearly equal pitches (exhaustive search)
 axis_adjustment                              axes adjusted until all meshes have one pitch, or loops close (Newton)
 """
 

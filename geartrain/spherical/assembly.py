@@ -1,6 +1,7 @@
-"""Assembly conditions of gears on a sphere: phases of their meshes, and rules for the tooth numbers.
+"""Assembly conditions of gears on a sphere: phases of their meshes, and rules for their tooth numbers.
 
-The set can be assembled if each loop of a basis contains an integer number of teeth, equation (3) of docs/closure.md.
+The set can be assembled if each loop of a cycle basis contains an integer number of teeth, equation (3) of
+docs/closure.md.
 """
 
 from __future__ import annotations
@@ -40,12 +41,12 @@ def spherical_phasing(configuration: Configuration, teeth: Mapping[str, int] | N
     configuration : Configuration
         Set of gears.
     teeth : mapping of str to int, optional
-        Tooth count of each kind of gear, instead of the counts of the configuration.
+        Tooth count of each kind of gear; by default the counts of the configuration.
 
     Returns
     -------
     MeshPhasing
-        Phasing; angles of links are measured from the first direction of `configuration.frame`.
+        Phases of the teeth. Angles of links are measured from the first vector of `configuration.frame`.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def spherical_phasing(configuration: Configuration, teeth: Mapping[str, int] | N
 
     Examples
     --------
-    Gears in the faces of an icosidodecahedron; 3 must divide z3, and 5 must divide z5:
+    For gears on the faces of an icosidodecahedron, 3 must divide z3, and 5 must divide z5:
 
     >>> from geartrain.spherical import from_polyhedron, solid
     >>> gears = from_polyhedron(solid("icosidodecahedron"))
@@ -74,12 +75,12 @@ def spherical_divisibility_rule(configuration: Configuration) -> DivisibilityRul
     Parameters
     ----------
     configuration : Configuration
-        Set of gears; its tooth counts do not matter.
+        Set of gears; its tooth counts are not used.
 
     Returns
     -------
     DivisibilityRule or None
-        Rule; None if the contacts are not at known rational fractions of a turn.
+        Divisibility rule; None if the angles between contacts are not known rational fractions of a turn.
 
     Examples
     --------
@@ -133,15 +134,16 @@ def _contacts(configuration: Configuration, circuits: tuple[Circuit, ...]) -> Pi
 
 
 def wrapped(turns: Floats) -> Floats:
-    """Return `turns` minus the nearest integer, -1/2 to 1/2."""
+    """Return the difference between `turns` and the nearest integer, from -1/2 to 1/2."""
     return np.asarray(turns - np.round(turns), dtype=float)
 
 
 def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float], tolerance: float) -> Mask:
-    """Return a mask of the tooth numbers for which sum z_k a_k is an integer, docs/closure.md (3).
+    """Return a boolean mask of the tooth numbers z_k for which sum z_k a_k is an integer, equation (3) of
+    docs/closure.md.
 
-    The test is exact if all a_k are Fractions, otherwise with `tolerance` [pitch]. z_k a_k is the signed number of
-    teeth that gears of kind k have inside one loop of meshes.
+    The test is exact if all factors a_k in `rule` are Fractions; otherwise it has the tolerance `tolerance` [pitch].
+    The product z_k a_k is the signed number of teeth that gears of kind k have inside one loop of meshes.
     """
     if all(isinstance(share, Fraction) for share in rule):
         # integer arithmetic over the common denominator
@@ -152,17 +154,17 @@ def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float],
 
 
 def residue(teeth: Sequence[Any], rule: Sequence[Fraction | float]) -> Floats:
-    """Return the closing error of a loop [pitch]: the sum of z_k a_k minus the nearest integer, with tooth numbers
-    z_k and factors a_k of the loop (`loop_rules`).
+    """Return the closing error of a loop [pitch]: the sum of z_k a_k minus the nearest integer, where z_k are the tooth
+    numbers and a_k the factors of the loop (see `loop_rules`).
     """
     return wrapped(np.asarray(sum(z * float(share) for z, share in zip(teeth, rule, strict=True)), dtype=float))
 
 
 def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[int]:
-    """Return for each kind of gear an integer that divides its tooth number if all exact rules are satisfied.
+    """Return for each kind of gear an integer that must divide its tooth number for all exact rules to be satisfied.
 
-    The rules are those of `loop_rules`. If sum z_k a_k is an integer, m a_i z_i is an integer too, where m is the
-    common denominator of the other a_k.
+    The rules are those of `loop_rules`. If sum z_k a_k is an integer, then m a_i z_i is also an integer, where m is the
+    common denominator of the other factors a_k.
     """
     found = [1] * kinds
     for rule in rules:
@@ -175,11 +177,11 @@ def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[in
 
 
 def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ...], ...]:
-    """Return the assembly conditions: for each distinct condition, a factor a_k for the tooth number z_k of each
-    kind of gear.
+    """Return the distinct assembly conditions, each as a factor a_k of the tooth number z_k of each kind of gear.
 
-    For every loop of a basis, sum z_k a_k must be an integer. The factors are Fractions if the contacts of every
-    gear in the loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
+    For every loop of a cycle basis, sum z_k a_k must be an integer. The factors are Fractions if the contacts of every
+    gear in the loop are equally spaced. Raises `QuestionError` if a loop has an odd number of gears, because such a set
+    cannot turn.
     """
     phasing = _closure(configuration, [1] * len(configuration.names))
     parts = phasing.problem.parts
@@ -205,8 +207,8 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
 
 
 def _canonical(shares: Sequence[Fraction | float]) -> tuple[Fraction | float, ...]:
-    """Return the factors of an assembly condition modulo integers, in a form that is equal for both senses of
-    traversing a loop.
+    """Return the factors of an assembly condition modulo integers, in a form that does not depend on the sense in which
+    the loop is traversed.
     """
     if all(isinstance(share, Fraction) for share in shares):
         return min(tuple(share % 1 for share in shares), tuple(-share % 1 for share in shares))

@@ -1,5 +1,5 @@
-"""Adjustment of gear axes until all meshes have one pitch (Levenberg's method), also with the symmetries of a solid, or
-until all loops close (Newton's method).
+"""Adjustment of gear axes until all meshes have the same pitch (Levenberg's method), optionally with the symmetries of
+a solid, or until all loops close (Newton's method).
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 Meshes = Sequence[tuple[int, int]]
 _MOST_STEPS = 80  # maximum number of steps of either method
 _EXACT = 1e-11
-"""Maximum difference of the logarithms of two pitches that are considered equal; rounding causes about 1e-15."""
+"""Maximum difference between the logarithms of two pitches that are considered equal; rounding causes about 1e-15."""
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)
-"""Standard deviations [rad] of the random displacements that break the symmetry of a set."""
+"""Standard deviations of the random displacements that break the symmetry of a set [rad], one per trial."""
 _MOST_RETRIED = 600  # meshes; five fits of larger sets take more than a few seconds
 _SOLVED = 1e-13  # residual of a log pitch; rounding of axes leaves about 1e-15
 _PHASE_DAMPING = 1e-4  # keeps axes that neither loops nor pitches determine
@@ -33,11 +33,11 @@ _LONGEST = 0.1
 
 
 def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats, csr_array]:
-    """Return the sum of (-1)^k z_k alpha_k / 2 pi over the gears k of every loop [pitch], and its derivative with
+    """Return the sum of (-1)^k z_k alpha_k / (2 pi) over the gears k of every loop [pitch], and its derivative with
     respect to displacements of the axes.
 
-    z_k is the tooth number. The angle alpha_k, 0 to 2 pi, at gear k is measured counterclockwise from its next to
-    its previous contact.
+    Here z_k is the tooth number, and alpha_k the angle at gear k from its next to its previous contact,
+    counterclockwise, from 0 to 2 pi [rad].
     """
     from scipy.sparse import coo_array
 
@@ -54,8 +54,8 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
     """Return the logarithm of the operating pitch of every mesh, and its derivative with respect to displacements
     of the axes.
 
-    The pitch lambda depends on the angle S between the axes: d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 +
-    z_j^2 + 2 z_i z_j cos S), with the tooth numbers z_i and z_j.
+    The pitch lambda depends on the angle S between the axes and the tooth numbers z_i and z_j: d ln lambda / dS = cot S
+    + z_i z_j sin S / (z_i^2 + z_j^2 + 2 z_i z_j cos S).
     """
     from scipy.sparse import diags_array
 
@@ -67,9 +67,9 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
 
 
 def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
-    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping, with J the derivative of `error`.
+    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping, where J is the Jacobian of `error`.
 
-    For `damping` towards 0 it tends to the minimum-norm solution of J x = -error.
+    As `damping` tends to 0, the step tends to the minimum-norm solution of J x = -error.
     """
     from scipy.sparse import block_array, eye_array
     from scipy.sparse.linalg import splu
@@ -84,7 +84,7 @@ def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
 
 @dataclass(frozen=True)
 class LoopCorners:
-    """Contacts of the gears in loops as arrays of equal length: gear, next and previous gear, sense of rotation, and
+    """Contacts of the gears in loops, as arrays of equal length: gear, next gear, previous gear, sense of rotation, and
     index of the loop. `count` is the number of loops.
     """
 
@@ -97,7 +97,7 @@ class LoopCorners:
 
 
 def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
-    """Return the corners of loops of gears; `side` is the sense of rotation of each gear, 1 or -1."""
+    """Return the contacts of the gears in loops; `side` is the sense of rotation of each gear, 1 or -1."""
     rows = [
         (gear, loop[(k + 1) % len(loop)], loop[k - 1], side[gear], at)
         for at, loop in enumerate(loops)
@@ -108,11 +108,11 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
 
 
 def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, seed: int = 0) -> tuple[Floats, list[float]]:
-    """Return axes near the given axes at which all meshes have one pitch, and the residual after each step.
+    """Return axes near the given axes for which all meshes have the same pitch, and the residual after each step.
 
-    Solutions are not unique; the fit returns a nearby solution. A symmetric set may have no solution with this
-    symmetry, so a fit that fails is repeated after random displacements of the axes by a few degrees. If the residual
-    of the returned axes exceeds rounding, no solution was found nearby.
+    Solutions are not unique; a nearby solution is returned. A symmetric set may have no solution with this symmetry, so
+    a fit that fails is repeated after random displacements of the axes by a few degrees. If the residual of the
+    returned axes exceeds rounding errors, no solution was found nearby.
     """
     random = np.random.default_rng(seed)
     history: list[float] = []
@@ -131,11 +131,10 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, seed: int = 0) -> tuple
 def equalise_pitch(
     axes: Floats, meshes: Meshes, teeth: Floats, movable: Collection[int] | None = None
 ) -> tuple[Floats, list[float]]:
-    """Return axes at which the variance of the logarithm of the pitch has a local minimum, by Levenberg's method with
-    minimum-norm steps.
+    """Return axes for which the variance of the logarithm of the pitch has a local minimum, found by Levenberg's method
+    with minimum-norm steps, and the residual after each step.
 
-    Minimum-norm steps keep all symmetries of the set. The residual after each step is the maximum magnitude of the
-    logarithm of a pitch divided by the mean pitch [1].
+    Minimum-norm steps keep all symmetries of the set. The residual is the maximum of |ln(pitch / mean pitch)| [1].
 
     movable   gears whose axes may move; by default all gears
     """
@@ -170,8 +169,8 @@ def equalise_pitch(
 
 
 def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> float:
-    """Return the standard deviation of the logarithm of the pitch that is predicted after the first step of
-    `fit_phases`.
+    """Return the standard deviation of the logarithm of the pitch that is predicted for the axes after the first step
+    of `fit_phases`.
     """
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
@@ -180,11 +179,11 @@ def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorn
 
 
 def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> tuple[Floats, list[float]]:
-    """Return axes near the given axes at which all loops close, and the variance of the logarithm of the pitch is
-    minimised; also return the maximum closing error after each step [pitch].
+    """Return axes near the given axes for which all loops close and the variance of the logarithm of the pitch is
+    minimal. Also return the maximum closing error after each step [pitch].
 
-    Newton's method for the loops and the Gauss-Newton method for the pitches share one sparse system. The sum of
-    each loop becomes the integer that is nearest to the sum at the given axes.
+    Newton's method for the loops and the Gauss-Newton method for the pitches use the same sparse system. The final sum
+    of each loop is the integer that is nearest to the sum for the given axes.
     """
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
@@ -210,7 +209,8 @@ def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping:
     """Return the step of a least squares problem with equality constraints, by one sparse Karush-Kuhn-Tucker system.
 
     The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s. The vector
-    `error` has the closing errors of the loops, `logs` the logarithms of the pitches; J and A are their derivatives.
+    `error` contains the closing errors of the loops, and `logs` the logarithms of the pitches; J and A are their
+    Jacobians.
     """
     from scipy.sparse import block_array, csc_array, eye_array
     from scipy.sparse.linalg import splu
@@ -242,7 +242,7 @@ class SymmetricFreedom:
     matrices: Floats
     """Orthogonal matrices of the symmetries, shape (order, 3, 3)."""
     images: Ints
-    """Index of each gear's image under each symmetry, shape (order, gears)."""
+    """Index of the image of each gear under each symmetry, shape (order, gears)."""
 
     def orbits(self) -> Ints:
         """Return for each gear the index of the first gear in its orbit."""
@@ -250,21 +250,22 @@ class SymmetricFreedom:
         return first
 
     def mesh_orbits(self, meshes: Sequence[tuple[int, int]]) -> Ints:
-        """Return a number for each mesh; it is equal for meshes that the symmetries map to each other."""
+        """Return a number for each mesh, which is equal for meshes that the symmetries map to each other."""
         pairs = np.sort(self.images[:, np.array(meshes, dtype=np.int64).reshape(-1, 2)], axis=2)
         code: Ints = (pairs[..., 0] * self.images.shape[1] + pairs[..., 1]).min(axis=0)
         return code
 
     def symmetrised(self, axes: Floats) -> Floats:
-        """Return axes without the rounding errors that break the symmetries: the mean over all symmetries."""
+        """Return the mean of the axes over all symmetries, without the rounding errors that break them."""
         mean = np.einsum("sgi,sij->gj", axes[self.images], self.matrices) / len(self.matrices)
         return np.asarray(mean / np.linalg.norm(mean, axis=1)[:, None])
 
     def freedom(self, gear: int, axis: Floats) -> Floats:
-        """Return an orthonormal basis of the directions in which a gear's axis may move, together with all its images.
+        """Return an orthonormal basis of the directions in which a gear's axis may move if all its images move too.
 
-        The directions are perpendicular to the axis. Shape (0, 1 or 2, 3): none on an axis of rotation, one on a
-        mirror, because the symmetries that fix the gear must fix its direction of motion too.
+        The directions are perpendicular to the axis. The symmetries that fix the gear must also fix its direction of
+        motion, so there are none on an axis of rotation, one on a mirror, and otherwise two. The shape is (0, 1 or 2,
+        3).
         """
         # mean over the stabiliser: the projection onto its fixed vectors
         kept = self.matrices[self.images[:, gear] == gear].mean(axis=0) - np.outer(axis, axis)
@@ -281,11 +282,11 @@ def equal_pitch(
     teeth: Sequence[int],
     movable: Collection[int],
 ) -> Floats:
-    """Return the axes moved such that every mesh has the same pitch and all symmetries are kept, shape (gears, 3).
+    """Return the axes, moved so that every mesh has the same pitch and all symmetries are kept, shape (gears, 3).
 
     movable   indices of the gears that may move, as complete orbits
 
-    Logarithms of the pitches are equal within 1e-13. Raise `GearTrainError` if no solution is found near the given
+    The logarithms of the pitches are equal within 1e-13. Raises `GearTrainError` if no solution is found near the given
     axes.
     """
     z = np.asarray(teeth, dtype=float)

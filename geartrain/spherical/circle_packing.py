@@ -1,9 +1,10 @@
-"""Circle packing on the sphere: a circle for each gear and each region of a planar map, tangent or orthogonal.
+"""Circle packing on the sphere: each gear and each region of a planar map has a circle. Circles of meshing gears are
+tangent, and circles of a gear and an adjacent region are orthogonal.
 
-Every 3-connected planar graph has such a packing, unique up to Moebius maps (Koebe, Andreev, Thurston). The radii in
-the plane are computed by Newton's method on a convex function (A. Bobenko and B. Springborn, Trans. AMS 356 (2004)
-659), and the centres by a breadth-first layout. On the sphere the packing is centred by the method of B. Springborn,
-Math. Z. 249 (2005) 513.
+Every 3-connected planar graph has such a packing, which is unique up to Moebius transformations (Koebe, Andreev,
+Thurston). The radii in the plane are computed by Newton's method on a convex function (A. Bobenko and B. Springborn,
+Trans. AMS 356 (2004) 659), and the centres by a breadth-first layout. On the sphere the packing is centred by the
+method of B. Springborn, Math. Z. 249 (2005) 513.
 """
 
 from __future__ import annotations
@@ -27,20 +28,21 @@ if TYPE_CHECKING:
 
 
 def angle_excess(u: Floats, i: Ints, j: Ints, target: Floats) -> Floats:
-    """Return at every node the sum of the angles 2 atan(r_j/r_i) over its neighbours minus its target [rad]; u = log
-    r.
+    """Return for every node the sum of the angles 2 atan(r_j/r_i) over its neighbours minus its target [rad]; u = log r
+    are the logarithms of the radii.
 
     `i` and `j` are the nodes of every orthogonal pair, in both orders. The target is 2 pi, minus pi for each neighbour
-    of infinite radius. The result is the gradient of a convex function of u (Bobenko and Springborn, Euclidean radii).
+    with infinite radius. The result is the gradient of a convex function of u (Bobenko and Springborn, Euclidean
+    radii).
     """
     return np.asarray(np.bincount(i, 2 * np.arctan(np.exp(u[j] - u[i])), len(u)) - target, dtype=float)
 
 
 def circle_vector(centre: complex, radius: float) -> Floats:
-    """Return the vector (n, cos rho) / sin rho of the circle on the sphere to which a circle of the plane is
-    projected stereographically; n is its axis and rho its half-angle.
+    """Return the vector (n, cos rho) / sin rho of the circle on the sphere that is the stereographic projection of a
+    circle in the plane; n is its axis and rho its half-angle.
 
-    It is a vector of Minkowski space: <w, w> = 1, <w_i, w_j> = -1 for tangent circles, 0 for orthogonal circles.
+    In Minkowski space, <w, w> = 1, and <w_i, w_j> is -1 for tangent circles and 0 for orthogonal ones.
     For a plane circle with centre c and radius r, and with k = |c|^2 - r^2, it is (c, (k - 1)/2, (k + 1)/2) / r.
     """
     k = abs(centre) ** 2 - radius**2
@@ -72,8 +74,8 @@ class PlanarPacking:
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Return the regions around each gear and the gears around each region, counterclockwise, as numbers of nodes:
-        gears first, then regions.
+        """Return the regions around each gear and the gears around each region, counterclockwise, as node numbers, in
+        which gears precede regions.
         """
         before = {}
         for walk in self.regions:
@@ -89,7 +91,7 @@ class PlanarPacking:
         return around + [list(walk) for walk in self.regions]
 
     def _far_mesh(self) -> tuple[int, int]:
-        """Return the mesh with the most neighbours as the mesh at infinity, because many circles then touch lines."""
+        """Return the mesh with the most neighbours; it is placed at infinity, so that many circles touch lines."""
         size = [len(beside) for beside in self.around]
         return max(
             self.meshes,
@@ -97,8 +99,8 @@ class PlanarPacking:
         )
 
     def radii(self, on_step: Callable[[], None] = lambda: None) -> tuple[Floats, tuple[float, ...]]:
-        """Return the logarithms of all radii, and the maximum residual after each step [rad], by Newton's method on a
-        convex function. The four circles through infinity have the logarithm inf.
+        """Return the logarithms of all radii, found by Newton's method on a convex function, and the maximum residual
+        after each step [rad]. The logarithm is inf for the four circles through infinity.
 
         on_step   function called after each step
         """
@@ -141,8 +143,8 @@ class PlanarPacking:
         return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
-        """Return the vectors of all circles on the sphere, placed in the plane by breadth-first search from circle to
-        circle.
+        """Return the vectors of all circles on the sphere. The circles are placed in the plane one after another by
+        breadth-first search.
         """
         r = np.exp(u)
         # the layout starts at the largest finite circle
@@ -172,7 +174,7 @@ class PlanarPacking:
         return [(other, towards * complex(np.exp(1j * turn))) for other, turn in zip(beside, turns, strict=True)]
 
     def _on_sphere(self, r: Floats, centre: dict[int, complex], lines: dict[int, tuple[complex, complex]]) -> Floats:
-        """Return the vectors of all circles, after the rectangle of the four lines is moved to the origin."""
+        """Return the vectors of all circles, after moving the rectangle of the four lines to the origin."""
         offsets = {node: (m, (m.conjugate() * p).real) for node, (m, p) in lines.items()}
         middle, scale = 0j, 0.0
         # opposite sides of the rectangle of lines
@@ -202,7 +204,7 @@ _LONGEST = 2.0
 
 
 def boost(v: Floats) -> Floats:
-    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v| along v, which moves points of the sphere away
+    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v| along v, which moves points on the sphere away
     from v.
     """
     rapidity = float(np.linalg.norm(v))
@@ -235,7 +237,7 @@ def _circles(vectors: Floats) -> tuple[Floats, Floats]:
 
 
 def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
-    """Return the packing transformed to the frame in which the pitch points sum to 0, by damped Newton steps."""
+    """Return the packing in the frame in which the sum of the pitch points is 0, by damped Newton steps."""
     i, j = np.array(meshes).T
     for _ in range(_MOST_STEPS):
         touch = vectors[i] + vectors[j]
@@ -256,8 +258,8 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
 
 
 def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
-    """Return the packing rotated such that the first gear of a mesh is at the top, and the second is next to it along
-    x.
+    """Return the packing rotated so that the first gear of a mesh is at the top, and the second is next to it in the
+    direction of x.
     """
     axes, _ = _circles(vectors)
     top, side = axes[mesh[0]], axes[mesh[1]]
@@ -268,8 +270,8 @@ def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
 
 
 def _descent_fraction(points: Floats, v: Floats) -> float:
-    """Return a fraction of the step v at which the convex function sum log(-<x, (p, 1)>) of the frame decreases, by
-    halving.
+    """Return the fraction of the step v, found by halving, for which the convex function sum log(-<x, (p, 1)>)
+    decreases.
 
     The points p are the pitch points, and the minimum of this function over x corresponds to the centred frame.
     """
@@ -284,7 +286,7 @@ def _descent_fraction(points: Floats, v: Floats) -> float:
 
 
 def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tuple[float, ...]) -> SpherePacking:
-    """Return the packing with all tangencies and right angles refined by Newton's method to rounding."""
+    """Return the packing with all tangencies and right angles refined to rounding errors by Newton's method."""
     axes, cones = _circles(vectors)
     tangent = [*plane.meshes, *((gears + plane.left[m], gears + plane.left[m[::-1]]) for m in plane.meshes)]
     square = [(gear, region) for gear in range(gears) for region in plane.around[gear]]
@@ -310,7 +312,7 @@ def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tange
     half-angles.
 
     The first `tangent` pairs of circles i, j are tangent: the angle S between their axes is the sum rho_i + rho_j
-    of their half-angles. The others are orthogonal: cos S = cos rho_i cos rho_j.
+    of their half-angles. The other pairs are orthogonal: cos S = cos rho_i cos rho_j.
     """
     from scipy.sparse import coo_array, eye_array, hstack
     from scipy.sparse.linalg import splu
@@ -330,7 +332,7 @@ def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tange
 
 @dataclass(frozen=True)
 class SpherePacking:
-    """Centred circle packing on the sphere: the pitch points of all meshes sum to 0."""
+    """Circle packing on the sphere, centred so that the sum of the pitch points of all meshes is 0."""
 
     axes: Floats
     """Unit vectors to the centres of the gears, shape (gears, 3)."""
@@ -341,9 +343,9 @@ class SpherePacking:
     region_cones: Floats
     """Half-angles of the circles through the pitch points around each region [rad], shape (regions,)."""
     meshes: tuple[tuple[int, int], ...]
-    """Meshing pairs of gears, by index."""
+    """Pairs of meshing gears, by index."""
     regions: tuple[tuple[int, ...], ...]
-    """Gears around each region, counterclockwise seen from outside."""
+    """Gears around each region, counterclockwise as seen from outside."""
     residual: float
     """Maximum error of a tangency or right angle [rad]."""
     residuals: tuple[float, ...]
@@ -351,7 +353,7 @@ class SpherePacking:
 
     @property
     def pitch_points(self) -> Floats:
-        """Unit vectors to the points where the gears touch, shape (meshes, 3)."""
+        """Unit vectors to the points at which the gears touch, shape (meshes, 3)."""
         i, j = np.array(self.meshes).T
         towards = self.axes[i] * np.sin(self.cones[j])[:, None] + self.axes[j] * np.sin(self.cones[i])[:, None]
         return np.asarray(towards / np.linalg.norm(towards, axis=1)[:, None])

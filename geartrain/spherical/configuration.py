@@ -1,6 +1,6 @@
-"""Set of gears on a sphere: axes, meshes and kinds of gear, and its declaration as a train.
+"""Sets of gears on a sphere: axes, meshes and kinds of gear, and declaration as a train.
 
-A train is declared with a link, a bevel wheel and an axis for each gear.
+The declared train has a link, a bevel wheel and an axis for each gear.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ _SHORT = 1 << 20  # largest denominator of coordinates such as 3/4 that floats r
 
 @dataclass(frozen=True)
 class Configuration(Shown):
-    """Set of gears whose axes pass through one point, described by unit axes, meshing pairs, and the kind of each gear.
+    """Set of gears whose axes pass through one point, described by axes, meshing pairs, and the kind of each gear.
 
     Axes point outwards. Angles about them are counterclockwise as seen from outside.
 
     Examples
     --------
-    Three gears on the axes x, y and z; x meshes with the other two:
+    Three gears have the axes x, y and z, and the first meshes with the other two:
 
     >>> import numpy as np
     >>> found = Configuration(("x", "y", "z"), np.eye(3), ((0, 1), (0, 2)), ("x", "yz", "yz"), (4, 1, 1))
@@ -51,19 +51,19 @@ class Configuration(Shown):
     names: tuple[str, ...]
     """Names of the gears."""
     axes: Floats
-    """Unit vectors of the axes, directed outwards, shape (gears, 3)."""
+    """Unit vectors of the axes, pointing outwards, shape (gears, 3)."""
     meshes: tuple[tuple[int, int], ...]
-    """Meshing pairs of gears, by index."""
+    """Pairs of meshing gears, by index."""
     kinds: tuple[str, ...]
-    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set, and have the same tooth
+    """Kind of each gear. Gears of the same kind are equivalent under the symmetries of the set, and have the same tooth
     number.
     """
     regular: tuple[int, ...]
-    """Integer p of each gear if its contacts are exactly at multiples of 1/p of a revolution; 0 if the angles are known
-    only as floats.
+    """Integer p of each gear for which its contacts are exactly at multiples of 1/p of a revolution; 0 if the angles
+    are only known as floats.
     """
     teeth: Mapping[str, int] = field(default_factory=dict)
-    """Mapping from gear kind to tooth number, for the kinds whose tooth number can be chosen freely."""
+    """Tooth number by kind of gear, for the kinds whose tooth number was chosen."""
     title: str = ""
     """Title of the set for display."""
 
@@ -73,7 +73,7 @@ class Configuration(Shown):
         return title + (f", teeth {teeth}" if teeth else "")
 
     def angle(self, i: int, j: int) -> float:
-        """Return the angle between two axes [rad], 0 to pi.
+        """Return the angle between two axes, 0 to pi [rad].
 
         Parameters
         ----------
@@ -83,13 +83,13 @@ class Configuration(Shown):
         return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
-        """Return the direction from one gear to another, as an angle about the axis of the first gear [rad].
+        """Return the direction from gear i to gear j, as an angle about the axis of gear i [rad].
 
         Parameters
         ----------
         i, j : int
-            Indices of the gears. The direction about i is measured from the first vector of `frame(i)`,
-            counterclockwise seen from outside.
+            Indices of the gears. The angle is measured from the first vector of `frame(i)`, counterclockwise as seen
+            from outside.
         """
         first, second = self.frame(i)
         return float(np.arctan2(self.axes[j] @ second, self.axes[j] @ first))
@@ -107,14 +107,14 @@ class Configuration(Shown):
 
 
 def kinds_in_order(configuration: Configuration) -> tuple[str, ...]:
-    """Return the kinds of gear, each once, in the order of their first gears."""
+    """Return the kinds of gear in the order of their first gears, without duplicates."""
     return tuple(dict.fromkeys(configuration.kinds))
 
 
 def require_tooth_numbers(
     names: Iterable[Hashable], teeth: Mapping[Any, int], why: str, fix: str = "give the tooth number of every gear"
 ) -> None:
-    """Raise `QuestionError` with the cause and the fix if some of the names have no tooth number in `teeth`.
+    """Raise `QuestionError` with the given cause and fix if one of the names has no tooth number in `teeth`.
 
     In `fix`, {} is replaced by the first of these names.
     """
@@ -125,7 +125,7 @@ def require_tooth_numbers(
 
 
 def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
-    """Return the kinds of mesh in the order of their gears' kinds; angles are treated as equal within 1e-9 rad."""
+    """Return the kinds of mesh in the order of their gears' kinds; angles within 1e-9 rad are treated as equal."""
     order = {kind: at for at, kind in enumerate(kinds_in_order(configuration))}
     groups: dict[tuple[int, int, int], list[int]] = {}
     angles = mesh_angles(configuration.axes, configuration.meshes)
@@ -157,7 +157,7 @@ def nearest_unmeshed(configuration: Configuration) -> dict[tuple[str, str], floa
 
 
 def unmeshed_angles(configuration: Configuration) -> Floats:
-    """Return the angles between all axes [rad]; inf for meshing gears and for a gear with itself."""
+    """Return the angles between all axes [rad]; the angle is inf for meshing gears and for a gear with itself."""
     apart = separations(configuration.axes)
     np.fill_diagonal(apart, inf)
     if configuration.meshes:
@@ -168,7 +168,7 @@ def unmeshed_angles(configuration: Configuration) -> Floats:
 
 @dataclass(frozen=True)
 class MeshKind:
-    """Kind of mesh: equivalent meshes, with the kinds of their two gears and the angle between the axes."""
+    """Kind of mesh: a set of equivalent meshes, with the kinds of their two gears and the angle between the axes."""
 
     a: str
     """Kind of the first gear."""
@@ -191,9 +191,10 @@ class MeshKind:
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     """Return the declaration of the set as plain data, for `GearTrain.declare`.
 
-    Links, wheels and axes have the names of the gears. All axes point outwards and the wheels are on the positive sides
-    of their axes (`facing` 1, the default). Every mesh therefore reverses the sense of rotation: z_i w_i + z_j w_j = 0
-    (docs/sphere.md, section 1). The first gear is the input, at speed 1. The directions are floats with all digits.
+    Links, wheels and axes have the names of the gears. All axes point outwards, and the wheels are on the positive
+    sides of their axes (`facing` is 1, the default). Every mesh therefore reverses the sense of rotation: z_i w_i + z_j
+    w_j = 0 (docs/sphere.md, section 1). The first gear is the input, with speed 1. The directions are written with all
+    digits.
 
     Parameters
     ----------
@@ -210,7 +211,7 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     Raises
     ------
     QuestionError
-        If a tooth number is missing, or the set has no gears.
+        If a tooth number is missing, or if the set has no gears.
 
     Examples
     --------
@@ -242,8 +243,8 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
 
 
 def _direction(axis: list[float]) -> list[str]:
-    """Return the coordinates of an axis as text: floats with all digits, or fractions if these are short. A
-    decimal would be taken as accurate only to its last digit.
+    """Return the coordinates of an axis as text: fractions if they are short, else floats with all digits. A decimal
+    would be regarded as accurate only to its last digit.
     """
     exact = [Fraction(part) for part in axis]
     return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]

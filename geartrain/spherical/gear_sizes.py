@@ -1,7 +1,8 @@
-"""Sizes of the gears of a set on a sphere: cones, pitches, pressure angles, tip collisions.
+"""Sizes of the gears of a set on a sphere: cones, pitches, pressure angles and tip collisions.
 
 All angles are in radians, all lengths in radii of the sphere on which the teeth are measured, and axes point outwards.
-For some sets on fixed axes it is proved that no tooth numbers give one pitch (docs/sphere.md, section 4).
+For some sets with fixed axes it is proved that pitches cannot be equal for any tooth numbers (docs/sphere.md, section
+4).
 """
 
 from __future__ import annotations
@@ -55,17 +56,17 @@ _THEOREMS = {
     ),
 }
 TIP_ROOM = 2.0
-"""Required distance between the pitch circles of gears that do not mesh [modules]: twice an addendum of one
+"""Required distance between the pitch circles of gears that do not mesh [modules]; it is the sum of two addenda of one
 module.
 """
 _SAME = 1e-11
-"""Relative difference below which pitches are equal: the rounding of axes in floats."""
+"""Relative difference below which pitches are considered equal, due to the rounding of axes in floats."""
 
 
 def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:
     """Return the operating pitch cones, pitches and pressure angles of all meshes, by equation (1) of docs/sphere.md.
 
-    All gears have a common base pitch, so that spherical involutes keep the ratio at any operating pitch
+    All gears have a common base pitch, so that spherical involutes have a constant ratio at any operating pitch
     (docs/sphere.md, section 4).
 
     Parameters
@@ -83,7 +84,7 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     Raises
     ------
     QuestionError
-        If a tooth number is missing, or no gears mesh.
+        If a tooth number is missing, or if no gears mesh.
 
     Examples
     --------
@@ -116,32 +117,30 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
 
 @dataclass(frozen=True)
 class TipCollision:
-    """Two gears that do not mesh and whose tips may collide, because their pitch circles are less than two modules
-    apart.
-    """
+    """Two gears that do not mesh but may collide, because their pitch circles are less than two modules apart."""
 
     gears: tuple[str, str]
     """Names of the two gears."""
     room: float
     """Distance between the pitch circles of the two gears [modules]; negative if the pitch circles overlap."""
     short: float
-    """Distance by which the gears are too close: required distance minus `room` [modules]."""
+    """Distance by which the two gears are too close [modules]: the required distance minus `room`."""
 
     def __str__(self) -> str:
         return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} modules too close"
 
 
 class MeshSize(NamedTuple):
-    """Sizes of one mesh: its gears, their operating cones, its pitch and its pressure angle."""
+    """Sizes of one mesh: the operating cones of its gears, its pitch and its pressure angle."""
 
     gears: tuple[str, str]
     """Names of the two gears."""
     cones: tuple[float, float]
     """Half-angles of the operating pitch cones of the two gears [deg]."""
     pitch: float
-    """Operating pitch lambda, half the module [radii of the sphere]."""
+    """Operating pitch lambda, which is half the module [radii of the sphere]."""
     pressure_angle: float | None
-    """Operating pressure angle [deg]; None if involutes with the common base pitch cannot mesh."""
+    """Operating pressure angle [deg]; None if involutes with the common base pitch cannot be in mesh."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +149,7 @@ class SphereSizing(Result):
 
     See Also
     --------
-    size_gears : Returns such an object.
+    size_gears : function that returns it
     """
 
     KEYS = (
@@ -172,11 +171,10 @@ class SphereSizing(Result):
     pitches: Floats
     """Operating pitch lambda (half the module) of each mesh [radii of the sphere], shape (meshes,)."""
     base: float
-    """Common base pitch c of all gears [radii of the sphere]. The half-angle g of a base cone follows from sin g = c z.
-    """
+    """Common base pitch c of all gears [radii of the sphere]. The half-angle g of a base cone satisfies sin g = c z."""
     pressure: Floats
-    """Operating pressure angle of each mesh [rad], shape (meshes,). NaN if involutes with the common base pitch cannot
-    mesh.
+    """Operating pressure angle of each mesh [rad], shape (meshes,); NaN if involutes with the common base pitch cannot
+    be in mesh.
     """
 
     def _summary(self) -> str:
@@ -189,7 +187,7 @@ class SphereSizing(Result):
 
     @cached_property
     def mismatch(self) -> float:
-        """Natural logarithm of the ratio of the maximum to the minimum pitch [1]."""
+        """Natural logarithm of the maximum pitch divided by the minimum pitch [1]."""
         return log(float(self.pitches.max()) / float(self.pitches.min()))
 
     @cached_property
@@ -199,13 +197,13 @@ class SphereSizing(Result):
 
     @property
     def module(self) -> float:
-        """Mean module of the meshes: twice the geometric mean of the pitches lambda [radii of the sphere]."""
+        """Mean module of the meshes, which is twice the geometric mean of the pitches [radii of the sphere]."""
         return 2 * self.pitch
 
     @cached_property
     def outer(self) -> Floats:
-        """Half-angle of each gear's largest operating pitch cone [rad], shape (gears,). Two gears that do not mesh with
-        each other must have cones that do not overlap.
+        """Half-angle of each gear's largest operating pitch cone [rad], shape (gears,). The cones of two gears that do
+        not mesh must not overlap.
         """
         # a gear without a mesh has the cone of the mean pitch
         alone = np.arcsin(np.minimum(self.teeth * self.pitch, 1))
@@ -216,7 +214,7 @@ class SphereSizing(Result):
 
     @property
     def by_gear(self) -> dict[str, int]:
-        """Mapping from the name of each gear to its tooth number."""
+        """Tooth number of each gear, by name."""
         return dict(zip(self.configuration.names, self.teeth.tolist(), strict=True))
 
     @property
@@ -231,8 +229,8 @@ class SphereSizing(Result):
 
     @cached_property
     def collisions(self) -> tuple[TipCollision, ...]:
-        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, in ascending
-        order of distance.
+        """Pairs of gears that do not mesh and whose pitch circles are less than two modules apart, in ascending order
+        of this distance.
         """
         room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
         # each pair once; the tolerance keeps gears that just clear
@@ -251,9 +249,7 @@ class SphereSizing(Result):
 
     @property
     def undercut(self) -> dict[str, float]:
-        """Mapping from gear kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
-        undercut.
-        """
+        """Virtual tooth number of each kind of gear that a rack with the mean pressure angle would undercut."""
         # pressure angle at the mean pitch: cos alpha = c / lambda
         limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
         pairs = zip(self.configuration.kinds, self.virtual, strict=True)
@@ -290,18 +286,18 @@ class SphereSizing(Result):
 
 
 def impossibility_theorem(configuration: Configuration) -> str:
-    """Return the proof that no tooth numbers give one pitch on the fixed axes of a set; an empty string if no
-    proof is known.
+    """Return the proof that no tooth numbers give equal pitches on the fixed axes of a set; return an empty string if
+    no proof is known.
     """
     name = _solid_with_proof(configuration)
     return f"{name}: {_THEOREMS[name]}" if name else ""
 
 
 def _solid_with_proof(configuration: Configuration) -> str:
-    """Return the name of the solid on whose faces the gears are, if it is proved that no tooth numbers give one
-    pitch on it; otherwise an empty string.
+    """Return the name of the solid on whose faces the gears are, if it is proved that no tooth numbers give equal
+    pitches on it; else return an empty string.
 
-    The solid is recognised by its counts and mesh angles.
+    The solid is recognised by its numbers of gears and meshes, and by the angles of its meshes.
     """
     counts = len(configuration.axes), len(configuration.meshes)
     phi = (1 + sqrt(5)) / 2

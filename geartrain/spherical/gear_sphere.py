@@ -26,12 +26,13 @@ _SPREAD = Key("pitch_spread", "spread")
 
 @dataclass(frozen=True)
 class GearSphere(Result):
-    """Set of gears on a sphere, with its analyses. Each analysis is computed when its property is first accessed.
+    """Set of gears on a sphere, and the results of its analysis. Each result is computed when its property is first
+    accessed.
 
     Examples
     --------
-    Gears with 20 and 12 teeth on the faces of the icosidodecahedron turn, close around all 29 loops, and have one
-    pitch:
+    Gears with 20 and 12 teeth on the faces of the icosidodecahedron can turn, mesh around all 29 loops, and have equal
+    pitches:
 
     >>> from geartrain.spherical import from_polyhedron
     >>> sphere = GearSphere(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}), radius=3.13198541004301)
@@ -72,20 +73,20 @@ class GearSphere(Result):
 
     @cached_property
     def chosen(self) -> bool:
-        """True if every kind has a tooth number."""
+        """True if a tooth number is chosen for every kind."""
         return all(kind in self.configuration.teeth for kind in self.configuration.kinds)
 
     @cached_property
     def train(self) -> GearTrain:
-        """Gear train of the set. Gears without a chosen tooth number have ten teeth, because senses of rotation do not
-        depend on the tooth number.
+        """Gear train of the set. Gears without a chosen tooth number are given ten teeth, because senses of rotation do
+        not depend on tooth numbers.
         """
         whole = {kind: self.configuration.teeth.get(kind, 10) for kind in self.configuration.kinds}
         return GearTrain.declare(to_train(replace(self.configuration, teeth=whole)))
 
     @cached_property
     def moves(self) -> bool:
-        """True if the train of the set has a degree of freedom and no locked loop."""
+        """True if the gear train of the set has a degree of freedom and no locked loop."""
         return self.train.mobility.by_rank > 0 and not self.train.mobility.locked
 
     @cached_property
@@ -99,7 +100,7 @@ class GearSphere(Result):
         return spherical_phasing(self.configuration) if self.chosen and self.moves else None
 
     def pose(self) -> tuple[Configuration, Floats, list[float]]:
-        """Return the data of a picture: the set, the half-angles of the pitch cones [rad], and the phases of the teeth
+        """Return the data for a picture: the set, the half-angles of the pitch cones [rad], and the phases of the teeth
         [pitch].
         """
         sizing = self.sizing
@@ -119,8 +120,8 @@ class GearSphere(Result):
 
     @cached_property
     def rule(self) -> str | None:
-        """Divisibility condition that the tooth numbers must satisfy to close the loops; None if the set cannot turn,
-        or if the contacts are not at known fractions of a revolution.
+        """Divisibility rule that the tooth numbers must satisfy for the loops to close; None if the set cannot turn, or
+        if the angles between contacts are not known fractions of a revolution.
         """
         rule = spherical_divisibility_rule(self.configuration) if self.moves else None
         return None if rule is None else rule.text
@@ -142,32 +143,30 @@ class GearSphere(Result):
 
     @property
     def gridlock(self) -> Gridlock | None:
-        """Locked parts of the set and the meshes to remove; None if the set can turn."""
+        """Locked parts of the set and the meshes to be removed; None if the set can turn."""
         return None if self.moves else self.train.kinematics.gridlock
 
     @property
     def closes(self) -> bool | None:
-        """True if the teeth mesh correctly around all loops; None if a tooth number is missing or the set cannot
-        turn.
-        """
+        """True if the teeth mesh around all loops; None if a tooth number is missing, or if the set cannot turn."""
         return None if self.closure is None else bool(self.closure)
 
     @property
     def residue(self) -> float | None:
-        """Maximum phase error of the meshes that are closed last when the gears are assembled one after another
-        [pitch]; None as in `closes`.
+        """Maximum phase error of the meshes that are closed last if the gears are assembled one after another [pitch];
+        None if `closes` is None.
         """
         return None if self.closure is None else self.closure.last
 
     @property
     def loop_residue(self) -> float | None:
-        """Maximum closing error of the loops [pitch]; None as in `closes`."""
+        """Maximum closing error of the loops [pitch]; None if `closes` is None."""
         return None if self.closure is None else float(self.closure.worst)
 
     @cached_property
     def cones(self) -> Mapping[str, float | None]:
-        """Mapping from gear kind to the half-angle of its largest operating pitch cone [rad]; all values are None if a
-        tooth number is missing.
+        """Half-angle of the largest operating pitch cone of each kind of gear [rad]; all values are None if a tooth
+        number is missing.
         """
         kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
@@ -178,12 +177,10 @@ class GearSphere(Result):
 
     @property
     def radii(self) -> Mapping[str, float | None]:
-        """Mapping from gear kind to pitch radius, in the unit of the sphere's radius; all values are None if a tooth
-        number is missing.
-        """
+        """Pitch radius of each kind of gear, in the unit of `radius`; all are None if a tooth number is missing."""
         return {kind: None if cone is None else self.radius * sin(cone) for kind, cone in self.cones.items()}
 
     @property
     def angles(self) -> Mapping[str, float]:
-        """Mapping from kind of mesh to the angle between the two axes [rad]."""
+        """Angle between the two axes of each kind of mesh [rad]."""
         return {f"{each.a}-{each.b}": each.angle for each in mesh_kinds(self.configuration)}

@@ -1,7 +1,8 @@
-"""Gears on a sphere from a planar graph of meshing gears: circle packing, integer tooth numbers, one pitch or closed
-loops.
+"""Gears on a sphere from a planar graph of meshing gears, by circle packing, with integer tooth numbers, and with equal
+pitches or closed loops.
 
-The graph is first embedded as a planar map. A graph that gears on a sphere cannot realise is rejected with the reason.
+The graph is first embedded as a planar map. A graph that cannot be realised by gears on a sphere is rejected with the
+reason.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ Edges = Iterable[tuple[Hashable, Hashable]]
 def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
     """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected.
 
-    Two regions of a 3-connected map share no gear, one gear, or the two gears of one mesh.
+    In a 3-connected map, two regions have in common no gear, one gear, or the two gears of one mesh.
     """
     sides: dict[frozenset[int], list[int]] = {}
     beside: dict[int, list[int]] = {}
@@ -86,9 +87,9 @@ def checked_graph(graph: nx.Graph[Any] | Edges) -> nx.Graph[Any]:
 
 
 def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -> None:
-    """Raise `QuestionError` if a gear meshes with itself, or a mesh is listed twice.
+    """Raise `QuestionError` if a gear meshes with itself, or if a mesh is listed twice.
 
-    Opposite edges of a directed graph are one mesh.
+    If `both_ways`, opposite edges are regarded as one mesh, as in a directed graph.
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
@@ -98,7 +99,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
     if twice:
         names = " and ".join(sorted(map(str, twice[0])))
-        raise _refused(f"{names} mesh twice", "two gears on a sphere touch at one point", "name each mesh once")
+        raise _refused(f"{names} mesh twice", "two gears on a sphere touch at one point", "list each mesh once")
 
 
 def _check_connected(found: nx.Graph[Any]) -> None:
@@ -123,7 +124,7 @@ def _check_connected(found: nx.Graph[Any]) -> None:
 
 
 def _check_bipartite(found: nx.Graph[Any]) -> None:
-    """Raise `QuestionError` if a mesh joins two gears at equal numbers of meshes from a third, which is an odd loop."""
+    """Raise `QuestionError` if a mesh connects two gears at equal distances from a third in the graph (odd loop)."""
     import networkx as nx
 
     paths: dict[Any, list[Any]] = {}
@@ -146,8 +147,8 @@ def _refused(what: str, why: str, fix: str) -> QuestionError:
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
-    """Return the regions of a planar embedding as walks of gear numbers; raise `QuestionError` for a non-planar
-    graph.
+    """Return the regions of a planar embedding, each as a closed walk of gear numbers; raise `QuestionError` for a
+    non-planar graph.
     """
     import networkx as nx
 
@@ -174,10 +175,9 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
 def with_region_circles(
     gears: int, regions: Sequence[Sequence[int]], names: Sequence[Hashable]
 ) -> tuple[int, list[tuple[int, ...]]]:
-    """Return the map with an additional circle in every region next to an idler, tangent to the gears around the
-    region.
+    """Return the map with an additional circle, tangent to the surrounding gears, in every region next to an idler.
 
-    Raises `QuestionError` if the map is still not 3-connected.
+    Raises `QuestionError` if the resulting map is not 3-connected.
     """
     meshes = Counter(gear for walk in regions for gear in walk)
     completed: list[tuple[int, ...]] = []
@@ -205,15 +205,15 @@ def with_region_circles(
 Aim = Literal["pitch", "phases"]
 _EXACT = 1e-11  # pitches; rounding leaves about 1e-15
 _MOST_CHOICES = 24
-"""Maximum number of rounded sets of tooth numbers whose closing errors are compared."""
+"""Maximum number of rounded sets of tooth numbers whose closing errors are compared with each other."""
 
 
 def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[Ints]:
-    """Return sets of integer tooth numbers nearly proportional to the sines of the half-angles `cones` [rad],
-    sorted by rising variance of the pitch.
+    """Return sets of integer tooth numbers that are nearly proportional to the sines of the half-angles `cones` [rad],
+    sorted by ascending variance of the pitch.
 
-    The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`).
-    The variance is that of ln(z / sin rho), with tooth number z and half-angle rho.
+    The scale is varied so that the smallest gear has from `minimum` to `upto` teeth (by default only `minimum`). The
+    variance is that of ln(z / sin rho), with tooth number z and half-angle rho.
     """
     sine = np.sin(cones)
     last = minimum if upto is None else max(upto, minimum)
@@ -233,18 +233,17 @@ def from_graph(
     upto: int | None = None,
     teeth: Mapping[Hashable, int] | None = None,
 ) -> GraphSet:
-    """Return a set of gears on a sphere whose meshes are the edges of a graph. Either all pitches are equal, or all
-    loops close exactly.
+    """Return a set of gears on a sphere whose meshes are the edges of a graph, with equal pitches or with loops that
+    close exactly.
 
-    The algorithm computes a circle packing of the graph (Koebe, Andreev and Thurston), rounds tooth numbers in
-    proportion to the circles, and moves the axes as little as possible until the condition named by `aim` is satisfied
-    exactly. In the packing, an additional circle in each region next to an idler replaces the missing meshes of the
-    idler.
+    The algorithm computes a circle packing of the graph (Koebe, Andreev and Thurston), rounds tooth numbers that are
+    proportional to the sizes of the circles, and moves the axes as little as possible until the condition named by
+    `aim` is satisfied exactly. In the packing, the idlers have additional meshes with a circle in each adjacent region.
 
     Parameters
     ----------
     graph : networkx.Graph, or iterable of pairs
-        Graph of the meshes. It must be simple, planar and bipartite, and 3-connected apart from gears with two meshes
+        Graph of the meshes. It must be simple, planar and bipartite, and 3-connected except for gears with two meshes
         (idlers).
     minimum_teeth : int
         Tooth number of the smallest gear.
@@ -252,10 +251,10 @@ def from_graph(
         `pitch`: all meshes have the same pitch. `phases`: all loops close. Both conditions can rarely be satisfied
         together.
     upto : int, optional
-        Maximum tooth number of the smallest gear. The best rounding with a smallest gear from `minimum_teeth` to this
-        number is used.
+        Maximum tooth number of the smallest gear. The best rounding with `minimum_teeth` to `upto` teeth on the
+        smallest gear is used.
     teeth : mapping of gear to int, optional
-        Tooth number of each gear, instead of rounding.
+        Tooth number of each gear; by default tooth numbers are obtained by rounding.
 
     Returns
     -------
@@ -265,13 +264,13 @@ def from_graph(
     Raises
     ------
     QuestionError
-        If the graph cannot be packed (the message has the reason), or if tooth numbers are missing.
+        If the graph has no packing (the message states the reason), or if tooth numbers are missing.
     RangeError
         If the packing does not converge in double precision.
 
     Examples
     --------
-    Gears on the vertices of a cube, which mesh along its edges:
+    Gears on the vertices of a cube mesh along its edges:
 
     >>> cube = [(i, i ^ bit) for i in range(8) for bit in (1, 2, 4) if i < i ^ bit]
     >>> found = from_graph(cube, minimum_teeth=12)
@@ -339,11 +338,11 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
 
 @dataclass(frozen=True)
 class GraphSet(Result):
-    """Set of gears made from a graph, with the residuals of its pitches and loops.
+    """Set of gears constructed from a graph, with the residuals of its pitches and loops.
 
     See Also
     --------
-    from_graph : Returns such an object.
+    from_graph : function that returns it
     """
 
     KEYS = (
@@ -357,21 +356,20 @@ class GraphSet(Result):
     )
 
     configuration: Configuration
-    """Axes, meshes and tooth numbers. Every gear has its own kind."""
+    """Axes, meshes and tooth numbers of the set. Every gear has its own kind."""
     aim: Aim
-    """Condition that the axes satisfy exactly after adjustment: "pitch" or "phases"."""
+    """Condition that the adjusted axes satisfy exactly: "pitch" or "phases"."""
     packing: SpherePacking
-    """Circle packing before the adjustment of the axes. Additional circles next to idlers are listed after the gears.
-    """
+    """Circle packing before the adjustment of the axes. Additional circles next to idlers are after the gears."""
     sizing: SphereSizing
     """Pitch cones, pitches and pressure angles of the gears."""
     residue: float
     """Maximum closing error of the loops [pitch]."""
     moved: Floats
-    """Displacement of each axis from its direction in the packing [rad], shape (gears,)."""
+    """Angle by which each axis was moved from its direction in the packing [rad], shape (gears,)."""
     residuals: tuple[float, ...]
-    """Residual after each step of the adjustment: maximum deviation of the logarithm of a pitch from its mean [1] for
-    "pitch", maximum closing error [pitch] for "phases".
+    """Residual after each step of the adjustment: maximum deviation of the logarithm of a pitch from its mean for
+    "pitch" [1], or maximum closing error for "phases" [pitch].
     """
 
     def _summary(self) -> str:
@@ -379,23 +377,23 @@ class GraphSet(Result):
 
     @property
     def exact(self) -> tuple[str, ...]:
-        """Conditions that are satisfied within rounding errors: "pitch", "phases", both or neither."""
+        """Conditions that are satisfied within rounding errors: "pitch", "phases", both, or neither."""
         found = {"pitch": self.sizing.exact, "phases": self.residue < _EXACT}
         return tuple(name for name, holds in found.items() if holds)
 
     @property
     def spread(self) -> float:
-        """Ratio of the maximum pitch to the minimum pitch, minus 1 [percent]."""
+        """Maximum pitch divided by minimum pitch, minus 1 [%]."""
         return 100 * (exp(self.sizing.mismatch) - 1)
 
     @property
     def axes_by_gear(self) -> dict[str, list[float]]:
-        """Mapping from the name of each gear to the unit vector of its axis."""
+        """Unit vector of the axis of each gear, by name."""
         return dict(zip(self.configuration.names, self.configuration.axes.tolist(), strict=True))
 
     @property
     def maximum_move(self) -> float:
-        """Maximum displacement of an axis [rad]."""
+        """Maximum angle by which an axis was moved [rad]."""
         return float(self.moved.max())
 
     def __str__(self) -> str:

@@ -1,7 +1,7 @@
-"""Convex polyhedra about the origin: faces from vertices, adjacency, symmetries, and a catalogue of named solids.
+"""Convex polyhedra around the origin: faces from vertices, adjacency, symmetries, and a catalogue of named solids.
 
-The uniform solids are made by Wythoff's construction: the images of a point at distance 0 or 1 from each of three
-mirrors.
+The vertices of the uniform solids are found by Wythoff's construction. They are the images of a point whose distance
+from each of three mirrors is 0 or 1.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 NEAR = 1e-6
-"""Tolerance for equality of points, planes and symmetries, relative to the size of the solid."""
+"""Tolerance for the equality of points, planes and symmetries, relative to the size of the solid."""
 PHI = (1 + 5**0.5) / 2
 MOST_SIDES = 360
-"""Maximum number of sides of prisms and related families, so that the tolerance does not merge their faces."""
+"""Maximum number of sides of prisms and related families; with more sides, the tolerance would merge their faces."""
 # normals of the mirrors of [p, 3]: the first two meet at pi/p, the last two at pi/3, the first and last at pi/2
 _MIRRORS = {
     3: ([1, -1, 0], [0, 1, -1], [-1, -1, 0]),
@@ -104,8 +104,8 @@ class Polyhedron(Shown):
     vertices: Floats
     """Coordinates of the vertices as given, in any unit, shape (vertices, 3)."""
     faces: tuple[tuple[int, ...], ...]
-    """Indices of the vertices of each face, counterclockwise seen from outside. Faces are in descending order of height
-    (z), and at equal heights counterclockwise from x.
+    """Indices of the vertices of each face, counterclockwise as seen from outside. Faces are in descending order of
+    height (z); faces at equal heights are in counterclockwise order from x.
     """
     normals: Floats = field(repr=False)
     """Outward unit normals of the faces, shape (faces, 3)."""
@@ -119,12 +119,12 @@ class Polyhedron(Shown):
 
     @cached_property
     def _left(self) -> dict[tuple[int, int], int]:
-        """Mapping from each directed edge (pair of vertices) to the face on its left."""
+        """Face to the left of each directed edge, which is given as a pair of vertices."""
         return {side: at for at, face in enumerate(self.faces) for side in _sides(face)}
 
     @cached_property
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """Edges as pairs of vertices, each edge once."""
+        """Edges as pairs of vertices, without duplicates."""
         return tuple(sorted(side for side in self._left if side[0] < side[1]))
 
     @cached_property
@@ -143,7 +143,7 @@ class Polyhedron(Shown):
         """Matrices of all rotations and reflections about the origin that map the solid to itself, shape (order, 3, 3).
 
         Rounding errors are about 1e-15. A symmetry is determined by the image of one corner (three consecutive vertices
-        of one face). All symmetries are therefore found by examining all corners that are congruent to the first.
+        of a face), so all symmetries are found by examining all corners that are congruent to the first.
         """
         # Gram matrices are invariant under rotation and reflection
         corners = self.vertices[[corner for face in self.faces for corner in _corners(face)]]
@@ -158,16 +158,14 @@ class Polyhedron(Shown):
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Return the index of each point's image under each symmetry, for a set of points that is invariant under the
-        symmetries.
+        """Return the index of each point's image under each symmetry, shape (order, points).
 
         points   set of points that all symmetries map to itself
         """
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """Return for each point the index of the first point in its orbit, for a set of points that is invariant under
-        the symmetries.
+        """Return for each point the index of the first point in its orbit under the symmetries.
 
         points   set of points that all symmetries map to itself
         """
@@ -180,8 +178,8 @@ class Polyhedron(Shown):
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
-        """Return the polar dual: its vertices are along the normals of this solid, and its normals are along the
-        vertices of this solid.
+        """Return the polar dual, whose vertices are in the directions of the normals of this solid, and whose normals
+        are in the directions of its vertices.
 
         name   name of the dual, for display
         """
@@ -199,8 +197,8 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
     """Return the convex polyhedron with the given vertices. Qhull computes the convex hull, and coplanar facets are
     merged.
 
-    Points are considered equal, and faces plane, within a millionth of the size. The result is checked by Euler's
-    formula.
+    Points are considered equal, and faces plane, within one millionth of the size of the solid. The result is checked
+    by Euler's formula.
 
     Parameters
     ----------
@@ -209,7 +207,7 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
     recentre : bool
         True to move the mean of the vertices to the origin; otherwise the origin must be inside the solid.
     name : str
-        Name for display.
+        Name of the solid for display.
 
     Returns
     -------
@@ -219,7 +217,7 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
     Raises
     ------
     GearTrainError
-        If a point is not a vertex of the hull, the points are degenerate, or the origin is not inside.
+        If a point is not a vertex of the hull, if the points are degenerate, or if the origin is not inside the hull.
 
     Examples
     --------
@@ -246,7 +244,7 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
 
 
 def from_the_top(points: Floats) -> Ints:
-    """Return the order of points by descending height (z), and at equal heights counterclockwise from x."""
+    """Return the order of points by descending height (z), with ties in counterclockwise order from x."""
     size = np.linalg.norm(points, axis=1).max()
     turn = np.arctan2(points[:, 1], points[:, 0]) / (2 * np.pi) % 1
     # rounding to millionths: noise neither separates equal points nor puts the one at x last
@@ -258,7 +256,7 @@ def _sides(face: tuple[int, ...]) -> Iterator[tuple[int, int]]:
 
 
 def _corners(face: tuple[int, ...]) -> Iterator[tuple[int, int, int]]:
-    """Yield the triples of consecutive vertices of a face, from every vertex and in both senses."""
+    """Yield all triples of consecutive vertices of a face, beginning at every vertex and in both senses."""
     for way in (face, face[::-1]):
         yield from zip(way, way[1:] + way[:1], way[2:] + way[:2], strict=True)
 
@@ -296,7 +294,7 @@ def _check_apart(vertices: Floats, near: float) -> None:
 
 
 def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
-    """Return the vertices of each face: all points on a plane of the convex hull."""
+    """Return the vertices of each face, which are all points on a plane of the convex hull."""
     from scipy.spatial import ConvexHull, QhullError
 
     try:
@@ -315,9 +313,7 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
 
 
 def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tuple[int, ...], Floats, float]:
-    """Return a face as a cycle of vertices, counterclockwise seen from outside, with its outward normal and its
-    height.
-    """
+    """Return a face as a cycle of vertices, counterclockwise from outside, with its outward normal and height."""
     index = np.array(sorted(members))
     centre = vertices[index].mean(axis=0)
     arms = vertices[index] - centre
@@ -382,7 +378,7 @@ def _refused(what: str, why: str, fix: str) -> GearTrainError:
 
 
 def solid_names() -> tuple[str, ...]:
-    """Return the names that `solid` accepts; `n` in a name represents a number of sides.
+    """Return the names that `solid` accepts, in which `n` represents the number of sides.
 
     Returns
     -------
@@ -399,10 +395,10 @@ def solid_names() -> tuple[str, ...]:
 
 @cache
 def solid(name: str) -> Polyhedron:
-    """Return a solid by name: uniform solids by Wythoff's construction, their duals, prisms and antiprisms, and the
-    Johnson solid J37.
+    """Return the solid with a given name. Solids are the uniform solids, by Wythoff's construction, their duals, prisms
+    and antiprisms, and the Johnson solid J37.
 
-    Coordinates are accurate to about 1e-15 of the size; uniform solids have edges of length 2.
+    Coordinates are accurate to about 1e-15 of the size; the edges of uniform solids have the length 2.
 
     Parameters
     ----------
@@ -412,12 +408,12 @@ def solid(name: str) -> Polyhedron:
     Returns
     -------
     Polyhedron
-        Solid. All calls return the same object, whose arrays are read-only.
+        Solid. All calls with the same name return the same object, whose arrays are read-only.
 
     Raises
     ------
     GearTrainError
-        If no solid has this name, or the number of sides is not 3 to 360.
+        If no solid has this name, or if the number of sides is not from 3 to 360.
 
     Examples
     --------
@@ -452,9 +448,10 @@ def _unknown(name: str) -> GearTrainError:
 
 
 def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
-    """Return the images of the point at given distances from the mirrors of the reflection group [p, 3].
+    """Return the images of a point under the reflection group [p, 3]. The point has the given distances from the three
+    mirrors.
 
-    For a snub solid (no distances) only rotations are applied.
+    If no distances are given, the solid is a snub solid, and only rotations are applied.
     """
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
     mirrors /= np.linalg.norm(mirrors, axis=1)[:, None]
@@ -472,8 +469,8 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
 
 @cache
 def _group(p: int) -> Floats:
-    """Return all products of the mirrors of the reflection group [p, 3], shape (24, 48 or 120, 3, 3); entries are
-    rounded to exact values.
+    """Return all products of the mirrors of the reflection group [p, 3], shape (24, 48 or 120, 3, 3); their entries are
+    rounded to the exact values.
     """
     entries = np.array([sign * x for x in (0, 0.5, 1, PHI / 2, (PHI - 1) / 2) for sign in (1, -1)])
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
@@ -490,12 +487,12 @@ def _group(p: int) -> Floats:
 
 
 def _snub(p: int) -> Floats:
-    """Return the distances (a, b, c) of the generating point of a snub solid from the mirrors of [p, 3], for edges
+    """Return the distances (a, b, c) between the generating point of a snub solid and the mirrors of [p, 3], for edges
     of length 2.
 
-    The rotation by two mirrors at an angle g moves a point at distances a and b by 2 sqrt(a^2 + b^2 + 2 a b cos g).
-    All three rotations move it by the same distance. Newton's method solves the two equations together with a^2 +
-    c^2 = 1.
+    The product of two mirrors at an angle g is a rotation, which moves a point at distances a and b from them by 2
+    sqrt(a^2 + b^2 + 2 a b cos g). All three rotations move the point by the same distance. Newton's method solves the
+    two equations together with a^2 + c^2 = 1.
     """
     s, t = np.cos(np.pi / p), 0.5
     a, b, c = 0.6, 0.5, 0.8
@@ -511,7 +508,7 @@ def _snub(p: int) -> Floats:
 
 
 def _family_member(n: int, family: str) -> Polyhedron:
-    """Return the uniform prism or antiprism with regular n-gons of edge length 2 as caps, or its dual."""
+    """Return the uniform prism or antiprism whose caps are regular n-gons with edge length 2, or its dual."""
     if not 3 <= n <= MOST_SIDES:
         raise GearTrainError(
             Problem(
@@ -535,7 +532,7 @@ def _family_member(n: int, family: str) -> Polyhedron:
 
 
 def _j37_vertices() -> Floats:
-    """Return the vertices of J37: the rhombicuboctahedron with its lower third rotated by an eighth of a revolution."""
+    """Return the vertices of J37, a rhombicuboctahedron whose lower third is rotated by an eighth of a revolution."""
     long, short = 1 + 2**0.5, 2**0.5
     middle = [[*p, z] for z in (1, -1) for s, t in product((1, -1), repeat=2) for p in ((s * long, t), (s, t * long))]
     top = [[s, t, long] for s, t in product((1, -1), repeat=2)]

@@ -1,7 +1,7 @@
-"""Gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
+"""Gears on a polyhedron: on its faces, on its vertices, on both, or with idlers on its edges.
 
-The module computes axes, meshes, kinds by symmetry, and names. A survey tabulates polyhedra with gears on all faces:
-mobility, number of meshes to remove, and whether one pitch is possible.
+The module computes axes, meshes, kinds by symmetry, and names. A survey of polyhedra with gears on all faces lists the
+mobility, the number of meshes to remove, and whether equal pitches are possible.
 """
 
 from __future__ import annotations
@@ -48,14 +48,14 @@ def from_polyhedron(
     exact: bool = False,
     recentre: bool = False,
 ) -> Configuration:
-    """Place gears on a polyhedron: on its faces, on its vertices, on both, or with idlers on its edges.
+    """Place gears on the faces or vertices of a polyhedron, on both, or with idlers on its edges.
 
-    Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides of the
-    face, v for a vertex, or e for an edge. Kinds with equal names get an additional letter, in ascending order of the
-    number of gears, then of the distance from the smallest orbit. Gears are numbered within their kind in descending
-    order of height (z), and at equal heights counterclockwise from x. The position of a gear on an edge depends on the
-    tooth numbers: both its pitches are equal there. If tooth numbers are not chosen, the gear is in the middle of the
-    edge, or two gears are at a quarter and at three quarters of the edge.
+    Kinds are orbits under all rotations and reflections of the solid. Their names are the number of sides of the face,
+    v for a vertex, or e for an edge. Kinds with equal names are distinguished by an additional letter, in ascending
+    order of the number of gears, then of the distance from the smallest orbit. Gears of a kind are numbered in
+    descending order of height (z), and at equal heights counterclockwise from x. The position of a gear on an edge
+    depends on the tooth numbers, so that its two pitches are equal. If tooth numbers are not chosen, a gear is in the
+    middle of its edge, or two gears are at one quarter and three quarters of the edge.
 
     Parameters
     ----------
@@ -64,16 +64,16 @@ def from_polyhedron(
     gears : str
         Arrangement of the gears:
 
-        - `faces`: one on each face, about its normal; faces with a common edge mesh.
-        - `vertices`: one on each vertex; vertices with a common edge mesh.
-        - `faces+vertices`: the gear of a vertex meshes with the gears of the faces around it.
+        - `faces`: one gear on each face, about its normal; gears of faces with a common edge mesh.
+        - `vertices`: one gear on each vertex; gears of vertices with a common edge mesh.
+        - `faces+vertices`: each gear of a vertex meshes with the gears of the faces around it.
         - `faces+edges`: the gears of faces that share an edge mesh with an idler between them.
         - `faces+vertices+edges`: two gears on each edge, each in mesh with a vertex and both faces (Platonic solids,
           whose edges are all alike).
     teeth : mapping of str to int, or int, optional
-        Tooth number of each kind, `{"5": 20, "3": 12}`, or one number for all; the key `4` means 4a and 4b.
+        Tooth number of each kind, such as `{"5": 20, "3": 12}`, or one number for all; the key `4` includes 4a and 4b.
     drop : iterable of str
-        Kinds (`4b`), gears (`5-1`) and meshes (`5-1~3-2`, or `6~6` for all meshes between two kinds) to omit.
+        Kinds (`4b`), gears (`5-1`) and meshes (`5-1~3-2`, or `6~6` for all meshes between two kinds) that are omitted.
     exact : bool
         True to move the axes, keeping all symmetries, until every mesh has the same pitch; requires `teeth`.
     recentre : bool
@@ -87,8 +87,8 @@ def from_polyhedron(
     Raises
     ------
     GearTrainError
-        If the solid, a kind, a gear or a mesh does not exist, or if no axes with one pitch are found near the axes of
-        the solid.
+        If the solid, a kind, a gear or a mesh does not exist, or if no axes with equal pitches are found near the axes
+        of the solid.
 
     Examples
     --------
@@ -124,10 +124,11 @@ def from_polyhedron(
 
 
 def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configuration:
-    """Return the configuration with `regular` set: the minimum p up to `most` for which contacts are at multiples of
-    1/p revolution.
+    """Return the configuration with the field `regular`: the minimum p up to `most` for which the contacts of a gear
+    are at multiples of 1/p of a revolution.
 
-    Angles within 1e-12 of a revolution from a multiple of 1/p are treated as exact, so coordinates need this accuracy.
+    Angles within 1e-12 of a revolution of a multiple of 1/p are treated as exact, so coordinates must have this
+    accuracy.
     """
     contacts = defaultdict(list)
     for i, j in configuration.meshes:
@@ -138,8 +139,8 @@ def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configurat
 
 
 def _parts(azimuths: Floats, most: int) -> int:
-    """Return the minimum p for which all differences of the given azimuths are multiples of 1/p of a revolution; 0
-    if such a p does not exist.
+    """Return the minimum p for which all differences between the azimuths are multiples of 1/p of a revolution; 0 if
+    there is none up to `most`.
     """
     turns = (azimuths - azimuths[0]) / (2 * np.pi) if len(azimuths) else azimuths
     for p in range(1, most + 1):
@@ -161,8 +162,8 @@ def _placed(
     counts: Mapping[str, int],
     exact: bool,
 ) -> Floats:
-    """Return the axes: moved to equal pitches if `exact`, and with gears on edges placed if their tooth numbers are
-    known.
+    """Return the axes of the gears. They are moved to equal pitches if `exact` is True, and gears on edges are placed
+    if their tooth numbers are known.
     """
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
@@ -192,20 +193,20 @@ def _title(base: Polyhedron, gears: str, count: int, meshes: int) -> str:
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All positions for gears on a solid, before dropped gears are removed."""
+    """All positions for gears on a solid, before the gears to be omitted are removed."""
 
     axes: Floats
     """Unit vectors of the axes, shape (gears, 3)."""
     letters: tuple[str, ...]
-    """Class of each gear: number of sides of its face, v for a vertex, e for an edge."""
+    """Class of each gear: the number of sides of its face, v for a vertex, or e for an edge."""
     meshes: tuple[tuple[int, int], ...]
-    """Meshing pairs of gears, by index."""
+    """Pairs of meshing gears, by index."""
     movement: SymmetricFreedom
     """Symmetries of the solid as permutations of the gears."""
 
 
 def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
-    """Return the positions of an arrangement of gears on a solid; raise `GearTrainError` if the solid has none."""
+    """Return the positions for an arrangement of gears on a solid; raise `GearTrainError` if it is impossible."""
     if gears not in get_args(Gears):
         raise QuestionError(
             Problem(
@@ -235,7 +236,7 @@ def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
 def _two_per_edge(
     base: Polyhedron, faces: tuple[Floats, list[str]], vertices: tuple[Floats, list[str]]
 ) -> PolyhedronPlaces:
-    """Return the positions of gears on vertices and faces, and of two gears on each edge, one near each end."""
+    """Return the positions for gears on vertices and faces, and for two gears on each edge, one near each end."""
     middles = _between(vertices[0], base.edges)
     # one orbit each means that the solid is Platonic
     if any(base.orbits(points).any() for points in (faces[0], vertices[0], middles)):
@@ -258,7 +259,7 @@ def _two_per_edge(
 
 
 def _between(points: Floats, pairs: Sequence[tuple[int, int]]) -> Floats:
-    """Return the midpoints of arcs between pairs of points, as unit vectors."""
+    """Return the midpoints of the arcs between pairs of points, as unit vectors."""
     sums = points[np.array(pairs)].sum(axis=1)
     middles: Floats = sums / np.linalg.norm(sums, axis=1)[:, None]
     return middles
@@ -283,8 +284,8 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """Return the kind of each gear: its orbit, named by its class, with an additional letter if several orbits have
-    this class.
+    """Return the kind of each gear, which is its orbit, named by its class and by an additional letter if several
+    orbits have this class.
     """
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
@@ -304,15 +305,13 @@ def kinds_of(layout: PolyhedronPlaces) -> list[str]:
 
 
 def _letters(at: int) -> str:
-    """Return the letters that represent an index: a to z, then aa to zz."""
+    """Return the letters for an index: a to z, followed by aa to zz."""
     ahead, last = divmod(at, 26)
     return (_letters(ahead - 1) if ahead else "") + ascii_lowercase[last]
 
 
 def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
-    """Return for each gear the minimum number of meshes that connect it to a gear of `start`, by breadth-first
-    search.
-    """
+    """Return for each gear the minimum number of meshes from a gear in `start`, by breadth-first search."""
     mates = defaultdict(list)
     for i, j in layout.meshes:
         mates[i].append(j)
@@ -339,7 +338,7 @@ def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
 
 
 def names_of(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[str]:
-    """Return the names of the gears: kind and number, such as `5-1`."""
+    """Return the names of the gears, which consist of the kind and a number, such as `5-1`."""
     names, count = [""] * len(kinds), dict.fromkeys(kinds, 0)
     for at in in_order(layout, kinds):
         count[kinds[at]] += 1
@@ -348,7 +347,7 @@ def names_of(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[str]:
 
 
 def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
-    """Return the tooth number of each kind; a number of sides as key refers to all kinds with this number."""
+    """Return the tooth number of each kind. A number of sides as key refers to all kinds with this number."""
     known = list(dict.fromkeys(kinds))
     given = {str(kind): count for kind, count in teeth.items()} if isinstance(teeth, Mapping) else {}
     if teeth is not None and not isinstance(teeth, Mapping):
@@ -370,13 +369,13 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return the kind with a given name, or else all kinds whose names consist of it and additional letters."""
+    """Return the kind with a given name, or else all kinds with this name and an additional letter, as a list."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 
 
 def letter_of(kind: str) -> str:
-    """Return a kind without its additional letter: 4 for 4b, e for ea."""
+    """Return the name of a kind without its additional letter: 4 for 4b, e for ea."""
     return kind.rstrip(ascii_lowercase) or kind[0]
 
 
@@ -397,9 +396,9 @@ def without_gears(
         if len(rest) == len(left):
             raise QuestionError(
                 Problem(
-                    f"no mesh '{word}' to drop",
+                    f"no mesh '{word}' exists that could be dropped",
                     f"{first} and {second} do not mesh",
-                    "name two gears that mesh",
+                    "give the names of two gears that mesh",
                 )
             )
         left = rest
@@ -426,7 +425,7 @@ def _unknown(what: str, word: str, known: Iterable[str]) -> GearTrainError:
 
 @dataclass(frozen=True)
 class SurveyRow(Result):
-    """Properties of one solid with gears on all faces: a row of the table in section 2 of docs/sphere.md."""
+    """Properties of a solid with gears on all faces, as in a row of the table in section 2 of docs/sphere.md."""
 
     KEYS = (
         "solid",
@@ -449,35 +448,35 @@ class SurveyRow(Result):
     meshes: int
     """Number of meshes, one on each edge."""
     bipartite: bool
-    """True if the graph of the meshes is bipartite: all neighbours can turn in opposite senses, and the set has one
+    """True if the graph of the meshes is bipartite, so that all neighbours turn in opposite senses and the set has one
     degree of freedom.
     """
     gruebler: int
     """Degrees of freedom by Gruebler's count: number of gears minus number of meshes."""
     drop: int
-    """Minimum number of meshes to remove so that the set can turn."""
+    """Minimum number of meshes that must be removed so that the set can turn."""
     types: int
-    """Number of kinds of gear: orbits under the symmetries of the solid."""
+    """Number of kinds of gear, which are orbits under the symmetries of the solid."""
     mesh_kinds: int
-    """Number of kinds of mesh: orbits under the symmetries of the solid."""
+    """Number of kinds of mesh, which are orbits under the symmetries of the solid."""
     positions: int
     """Number of free parameters of the axes if the set keeps all symmetries of the solid."""
     angles: tuple[float, ...]
     """Distinct angles between the axes of meshing gears [deg], in ascending order. Angles that differ by less than 1e-9
-    deg are equal.
+    deg are regarded as equal.
     """
 
     @property
     def exact(self) -> bool:
-        """True if one pitch may be possible: there are at least as many unknowns (positions and the pitch) as kinds of
-        mesh.
+        """True if equal pitches may be possible, because there are at least as many unknowns (positions and the pitch)
+        as kinds of mesh.
         """
         return self.positions + 1 >= self.mesh_kinds
 
 
 def survey(solids: Iterable[str | Polyhedron] = SURVEYED) -> tuple[SurveyRow, ...]:
-    """Return the mobility, the number of meshes to remove, and whether one pitch is possible, for each solid with gears
-    on all faces.
+    """Return the mobility, the number of meshes to remove, and whether equal pitches are possible, for each solid with
+    gears on all faces.
 
     Parameters
     ----------

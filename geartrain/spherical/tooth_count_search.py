@@ -1,6 +1,7 @@
-"""Exhaustive search for tooth numbers with nearly one pitch, under the conditions of assembly and tip clearance.
+"""Exhaustive search for tooth numbers with nearly equal pitches that satisfy the conditions of assembly and tip
+clearance.
 
-The module also computes the range of tooth ratios in which equal neighbouring gears on a sphere do not overlap.
+The module also computes the range of the tooth ratio in which equal neighbouring gears on a sphere do not overlap.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def suggest_tooth_counts(
     tolerance: float = 1e-9,
     fixed: Mapping[str, int] | None = None,
 ) -> ToothCountSuggestions:
-    """Find the best sets of tooth numbers that close all loops and leave clearance between tips, by exhaustive search.
+    """Find the best sets of tooth numbers for which all loops close and tips have clearance, by exhaustive search.
 
     The run time is proportional to the product of the ranges. Tips are considered to have clearance if the largest
     operating pitch cones of gears that do not mesh are at least two modules apart.
@@ -58,30 +59,31 @@ def suggest_tooth_counts(
     configuration : Configuration
         Set of gears. Its tooth numbers are not used.
     most, minimum : int
-        Bounds of the tooth numbers.
+        Maximum and minimum tooth number of a gear.
     best : int
-        Number of sets to return.
+        Number of sets that are returned.
     order : {"mismatch", "teeth", "front"}
-        Order of the results. `mismatch`: ascending |mismatch|. `teeth`: ascending total. `front`: only Pareto-optimal
-        sets, which have less mismatch than every set with an equal or smaller total, in ascending order of the total.
+        Order of the results. `mismatch`: in ascending order of |mismatch|. `teeth`: in ascending order of the total.
+        `front`: only Pareto-optimal sets, which have less mismatch than every set with an equal or smaller total, in
+        ascending order of the total.
     mismatch : float
-        Maximum logarithm of the ratio of two pitches of a set.
+        Maximum natural logarithm of the ratio of two pitches in a set.
     tolerance : float
-        Tolerance of the closing error of loops whose angles are known only as floats [pitch].
+        Tolerance of the closing error for loops whose angles are only known as floats [pitch].
     fixed : mapping of str to int, optional
-        Tooth number of each kind of gear whose tooth number is given.
+        Tooth numbers that are not varied, by kind of gear.
 
     Returns
     -------
     ToothCountSuggestions
-        Sets of tooth numbers in the requested order, and the number rejected by each condition.
+        Sets of tooth numbers in the requested order, and the number of sets rejected by each condition.
 
     Raises
     ------
     QuestionError
-        If no gears mesh, or an odd loop locks the set.
+        If no gears mesh, or if a loop with an odd number of gears locks the set.
     RangeError
-        If there are more than 2e8 sets.
+        If there are more than 2e8 sets to examine.
 
     Examples
     --------
@@ -114,8 +116,8 @@ def suggest_tooth_counts(
 def _ranges(
     kinds: Sequence[str], rules: Sequence[Sequence[Fraction | float]], minimum: int, most: int, fixed: Mapping[str, int]
 ) -> list[NDArray[np.int64]]:
-    """Return the tooth numbers of each kind that can satisfy the exact rules; raise `RangeError` if there are too many
-    sets.
+    """Return the tooth numbers of each kind with which the exact rules can be satisfied; raise `RangeError` if there
+    are too many sets.
     """
     ranges = []
     for kind, divisor in zip(kinds, divisors(rules, len(kinds)), strict=True):
@@ -138,8 +140,8 @@ def _ranges(
 
 
 def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int64]]]:
-    """Yield all combinations of tooth numbers as flat columns, one block for each combination of all kinds except
-    the last two.
+    """Yield all combinations of tooth numbers as flat columns. There is one block for each combination of all kinds
+    except the last two.
     """
     # blocks of two kinds bound the memory: all sets at once may be 2e8
     tail = [column.ravel() for column in np.meshgrid(*ranges[-2:], indexing="ij")]
@@ -150,8 +152,8 @@ def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int
 
 
 def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArray[np.int64]:
-    """Return the sets of tooth numbers (rows) in the requested order, mismatch or total; ties are broken by the
-    other quantity.
+    """Return the sets of tooth numbers (rows) in ascending order of mismatch or total, with ties in order of the other
+    quantity; for "front", only the Pareto-optimal sets.
     """
     totals = rows.sum(axis=1)
     # rounding must not decide the order of sets that share one pitch exactly
@@ -166,21 +168,20 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 @dataclass(frozen=True)
 class ToothCountCompromise(Shown):
-    """Set of tooth numbers with which all meshes have nearly the same pitch."""
+    """Set of tooth numbers for which all meshes have nearly the same pitch."""
 
     teeth: Mapping[str, int]
-    """Mapping from gear kind to tooth number."""
+    """Tooth number of each kind of gear."""
     mismatch: float
-    """Logarithm of the ratio of two pitches. With two kinds of mesh, the pitch of the first is divided by the pitch of
-    the second. With more kinds, the maximum pitch is divided by the minimum.
+    """Natural logarithm of the ratio of two pitches. If there are two kinds of mesh, it is the pitch of the first
+    divided by the pitch of the second; if there are more, it is the maximum pitch divided by the minimum pitch.
     """
     pitches: tuple[float, ...]
     """Operating pitch of each kind of mesh [radii of the sphere]."""
     cones: tuple[tuple[float, float], ...]
-    """Half-angles of the operating cones of the two gears of each kind of mesh [rad]."""
+    """Half-angles of the operating pitch cones of the two gears in each kind of mesh [rad]."""
     pressure: tuple[float, ...]
-    """Operating pressure angle of each kind of mesh, for a common base pitch [rad]; NaN if such involutes cannot mesh.
-    """
+    """Operating pressure angle of each kind of mesh for a common base pitch [rad]; NaN without contact."""
     room: float
     """Minimum distance between the pitch circles of gears that do not mesh [modules]."""
     residue: float
@@ -199,8 +200,8 @@ class ToothCountCompromise(Shown):
 
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
-    """Result of a search for tooth numbers: a sequence of `ToothCountCompromise` in the requested order, with the
-    numbers of rejected sets.
+    """Result of a search for tooth numbers: a sequence of `ToothCountCompromise` objects in the requested order, and
+    the numbers of rejected sets.
     """
 
     PAGE = "report.spherical_report:describe_suggestions"
@@ -228,14 +229,13 @@ class ToothCountSuggestions(Result):
     meshes: tuple[MeshKind, ...]
     """Kinds of mesh that occur in the set of gears."""
     found: tuple[ToothCountCompromise, ...]
-    """Sets of tooth numbers in the requested order."""
+    """Sets of tooth numbers that satisfy all conditions, in the requested order."""
     considered: int
     """Number of sets of tooth numbers within the bounds."""
     removed: Mapping[str, int]
-    """Mapping from condition to the number of sets that it rejected, in the order in which the conditions are tested.
-    """
+    """Number of sets that each condition rejected, in the order in which the conditions are tested."""
     beyond: int
-    """Number of further sets that satisfy every condition but are not listed in `found`."""
+    """Number of further sets that satisfy all conditions but are not in `found`."""
 
     def _summary(self) -> str:
         best = f", best {self.found[0]}" if self.found else ""
@@ -252,7 +252,7 @@ class ToothCountSuggestions(Result):
 
 
 class _Search:
-    """Conditions on blocks of tooth numbers, with the number of sets that each condition rejected."""
+    """Conditions that are applied to blocks of tooth numbers, and the number of sets that each of them rejected."""
 
     def __init__(
         self,
@@ -271,7 +271,7 @@ class _Search:
         self.tips_removed = self.pitch_removed = 0
 
     def kept(self, block: list[NDArray[np.int64]]) -> NDArray[np.int64]:
-        """Return the sets of tooth numbers in a block that satisfy every condition, as rows."""
+        """Return the sets of tooth numbers in a block that satisfy all conditions, one per row."""
         for rule in self.rules:
             good = closes(block, rule, self.tolerance)
             block = [column[good] for column in block]
@@ -284,13 +284,13 @@ class _Search:
         return np.stack([column[close] for column in block], axis=1)
 
     def pitches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Return the operating pitch of each kind of mesh (rows) for each set of tooth numbers (columns) [radii of the
-        sphere].
+        """Return the operating pitch [radii of the sphere] of each kind of mesh (rows) for each set of tooth numbers
+        (columns).
         """
         return np.stack([operating_pitch(S, block[a], block[b]) for a, b, S in self.meshes])
 
     def mismatches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Return the mismatch of each set, as in `ToothCountCompromise`."""
+        """Return the mismatch of each set, as defined in `ToothCountCompromise`."""
         logs = np.log(self.pitches(block))
         return np.asarray(logs[0] - logs[1] if len(logs) == 2 else logs.max(axis=0) - logs.min(axis=0))
 
@@ -332,7 +332,7 @@ class _Search:
 @dataclass(frozen=True)
 class NeighbourRatioWindow(Shown):
     """Range of the ratio of two tooth numbers in which neighbouring gears of the same kind do not overlap. Addenda are
-    ignored.
+    neglected.
     """
 
     a: str
@@ -340,9 +340,9 @@ class NeighbourRatioWindow(Shown):
     b: str
     """Kind of the second gear."""
     low: float
-    """Lower bound of the tooth ratio z_a / z_b."""
+    """Lower limit of the tooth ratio z_a / z_b."""
     high: float
-    """Upper bound of the tooth ratio z_a / z_b; `inf` if the ratio is unbounded."""
+    """Upper limit of the tooth ratio z_a / z_b; `inf` if there is none."""
 
     def __str__(self) -> str:
         return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"
@@ -352,7 +352,7 @@ def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, .
     """Return the range of the tooth ratio in which neighbouring gears of the same kind do not overlap, for each kind of
     mesh between different kinds of gear.
 
-    With several kinds of mesh, each range is valid for the operating cones of its own mesh.
+    If there are several kinds of mesh, each range is valid for the operating cones of its own mesh.
 
     Parameters
     ----------
@@ -362,7 +362,7 @@ def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, .
     Returns
     -------
     tuple of NeighbourRatioWindow
-        One range for each kind of mesh between unlike gears.
+        One range for each kind of mesh between different kinds of gear.
 
     Examples
     --------

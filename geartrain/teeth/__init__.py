@@ -1,8 +1,8 @@
 """Teeth of gear pairs: tooth forms, pairs with real teeth, outlines of wheels, pins in slots.
 
-Input: two tooth counts, a tooth form as a pair declares it, friction and sizes. Output: a `GearMesh`, whatever the
-form, with its verdict, backlash, transmission functions of the drive and coast flanks, efficiency, and the outline to
-cut. Each form is one file. Each has a method `transmission` that returns the transmission function of a pair without a
+The input is two tooth counts, the tooth form that a pair declares, friction and sizes. The output is a `GearMesh` with
+its verdict, backlash, transmission functions of the drive and coast flanks, efficiency, and the outline to cut, for all
+forms. Each form is one file and has a method `transmission` that returns the transmission function of a pair without a
 train.
 
 tooth_form, any_tooth_form    base class of all forms; the forms by name

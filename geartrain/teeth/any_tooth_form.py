@@ -46,7 +46,7 @@ def added_forms() -> Mapping[str, EntryPoint]:
 
 
 def form_names(name: object = None) -> tuple[str, ...]:
-    """Return the names of all tooth forms; without those of other distributions if `name` is in `TOOTH_FORMS`."""
+    """Return the names of all tooth forms. Names of other distributions are omitted if `name` is in `TOOTH_FORMS`."""
     # a declaration may give any value as a name, also one without a hash
     known = tuple(TOOTH_FORMS)
     return known if name in known else (*known, *added_forms())

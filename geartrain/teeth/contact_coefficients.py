@@ -66,7 +66,7 @@ class CoulombFriction(NumberOrKeys):
     def _check_range(self) -> CoulombFriction:
         check_range("friction", self.sliding, self.range)
         if self.range is not None and self.deviation is not None:
-            fix = "omit `deviation` for a uniform, or `range` for a normal distribution"
+            fix = "omit `deviation` for a uniform distribution, or `range` for a normal distribution"
             raise bad("friction", "`range` and `deviation` are both given", fix)
         return self
 
@@ -117,7 +117,7 @@ Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
 
 
 class Efficiencies(NumberOrKeys):
-    """Basic efficiency of a pair (carrier fixed) for each driving side: a number up to 1, or a percentage.
+    """Basic efficiency of a pair (with fixed carrier) for each driving side, as a number up to 1 or a percentage.
 
     A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
     """

@@ -80,7 +80,7 @@ class CouplingRow(NamedTuple):
     b: int
     """Coefficient of link j, -m a."""
     wheels: tuple[str, str] | None = None
-    """Wheels of links i and j if a and b are their tooth counts, apart from the sign; else None."""
+    """Wheels of links i and j if a and b are their tooth counts, apart from the sign; otherwise None."""
     carrier: str | None = None
     """Declared link k; None for the transfer vertex of links i and j."""
 
@@ -142,7 +142,7 @@ class Coupling(BaseModel):
 
     @property
     def name(self) -> str:
-        """Declared id; by default the names of its first two ends, joined by `~`."""
+        """Declared id; by default, the names of the first two ends joined by `~`."""
         return self.id or "~".join(self.ends[:2])
 
     @property
@@ -152,7 +152,7 @@ class Coupling(BaseModel):
 
     @property
     def about(self) -> str:
-        """Sizes of the coupling as declared, as text for reports; "" if there are none."""
+        """Declared sizes of the coupling, as text for reports; "" if there are none."""
         return ""
 
     def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
@@ -177,7 +177,7 @@ class Coupling(BaseModel):
 
     @property
     def losses(self) -> Efficiencies | None:
-        """Basic efficiencies with the first and with the second end driving; None without losses."""
+        """Basic efficiencies with the first and with the second end driving; None for a coupling without losses."""
         return self.efficiency
 
     @property
@@ -240,7 +240,9 @@ class Coupling(BaseModel):
 
     @property
     def torques(self) -> Iterator[Quantity]:
-        """Declared energies, such as the loss of a jumper; all torques of the train then have units."""
+        """Declared energies, such as the loss of a jumper; if there are any, all torques of the train must have
+        units.
+        """
         values = (getattr(self, name) for name in type(self).model_fields)
         return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 

@@ -74,7 +74,7 @@ class Cycloidal(ConjugateToothForm):
             raise bad(
                 "rolling",
                 "a rolling circle as large as the pitch circle or larger generates no dedendum",
-                "give a fraction below 1 (1/2 makes radial flanks, a larger one undercut flanks)",
+                "give a fraction below 1 (1/2 makes radial flanks, and a larger fraction undercut flanks)",
             )
         if self.thickness is not None:
             self._check_thickness(self.thickness)

@@ -71,11 +71,11 @@ class CycloidalDisc:
 
     @property
     def shortening(self) -> float:
-        """Pitch radius of the ring divided by the radius of the pin circle, below 1: docs/reducers.md (1)."""
+        """Pitch radius of the ring divided by the radius of the pin circle, below 1, docs/reducers.md (1)."""
         return self.pins / 2 / self.circle
 
     def centres(self, turn: Floats) -> Floats:
-        """Return the positions of a pin's centre in the frame of the disc [module], as complex numbers:
+        """Return the positions of a pin's centre in the frame of the disc [module], as complex numbers,
         docs/reducers.md (2).
 
         turn   angle of the eccentric (rad)
@@ -84,7 +84,7 @@ class CycloidalDisc:
         return found
 
     def outline(self, turn: Floats) -> Floats:
-        """Return points of the disc's outline [module], as complex numbers: docs/reducers.md (3).
+        """Return points of the disc's outline [module], as complex numbers, docs/reducers.md (3).
 
         turn   angle of the eccentric (rad)
         """

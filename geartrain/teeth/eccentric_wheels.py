@@ -39,7 +39,7 @@ class EccentricWheels(NamedTuple):
     counts: tuple[int, int]
     """Tooth counts."""
     offsets: tuple[float, float]
-    """Distances of the centres from the axes."""
+    """Distances of the centres from the axes, in the common length unit."""
     angles: tuple[float, float]
     """Directions of the centres at S = 0 [rad], from the direction of the driven wheel's axis, in the driver's sense.
     """
@@ -50,14 +50,12 @@ class EccentricWheels(NamedTuple):
 
     @property
     def base(self) -> tuple[float, float]:
-        """Base radii; the radius of a ring is negative."""
+        """Base radii, in the common length unit; the radius of a ring is negative."""
         first, second = (z / 2 * cos(self.pressure_angle) for z in self.counts)
         return first, -second if self.internal else second
 
     def errors_at(self, S: Floats) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at angles S of the driver [rad], by Newton's
-        method.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad], by Newton's method."""
         (r1, r2), sign = self.base, -1 if self.internal else 1
         (e1, e2), (phi1, phi2), inv0 = self.offsets, self.angles, tan(self.pressure_angle) - self.pressure_angle
         distance = sign * abs(self.counts[0] + sign * self.counts[1]) / 2

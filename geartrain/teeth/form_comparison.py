@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Names of the forms that are compared by default; a form with several variants (readings) is represented by
-one of them.
-"""
+"""Names of the forms that are compared by default, with one variant (reading) of each form."""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
@@ -61,12 +59,12 @@ class MeasuredForm(Result):
 
     @property
     def pitches(self) -> tuple[float, float] | None:
-        """Arcs of approach and recess [pitch], one of which may be negative; None without a path of contact."""
+        """Arcs of approach and recess [pitch], one of which may be negative; None if `path` is None."""
         return None if self.path is None else self.path.pitches
 
     @property
     def pressure_angle(self) -> float | None:
-        """Pressure angle at the pitch point [rad]; None without a path of contact."""
+        """Pressure angle at the pitch point [rad]; None if `path` is None."""
         return None if self.path is None else float(self.path.at(0.0).psi)
 
 
@@ -106,7 +104,8 @@ class FormComparison(Pictured, Result):
 
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
-    """Return the conjugate forms that can be compared: class, and the parameters of the variant (reading), by name.
+    """Return the class and the parameters of each conjugate form, or variant (reading) of a form, that can be compared,
+    by name.
 
     A form with several readings is listed once without a reading and once for each, such as `uniform_temperature_b`.
     """
@@ -186,9 +185,7 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch], regardless of its
-    addenda.
-    """
+    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch] instead of addenda."""
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 

@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 FOOT_A_MINUTE = 0.3048 / 60
 """One foot per minute [m/s]."""
 BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
-"""Pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears: Buckingham, p. 404, cited by
-Smith.
+"""Pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears, from Buckingham, p. 404, cited
+by Smith.
 """
 DOKOS = (0.53, 0.18, 1e7)
-"""Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds: Dokos, cited by Smith."""
+"""Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds, from Dokos, cited by Smith."""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 
@@ -114,7 +114,8 @@ class FrictionLaw(BaseModel, ABC):
 
 
 class StribeckFriction(FrictionLaw):
-    """Friction that decreases from static to kinetic with the sliding speed, and may increase again by a viscous term.
+    """Friction that decreases from static to kinetic with the sliding speed, and may increase again because of a
+    viscous term.
 
     Examples
     --------
@@ -140,7 +141,7 @@ class StribeckFriction(FrictionLaw):
     def coefficient(self, speed: Floats) -> Floats:
         """Return the coefficient of friction at sliding speeds v [m/s], docs/shapes.md (16).
 
-        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, viscous in s/m.
+        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, where viscous is in s/m.
         """
         import numpy as np
 
@@ -242,8 +243,8 @@ class TabulatedFriction(FrictionLaw):
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
             raise bad(
                 "friction",
-                "the speeds are not in rising order from 0 or more",
-                "list the speeds in rising order, from 0 or more",
+                "the speeds are negative or not in increasing order",
+                "list speeds of 0 or more in increasing order",
             )
         return self
 
@@ -253,9 +254,7 @@ class TabulatedFriction(FrictionLaw):
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at speeds [m/s], by linear interpolation; it is constant outside the
-        table.
-        """
+        """Return the coefficient of friction at speeds [m/s], by linear interpolation, constant outside the table."""
         import numpy as np
 
         found: Floats = np.interp(

@@ -105,7 +105,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Working pitch radius of the first wheel of the pair [m]; None without declared lengths."""
+        """Working pitch radius of the first wheel of the pair [m]; None if no lengths are declared."""
         module, size = self.wheels.module, self.own_size
         stretch = 1.0 if size is None else size.stretch
         return None if module is None else module * self.wheels.counts[0] / 2 * stretch
@@ -189,9 +189,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; empty by
-        default.
-        """
+        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; may be empty."""
         return {}
 
     @abstractmethod
@@ -295,9 +293,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact of displaced flanks with the actual driver; None for tooth forms that have no such
-        model.
-        """
+        """Model of the contact of displaced flanks with the given wheel driving; None if the tooth form has none."""
         return None
 
     @abstractmethod
@@ -365,8 +361,8 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def friction_words(self) -> str:
-        """Statement of the friction of the pair, without a full stop: the coefficient, or the friction law, its mean
-        coefficient and the pitch-line speed if that speed is known.
+        """Statement of the friction of the pair, without a full stop. It gives the coefficient, or the friction law,
+        its mean coefficient and the pitch-line speed if that speed is known.
         """
         declared, at = self.wheels.friction_law, self.wheels.pitch_line
         if declared is None:
@@ -431,7 +427,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Meshes to examine: this mesh, or, if the driver is not determined, one mesh for each of the two possible
+        """Meshes to examine: this mesh if the driver is determined, otherwise one mesh for each of the two possible
         drivers.
         """
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))

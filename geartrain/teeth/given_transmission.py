@@ -43,8 +43,8 @@ class TransmissionProtocol(Protocol):
     """Protocol of transmission functions that `GearTrain.with_tooth_form` accepts for a gear pair.
 
     A subclass of `TransmissionFunction` satisfies it. Two methods are optional: `kinks()` returns the driver angles in
-    one period at which the speed ratio or its slope is discontinuous [rad], and `efficiency(S)` the efficiency at
-    driver angles, above 0 and at most 1.
+    one period at which the speed ratio or its slope is discontinuous [rad], and `efficiency(S)` returns the efficiency
+    at driver angles, above 0 and at most 1.
 
     See Also
     --------
@@ -52,7 +52,7 @@ class TransmissionProtocol(Protocol):
     """
 
     ratio: Fraction
-    """Exact mean of the speed ratio, without sign: tooth count of the driver divided by that of the driven wheel."""
+    """Exact mean speed ratio, without sign: tooth count of the driver divided by tooth count of the driven wheel."""
     period: float
     """Period [rad of the driver], a whole number of pitches of the driver."""
 
@@ -311,7 +311,8 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
 
 
 def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
-    """Return the efficiency of a transmission function given in Python, for both driving wheels; None without losses.
+    """Return the efficiency of a transmission function given in Python, for both driving wheels; None for a function
+    without losses.
 
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """

@@ -100,7 +100,7 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None: involute teeth keep their ratio at any centre distance, so no distance is wrong."""
+        """Return None: any centre distance is accepted, because involute teeth keep their ratio at any distance."""
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
@@ -141,8 +141,8 @@ class Involute(ConjugateToothForm):
         return self.involutes(wheels).bottom_clearance(gear)
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at another centre distance [module]; None if the axes are closer than the base circles
-        allow.
+        """Return the backlash at another centre distance [module]; None if the base circles do not allow that
+        distance.
         """
         found = self.involutes(wheels)
         # in a ring the teeth separate as the centre distance decreases
@@ -260,9 +260,7 @@ class Involute(ConjugateToothForm):
 
 
 def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:
-    """Return the path of contact with constant pressure angle `psi` [rad] and the given arcs X of approach and
-    recess.
-    """
+    """Return the path of contact with constant pressure angle `psi` [rad] and given arcs X of approach and recess."""
     from geartrain.teeth.conjugate.optimal_sides import involute
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

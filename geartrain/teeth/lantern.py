@@ -71,7 +71,7 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None. Raises `RangeError` if a centre distance other than the design distance is declared."""
+        """Return None, or raise `RangeError` if a centre distance other than the design distance is declared."""
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(
@@ -129,8 +129,8 @@ class Lantern(ConjugateToothForm):
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """Return an undercut fault if the approaching pins remove part of the mate's flank that the arcs of contact
-        require; otherwise an empty tuple.
+        """Return an undercut fault in a tuple if the approaching pins remove part of the mate's flank that the arcs of
+        contact require; otherwise an empty tuple.
         """
         from geartrain.teeth.pair_results import ToothFault
 

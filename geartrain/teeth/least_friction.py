@@ -27,8 +27,8 @@ _MAXIMUM_ANGLE, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of minimum friction loss: a constant pressure angle near the pitch point, and the minimum contact speed
-    further out.
+    """Teeth of minimum friction loss: the pressure angle is constant near the pitch point, and the contact speed is the
+    permitted minimum further out.
 
     `margin` is the minimum speed of the contact along the dedendum divided by the pitch-line speed. `literal` selects
     the extremal printed in the source instead: its pressure angles exceed 45 deg, it does not include the pitch point,
@@ -77,7 +77,7 @@ class LeastFriction(ConjugateToothForm):
             check_arcs(self.arcs)
         if (self.friction_law is None) != (self.pitch_line_speed is None):
             fix = "give both, or neither"
-            raise bad("friction_law", "friction_law and pitch_line_speed are not both given", fix)
+            raise bad("friction_law", "only one of friction_law and pitch_line_speed is given", fix)
         return self._check_literal() if self.literal else self._check_usual()
 
     def _check_usual(self) -> LeastFriction:
@@ -117,7 +117,7 @@ class LeastFriction(ConjugateToothForm):
         if not pi / 4 <= last < first < pi / 2:
             raise bad(
                 "pressure_angle",
-                "the pressure angles of the literal shape are not in falling order between 90 and 45 deg",
+                "the pressure angles of the literal shape are not in descending order between 90 and 45 deg",
                 "give two angles from 45 to 90 deg, the larger one first: the flanks have a cusp at 45 deg",
             )
         if self.arcs is not None and min(arc.value for arc in self.arcs) > 0:
@@ -141,8 +141,8 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the function that gives the friction loss density at distance d from the pitch point, up to a factor:
-        mu S, with coefficient of friction mu, and S = d, or sin d for bevel gears.
+        """Return the function that gives the density of the friction loss at the distance d from the pitch point, up to
+        a factor. It is mu S with the coefficient of friction mu, and S = d, or sin d for bevel gears.
 
         Return None if friction is the same at every contact.
         """

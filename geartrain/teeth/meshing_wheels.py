@@ -81,9 +81,7 @@ class MeshingWheels:
     friction: float | None = None
     """Coefficient of friction; None if no friction or a friction law is declared."""
     distance: float | None = None
-    """Half the sum, over both wheels, of transverse module times tooth number [m]; None unless both modules have a
-    unit.
-    """
+    """Half the sum, over both wheels, of transverse module times tooth number [m]; None if a module has no unit."""
     friction_law: FrictionLaw | None = None
     """Friction law declared instead of a coefficient; `friction` is then None."""
     pitch_line: float | None = None
@@ -95,12 +93,12 @@ class MeshingWheels:
 
     @property
     def module(self) -> float | None:
-        """Mean transverse module of both wheels [m]; None without declared lengths."""
+        """Mean transverse module of both wheels [m]; None if no lengths are declared."""
         return None if self.distance is None or not sum(self.counts) else 2 * self.distance / sum(self.counts)
 
     @property
     def pitch_distance(self) -> float | None:
-        """Centre distance at which the declared pitch circles touch [m]; None without declared lengths."""
+        """Centre distance at which the declared pitch circles touch [m]; None if no lengths are declared."""
         z1, z2 = self.counts
         # `distance` belongs to the sum of the tooth numbers, also for a ring
         return (
@@ -111,7 +109,7 @@ class MeshingWheels:
 
     @property
     def ring(self) -> Literal[0, 1, 2]:
-        """Number of the wheel that is a ring, 1 or 2; 0 without a ring."""
+        """Number of the wheel that is a ring, 1 or 2; 0 if there is none."""
         return 1 if self.internal[0] else 2 if self.internal[1] else 0
 
     @property
@@ -127,7 +125,7 @@ class MeshingWheels:
 
     @property
     def note(self) -> str:
-        """Note on a contrate wheel, which is treated as a spur wheel; empty without such a wheel."""
+        """Note on a contrate wheel, which is treated as a spur wheel; empty if neither wheel is a contrate wheel."""
         return _CONTRATE if "contrate" in self.kinds else ""
 
 

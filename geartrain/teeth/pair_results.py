@@ -109,9 +109,7 @@ class SlidingEfficiency(Result):
 
     @property
     def at_constant_load(self) -> float | None:
-        """Work output divided by work input at constant load torque; None if friction locks the pair or no work is
-        done.
-        """
+        """Work output divided by work input at constant load torque; None if friction locks or no work is done."""
         return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property

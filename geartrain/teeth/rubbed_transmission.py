@@ -88,14 +88,14 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
-        """Return the coefficient of friction at each contact; NaN without contact.
+        """Return the coefficient of friction at each contact; NaN where the teeth do not touch.
 
         S   driver angles [rad], any shape
         """
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN without contact, or if friction locks the teeth."""
+        """Return the efficiency at driver angles S [rad]; NaN where teeth do not touch, or if friction locks them."""
         rubbing = self.rubbing(S)
         return rubbing.efficiency(self.by(rubbing.sliding))
 
@@ -123,7 +123,7 @@ class RubbedTransmission(TransmissionFunction):
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
-    """Return the friction law of a pair at its pitch-line speed; None without a friction law or if the speed is
+    """Return the friction law of a pair at its pitch-line speed; None if no friction law is declared or the speed is
     unknown.
     """
     declared, at = wheels.friction_law, wheels.pitch_line

@@ -76,9 +76,7 @@ def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
 def _design(
     group: Iterable[str], edges: Iterable[tuple[str, str]], gears: Mapping[str, UndeclaredWheel], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """Return the standard teeth of connected wheels by name; None if some pair cannot run at this pressure angle
-    [deg].
-    """
+    """Return the standard teeth of connected wheels by name; None if a pair cannot run at this pressure angle [deg]."""
     addenda = dict.fromkeys(group, ADDENDUM)
     for first, second in edges:
         heights = (height for height in _ADDENDA if _runs(gears[first], gears[second], angle, height, height))
@@ -104,7 +102,7 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """Return a mate for a wheel without a mate: an equal wheel, or for a ring gear a pinion with half as many teeth,
+    """Return a mate for a wheel that has none: an equal wheel, or for a ring gear a pinion with half as many teeth,
     rounded down.
     """
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear

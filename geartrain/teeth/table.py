@@ -72,7 +72,7 @@ class PeriodicPoints(BaseModel):
         return 2 * pi * pitches / z1
 
     def table(self, points: Sequence[tuple[Quantity, float]], counts: tuple[int, int]) -> PeriodicTable:
-        """Return the function through points: angle of the driver, or fraction of the period, and value.
+        """Return the function through points, each an angle of the driver (or a fraction of the period) and a value.
 
         Raises `GearTrainError` if the points do not close, or do not define a function.
         """
@@ -285,7 +285,7 @@ class GivenError(ToothForm):
         return any(each.unit is not None for each in self.eccentricity)
 
     def thinned(self, backlash: Quantity) -> GivenError:
-        """Return the form itself, because its backlash is an angle."""
+        """Return the form unchanged, because its own backlash is an angle and the given backlash does not apply."""
         del backlash
         return self
 

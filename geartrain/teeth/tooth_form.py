@@ -80,9 +80,7 @@ class ToothForm(BaseModel, ABC):
     """Names of the fields that determine the backlash if they are declared."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
-    """Names of the fields that do not affect the tooth shape: stiffness and damping of the teeth in dynamic
-    simulations.
-    """
+    """Names of the fields that do not affect the tooth shape: stiffness and damping for dynamic simulations."""
 
     if TYPE_CHECKING:
         form: str
@@ -125,7 +123,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return a validation error of pydantic as a problem, with the fix that the form gives, if any."""
+        """Return a validation error of pydantic as a problem, with the fix that the form provides, if there is one."""
         context = item.get("ctx") or {}
         # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""

@@ -1,8 +1,8 @@
 """Transmission functions of pairs: the interface of all tooth forms and pins, and functions derived from others.
 
 Angles are forward angles: S of the driver and q of the driven side both increase as the pair turns forwards. At S = 0 a
-tooth of the driver is on the line of centres (a pin points at the other axis). The sign of the speed ratio of an
-external mesh belongs to the train, not to these functions.
+tooth of the driver is on the line of centres, or a pin is on the line from its axis to the other axis. The sign of the
+speed ratio of an external mesh belongs to the train, not to these functions.
 """
 
 from __future__ import annotations
@@ -61,9 +61,7 @@ def check_friction(friction: float) -> float:
 
 
 class SpeedLeap(NamedTuple):
-    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after the
-    impact.
-    """
+    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after it."""
 
     before: float
     after: float
@@ -75,7 +73,7 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding of the teeth of a pair at driver angles: arrays with one row for each contact, NaN without contact."""
+    """Sliding of the teeth of a pair at driver angles: arrays with a row for each contact, NaN without contact."""
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""
@@ -85,7 +83,8 @@ class ContactRubbing(NamedTuple):
     """Change of the output power of a contact per unit friction coefficient, divided by the power without friction."""
 
     def efficiency(self, friction: float | Floats) -> Floats:
-        """Return the efficiency at each driver angle; NaN without contact, or if friction locks one of the contacts.
+        """Return the efficiency at each driver angle; NaN if the teeth do not touch, or if friction locks one of the
+        contacts.
 
         Contacts at the same time share the driver's torque equally. A contact with the coefficient f transmits the
         fraction (1 + f out) / (1 + f into) of its power.
@@ -242,8 +241,8 @@ class TransmissionFunction(Shown, ABC):
         return float((weights * speed).sum() / (weights * (speed / efficiency)).sum())
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, from 1001 samples of each smooth interval, or from the quadrature nodes if
-        evaluation is slow; NaN if friction locks the pair.
+        """Return the minimum efficiency, computed from 1001 samples of each smooth interval, or from the quadrature
+        nodes if evaluation is slow; NaN if friction locks the pair.
         """
         if self.locks:
             return nan
@@ -347,8 +346,8 @@ class TransmissionFunction(Shown, ABC):
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous; by
-        default an empty list.
+        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous; the
+        default is an empty list.
         """
         return []
 
@@ -392,14 +391,14 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function that applies while the driver turns backwards; by default this function
+        """Return the transmission function that applies while the driver turns backwards; the default is this function
         itself.
         """
         return self
 
     def mirrored(self) -> TransmissionFunction:
-        """Return the transmission function of a coupling whose driver's mean motion is against the declared sense of
-        its angle; by default this function itself.
+        """Return the transmission function for a driver whose mean motion is opposite to the positive sense of its
+        angle; the default is this function itself.
 
         Its error at S is minus the error of this function at -S. Override it in functions whose error is not odd.
         """

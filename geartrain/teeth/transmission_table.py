@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.arrays import blocks, remainder
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
@@ -78,18 +80,26 @@ class CellTable:
     def __call__(self, S: ArrayLike) -> Floats:
         """Return the interpolated function at driver angles S [rad] of any shape."""
         S = np.asarray(S, dtype=float)
+        flat, found = S.ravel(), np.empty(S.size)
         with np.errstate(invalid="ignore"):
-            u = np.mod(S, self.period)
-            # every kink below the angle adds a cell to the count of uniform cells
-            cell = np.asarray(u * (self.cells / self.period)).astype(np.intp)
-            cell = cell + np.searchsorted(self.kinks, u, side="right")
-            # clipped, since rounding may lead past the last cell and NaN anywhere
-            u = u - self.middles.take(cell, mode="clip")
-            found = self.coefficients[-1].take(cell, mode="clip")
-            # Horner's method
-            for coefficients in self.coefficients[-2::-1]:
-                found = found * u + coefficients.take(cell, mode="clip")
-        return np.asarray(found)
+            for block in blocks(len(flat)):
+                found[block] = self._block(flat[block])
+        return found.reshape(S.shape)
+
+    def _block(self, S: Floats) -> Floats:
+        u = remainder(S, self.period)
+        # every kink below the angle adds a cell to the count of uniform cells
+        cell = (u * (self.cells / self.period)).astype(np.intp)
+        for kink in self.kinks:
+            cell += u >= kink
+        # clipped, since rounding may lead past the last cell and NaN anywhere
+        u -= self.middles.take(cell, mode="clip")
+        found: Floats = self.coefficients[-1].take(cell, mode="clip")
+        # Horner's method
+        for coefficients in self.coefficients[-2::-1]:
+            found *= u
+            found += coefficients.take(cell, mode="clip")
+        return found
 
 
 def folded_kinks(transmission: TransmissionFunction) -> Floats:

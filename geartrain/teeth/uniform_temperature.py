@@ -1,6 +1,4 @@
-"""Teeth of uniform temperature: the frictional heat per area of profile is uniform, and the lubricant removes it
-locally.
-"""
+"""Teeth of uniform temperature: frictional heat per profile area is uniform and removed locally by the lubricant."""
 
 from __future__ import annotations
 

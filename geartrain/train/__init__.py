@@ -4,10 +4,10 @@ Input is plain data with the keys of the YAML format (docs/reference.md), or a f
 parts keep their line numbers, or a `DeclarationError` with every problem that could be collected. Nothing is calculated
 here; `geartrain.GearTrain` does that.
 
-declaration                      complete model, friction in force, epoch
+declaration                      complete model, effective friction, epoch; blanks of wheels
 mechanism                        links, wheels, axes, pairs; uncertain and owned tooth counts, bearing friction
 outputs, states                  outputs, printed periods, dials, targets; clutches, cases, and drives in time
-manufacturing, wheel_stock, reconstruction   materials and cutting errors; blanks; constraints of a reconstruction
+manufacturing, reconstruction    materials and cutting errors; constraints of a reconstruction
 fields, validation, references   strict fields; short forms and problems; conflicting names and units
 yaml_nodes, declaration_style    YAML with line numbers; rewriting in short or long forms
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and changed copies of a declaration

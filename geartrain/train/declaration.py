@@ -1,7 +1,7 @@
-"""Complete declaration of a train as one model.
+"""Model of a complete declaration.
 
-Also the epoch (a date, and the turns of the input at that date) and the effective friction of a pair or coupling
-(sliding, static, and its standard deviation).
+This module also defines the epoch (a date, and the turns of the input at that date) and the effective friction of a
+pair or coupling (sliding and static coefficients, and the standard deviation).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ from geartrain.train.fields import (
     Nothing,
     short_for,
 )
-from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
+from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture, material_table
 from geartrain.train.mechanism import (
     Axis,
     Direction,
@@ -124,7 +124,7 @@ class Epoch(Declared):
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
-"""Epoch, or its date as a single string."""
+"""Epoch; in a declaration, a single string instead of a mapping is its date."""
 
 
 # ------------------------------------------------------------------------------------------------ friction that applies
@@ -137,20 +137,20 @@ class FrictionInForce:
     sliding: float | None
     """Coefficient of sliding friction; None if the coefficient follows a friction law."""
     static: float
-    """Coefficient of static friction; for a friction law, its value at speed 0."""
+    """Coefficient of static friction; for a friction law, the value of the law at speed 0."""
     deviation: float = 0.0
-    """Standard deviation of `sliding`; `static` keeps its ratio to `sliding`."""
+    """Standard deviation of `sliding`; the ratio of `static` to `sliding` does not vary."""
     law: FrictionLaw | None = None
     """Friction law (coefficient as a function of sliding speed), if one is declared."""
 
     @property
     def has_friction(self) -> bool:
-        """True for a friction law or for a coefficient above 0."""
+        """True if a friction law or a coefficient greater than 0 is declared."""
         return self.law is not None or bool(self.sliding) or self.static > 0
 
 
 def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> FrictionInForce | None:
-    """Convert declared friction to its effective coefficients; None stays None."""
+    """Return the effective friction for a declared coefficient or law; None if none is declared."""
     if declared is None:
         return None
     if not isinstance(declared, CoulombFriction):
@@ -303,7 +303,7 @@ class Train(Declared):
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
         """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. If several parts have
-        the same name, the kind that is first in this list is used.
+        the same name, the kind that occurs first in this list is used.
         """
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)
@@ -321,8 +321,8 @@ class Train(Declared):
         return gear.tooth_form or self.tooth_form
 
     def friction_of(self, part: GearPair | Coupling) -> FrictionInForce | None:
-        """Return the friction of a gear pair, by default the friction of the train, or of a coupling's pin; None if it
-        is not declared.
+        """Return the friction of a gear pair (by default, the friction of the train) or of the pin of a coupling; None
+        if no friction is declared.
 
         Parameters
         ----------
@@ -334,8 +334,8 @@ class Train(Declared):
         return friction_in_force(getattr(part, "friction", None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of
-        the train; None if none is declared.
+        """Return the tooth stiffness of a gear pair. It is declared for the pair, else for its tooth form, else for the
+        train; None if it is not declared.
 
         Parameters
         ----------
@@ -346,8 +346,8 @@ class Train(Declared):
         return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth damping of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the
-        train; None if none is declared.
+        """Return the tooth damping of a gear pair. It is declared for the pair, else for its tooth form, else for the
+        train; None if it is not declared.
 
         Parameters
         ----------
@@ -372,7 +372,7 @@ class Train(Declared):
 
     @property
     def pin_couplings(self) -> tuple[PinCoupling, ...]:
-        """Couplings by a pin or pins, in the order of declaration; also links kept parallel by any device."""
+        """Couplings by pins, and couplings that keep links parallel by any device, in the order of declaration."""
         if not self.couplings:
             return ()
         from geartrain.teeth.couplings.pins import PinCoupling
@@ -381,7 +381,7 @@ class Train(Declared):
 
     @property
     def cases(self) -> tuple[StateCase, ...]:
-        """Inputs, brakes, locks, loads and drive of each state; a single entry for a train without states."""
+        """Prescriptions (inputs, brakes, locks, loads, drive) of each state; one element if the train has no states."""
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
     def one_way_clutches(self, state: str | None) -> tuple[str, ...]:
@@ -403,7 +403,7 @@ class Train(Declared):
         state : str or None
             A declared state; None for a train without states.
         holding : sequence of str, optional
-            One-way clutches that hold; by default found from speeds and torques.
+            Names of the one-way clutches that hold; by default they are determined from speeds and torques.
         """
         if holding is None and self.one_way_clutches(state):
             if state not in self._decided_cases:
@@ -459,7 +459,7 @@ class Train(Declared):
         )
 
     def loads_in(self, state: str | None) -> Mapping[str, Quantity]:
-        """Return the loads in one state by link.
+        """Return the load on each loaded link in one state.
 
         Parameters
         ----------
@@ -494,8 +494,8 @@ class Train(Declared):
             )
 
     def single_state(self, state: str | None) -> str | None:
-        """Return the given state, by default the only state; None for a train without states. Raises `QuestionError` if
-        there are several states and none is given.
+        """Return the name of the given state, or of the only state if none is given; None for a train without states.
+        Raises `QuestionError` if there are several states and none is given.
 
         Parameters
         ----------
@@ -515,18 +515,18 @@ class Train(Declared):
         return next(iter(self.states), None) if state is None else state
 
     def state_or_first(self, state: str | None) -> str | None:
-        """Return the given state, by default the first declared state; None for a train without states.
+        """Return the given state, by default the first declared one; None for a train without states.
 
         Parameters
         ----------
         state : str or None
-            Name of a declared state, or None.
+            Name of a declared state; None for the first one.
         """
         return next(iter(self.states), None) if state is None else state
 
     @property
     def has_placed_axes(self) -> bool:
-        """True if a position or a direction is declared for at least one axis."""
+        """True if the position or the direction of at least one axis is declared."""
         return any(axis.position is not None or "direction" in axis.model_fields_set for axis in self.axes.values())
 
     @property
@@ -537,7 +537,7 @@ class Train(Declared):
         return self.density is not None or heavy or any(wheels)
 
     def has_torque_units(self, state: str | None) -> bool:
-        """Return True if one state has loads or bearing torques other than 0, and all of these torques have units.
+        """Return True if a state has torques other than 0 (loads, bearings or jumpers), and all of them have units.
 
         Parameters
         ----------
@@ -551,11 +551,11 @@ class Train(Declared):
 
     @property
     def has_jumpers(self) -> bool:
-        """True if a coupling has friction that does not depend on the load."""
+        """True if at least one coupling has friction that does not depend on its load."""
         return any(coupling.friction_torque for coupling in self.couplings)
 
     def is_loaded(self, state: str | None) -> bool:
-        """Return True if torques are declared in a state, by loads or by friction of bearings.
+        """Return True if loads, bearing torques or jumper torques are declared for a state.
 
         Parameters
         ----------
@@ -569,7 +569,7 @@ class Train(Declared):
         )
 
     def _speed(self, speed: Quantity) -> Fraction:
-        """Convert a prescribed speed to the train's unit."""
+        """Convert a prescribed speed to the train's unit of speed."""
         speed = as_rotation(speed)
         if speed.unit is None:
             return speed.value
@@ -578,8 +578,8 @@ class Train(Declared):
         return in_unit(speed, self.input_unit)
 
     def _is_exact(self, speed: Quantity) -> bool:
-        """Return True if a speed is a rational number of the train's units, False if radians are converted to turns or
-        the reverse.
+        """Return True if a speed can be expressed exactly in the train's unit; False if radians are converted to turns,
+        or turns to radians.
         """
         return not speed.value or same_kind(
             as_rotation(speed).unit, None if self.unit is not None else self.input_unit or None
@@ -587,8 +587,8 @@ class Train(Declared):
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit in which inputs are shown: the unit of the first input that is not 0, otherwise of the first input; ""
-        without units.
+        """Unit in which the speeds of inputs are shown: the unit of the first input whose speed is not 0, else of the
+        first input; "" if inputs have no unit.
         """
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         # the train's inputs are unused if every state has its own
@@ -600,7 +600,8 @@ class Train(Declared):
         return next((speed.unit or "" for speed in named if speed.value), (named[0].unit or "") if named else "")
 
     def dial_outputs(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Return the names of outputs with a dial; if there are none, of outputs with a target, otherwise all names.
+        """Return the given names that are outputs with a dial; if there are none, the outputs with a target; if there
+        are none either, all given names.
 
         Parameters
         ----------
@@ -610,7 +611,7 @@ class Train(Declared):
         Returns
         -------
         tuple of str
-            Names in the given order.
+            Selected names, in the given order.
         """
         known = [(name, self.outputs[name]) for name in names if name in self.outputs]
         dials = tuple(name for name, output in known if output.dial)
@@ -618,14 +619,14 @@ class Train(Declared):
 
     @property
     def unit_speed(self) -> Fraction | None:
-        """Speed of 1 in the unit of the train [turn/s]; None for numbers without a unit, or if the unit is a length."""
+        """Size of the train's unit of speed [turn/s]; None for numbers without a unit, or if the unit is a length."""
         if self.unit is not None:
             return None if self.unit_days is None else 1 / (self.unit_days * 86400)
         return Quantity(Fraction(1), self.input_unit, "1").base if self.input_unit else None
 
     @cached_property
     def unit_days(self) -> Fraction | None:
-        """Length of the train's unit of time [d]; None if the unit is not a time."""
+        """Length of the train's unit of time [d]; None if the train's unit is not a time."""
         if self.unit is None:
             return None
         row = period_table().get(self.unit.per)
@@ -644,7 +645,7 @@ class Train(Declared):
 
     @property
     def unit_quantity(self) -> Quantity | None:
-        """Unit of the train as a quantity (a time or a length); None if it is a named period, or not declared."""
+        """Unit of the train as a quantity (a time or a length); None for a named period, or if none is declared."""
         if self.unit is None or self.unit.per in period_table():
             return None
         try:
@@ -654,7 +655,7 @@ class Train(Declared):
 
     @property
     def unit_name(self) -> str:
-        """Name of the unit of speeds, such as `turns per tropical year` or `rpm`; empty for numbers without a unit."""
+        """Name of the unit of speeds, such as `turns per tropical year` or `rpm`; empty if speeds have no unit."""
         if self.unit is not None:
             row = period_table().get(self.unit.per)
             return f"turns per {(row.what if row else '') or str(self.unit.per).removeprefix('1 ')}"
@@ -662,15 +663,15 @@ class Train(Declared):
 
     @property
     def travel_unit(self) -> str:
-        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm` (per turn) if speeds
-        have no unit.
+        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm`, for mm per turn, if
+        speeds have no unit.
         """
         name = self.unit_name.replace("rpm", "turn/min")
         return re.sub("^turns?", "mm", name) or "mm"
 
     @cached_property
     def sliding(self) -> frozenset[str]:
-        """Links that slide on the link that carries them; all others turn."""
+        """Names of the links that slide on the link that carries them; all other links turn."""
         if not self.slides:
             return frozenset()
         found, reached = set(), {self.frame}
@@ -685,7 +686,7 @@ class Train(Declared):
 
     @property
     def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
-        """Train and its states with their paths; each can declare inputs, loads, fixed links, locks and outputs."""
+        """Train and its states, with their paths; each can declare inputs, loads, fixed links, locks and outputs."""
         yield (), self
         for name, state in self.states.items():
             yield ("states", name), state
@@ -693,3 +694,22 @@ class Train(Declared):
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
         """Yield the name and the wheel of every tooth count that is declared with a range or choices."""
         return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.uncertainty)
+
+
+def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
+    """Return the thickness of a wheel along its axis: its declared thickness, else its face width, else the thickness
+    or face width of the train; None if none of them is declared.
+    """
+    return wheel.thickness or wheel.face_width or train.thickness or train.face_width
+
+
+def face_width(train: Train, wheel: Wheel) -> Quantity | None:
+    """Return the face width of a wheel: its declared face width, else its thickness, else the face width or thickness
+    of the train; None if none of them is declared.
+    """
+    return wheel.face_width or wheel.thickness or train.face_width or train.thickness
+
+
+def material_named(train: Train, name: str) -> Material:
+    """Return the material with a given name from the declaration of the train, else from the shipped table."""
+    return train.materials.get(name) or material_table()[name]

@@ -1,5 +1,5 @@
-"""Loading of declarations from a path, the name of a train shipped with geartrain, text or plain data, with everything
-that they inherit.
+"""Loading of declarations, with everything that they inherit, from a path, the name of a shipped train, text or plain
+data.
 
 A JSON file is read by the YAML parser, because JSON is a subset of YAML 1.2.
 """
@@ -47,10 +47,10 @@ def _shipped_files(chosen: Callable[[Path], bool]) -> Mapping[str, Path]:
 
 
 def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
-    """Read a train from a YAML file, the name of a train shipped with geartrain, YAML text of several lines, or plain
-    data.
+    """Read a train from a YAML file, the name of a train shipped with geartrain, multi-line YAML text, or plain data.
 
-    Tooth counts may still be undetermined (`search`). Raises `DeclarationError`, also for evidence.
+    Tooth counts may be undetermined (key `search`). Raises `DeclarationError`, also if the declaration is evidence for
+    a reconstruction.
     """
     train = _read_source(source, shipped())
     check_is_train(train)
@@ -63,7 +63,7 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     Parameters
     ----------
     source : str, Path or mapping
-        A YAML file, the name of shipped evidence, YAML text of several lines, or plain data.
+        A YAML file, the name of shipped evidence, multi-line YAML text, or plain data.
 
     Returns
     -------
@@ -109,13 +109,14 @@ def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Pat
 
 
 def write_declaration(train: Train) -> str:
-    """Return YAML text of the declaration, including all inherited parts, so that it does not depend on other files."""
+    """Return YAML text of a declaration that includes all inherited parts, so that no other file is needed."""
     data = train.model_dump(mode="json", exclude_unset=True, by_alias=True, exclude={"extends", "remove"})
     return as_yaml({"name": train.name, **data})
 
 
 def formatted(path: Path, long: bool = False) -> tuple[str, str]:
-    """Return the text of a file, and the same declaration with turning pairs and gear pairs in short or in long forms.
+    """Return the text of a declaration file, and its text with turning pairs, gear pairs and belts in short (or long)
+    form.
 
     Raises `DeclarationError` if the file cannot be read, or if the new text would change the declaration.
     """
@@ -147,7 +148,7 @@ def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> 
 
 
 def _complete_table_paths(node: YamlNode) -> None:
-    """Make the paths of tables of measured wheels absolute; each is relative to the file in which it was written."""
+    """Make relative paths of measurement tables absolute; they refer to the folder of the file that contains them."""
     none = YamlNode({}, "")
     wheels = [part.mapping.get("wheels", none).mapping for part in node.mapping.get("links", none).mapping.values()]
     for wheel in (wheel for each in wheels for wheel in each.values()):
@@ -167,7 +168,7 @@ def files_of(path: Path) -> tuple[Path, ...]:
 
 
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
-    """Merge a declaration with the chain of its parents, the oldest parent first."""
+    """Return a declaration merged with the chain of its parents, beginning with the oldest ancestor."""
     # short forms are expanded first, because entries are merged key by key
     line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
     result = line.pop()
@@ -179,8 +180,8 @@ def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Yam
 
 
 def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[tuple[Path, YamlNode]]:
-    """Yield path and node of each ancestor by `extends`. Raises `DeclarationError` for a cycle or a chain that is too
-    long.
+    """Yield the path and the node of each ancestor reached by `extends`. Raises `DeclarationError` for a cycle or a
+    chain that is too long.
     """
     met = dict.fromkeys(chain)
     for at in count():
@@ -241,7 +242,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
 
 
 def _exists(path: Path) -> bool:
-    """Return True if the path exists; False also for names that are not valid for a file."""
+    """Return True if the path exists; False if it does not, or if it is not a valid file name."""
     try:
         return path.exists()
     except (OSError, ValueError):
@@ -273,7 +274,7 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
 
 
 def _suggestion(name: str, evidence: bool) -> str:
-    """Suggest a correction for a name that is neither evidence nor a train shipped with geartrain."""
+    """Return a suggestion for a name that is neither a shipped train nor shipped evidence."""
     if evidence and name in shipped():
         return f"it is a shipped train: name lost arbors by `--lost ARBOR`, or give evidence: {_evidence_names()}"
     if not evidence and name in shipped_evidence():

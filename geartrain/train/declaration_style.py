@@ -1,7 +1,7 @@
 """Rewriting of a declaration's turning, sliding and gear pairs and belts in short or in long forms.
 
-Only these sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their
-entries. An entry with keys that its short form cannot express stays long. The section `couplings` is renamed to
+Only these sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their entries.
+An entry with keys that its short form cannot express remains in long form. The section `couplings` is renamed to
 `belts`, or the reverse, only if all couplings of the train are belts around two wheels.
 """
 
@@ -27,7 +27,7 @@ _RENAMED = {"couplings": "belts", "belts": "couplings"}
 
 @dataclass(frozen=True)
 class _Entry:
-    """One entry of a section: its text, the comment lines before it, and the comment after it on its line."""
+    """Entry of a section: its text, the comment lines before it, and the comment at the end of its line."""
 
     text: str
     before: tuple[str, ...] = ()
@@ -35,8 +35,8 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    """Rewrite a declaration in short form: turning pairs grouped by axis, gear pairs and belts without other keys as
-    `a ~ b`.
+    """Rewrite a declaration in short form: turning pairs are grouped by axis, and gear pairs and belts without other
+    keys are written as `a ~ b`.
     """
     joints = {key: partial(_short_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_short_pair)
@@ -44,7 +44,7 @@ def with_short_forms(text: str) -> str:
 
 
 def with_long_forms(text: str) -> str:
-    """Rewrite a declaration in long form: every turning pair, gear pair and belt is a separate mapping."""
+    """Rewrite a declaration in long form, in which every turning pair, gear pair and belt is a separate mapping."""
     joints = {key: partial(_long_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_long_pair)
     return _rewritten(text, {**joints, "gears": gears, "belts": _long_belts})
@@ -68,7 +68,7 @@ def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[
 
 
 def _last_line(node: yaml.Node) -> int:
-    """Return the last line of a node, without blank lines and comments after it."""
+    """Return the number of the last line of a node, not counting blank lines and comments after it."""
     if not isinstance(node, yaml.CollectionNode) or node.flow_style or not node.value:
         return int(node.end_mark.line)
     last = node.value[-1]
@@ -95,24 +95,24 @@ class _SectionSource:
 
     @property
     def head(self) -> str:
-        """Comment on the line of the section's key; "" if there is none."""
+        """Comment on the line of the section's key; empty if there is none."""
         return self._behind.get(self.first, "")
 
     @property
     def items(self) -> list[yaml.Node]:
-        """Entries of a list; empty for other values."""
+        """Entries of the section if it is a list; empty for other values."""
         return list(self.value.value) if isinstance(self.value, yaml.SequenceNode) else []
 
     def source(self, node: yaml.Node) -> str:
-        """Return the source text of a node."""
+        """Return the source text of a YAML node."""
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
     def is_written_as(self, entries: Sequence[_Entry]) -> bool:
-        """Return True if the list is already written as `entries`."""
+        """Return True if the section is a list that is already written as `entries`."""
         return [each.text for each in entries] == [self.source(node) for node in self.items]
 
     def entry(self, text: str, node: yaml.Node) -> _Entry:
-        """Return an entry with the comments before and after a node. Each comment is used once."""
+        """Return an entry with a text, and with the comments before and after a node; each comment is used once."""
         start, end = node.start_mark.line, _last_line(node)
         before = tuple(each for at, each in self._alone.items() if self._after <= at < start)
         behind = [self._behind.pop(at) for at in range(max(start, self.first + 1), end + 1) if at in self._behind]
@@ -125,7 +125,7 @@ def _parts(node: yaml.Node) -> dict[str, yaml.Node]:
 
 
 def _pair_of(written: _SectionSource, node: yaml.Node, keys: set[str]) -> list[str]:
-    """Return both names of a pair as written; empty if the node has other keys than `keys`."""
+    """Return the two names of a pair as written; an empty list if the keys of the node are not exactly `keys`."""
     parts = _parts(node)
     if set(parts) != keys or not isinstance(parts["pair"], yaml.SequenceNode) or len(parts["pair"].value) != 2:
         return []
@@ -158,7 +158,7 @@ def _short_joints(written: _SectionSource, key: str) -> list[str] | None:
 
 
 def _short_pair(written: _SectionSource, node: yaml.Node) -> str:
-    """Return the short form of a gear pair, or its source text if it has further keys."""
+    """Return the short form of a gear pair; if the pair has other keys, return its source text."""
     wheels = _pair_of(written, node, {"pair"})
     if not all(_NAME.fullmatch(wheel) for wheel in wheels) or not wheels:
         return written.source(node)
@@ -166,7 +166,7 @@ def _short_pair(written: _SectionSource, node: yaml.Node) -> str:
 
 
 def _short_belts(written: _SectionSource) -> list[str] | None:
-    """Return the lines of a section of belts around two wheels; None if there are other couplings."""
+    """Return the lines of a section that has only belts around two wheels; None if there are other couplings."""
     entries = []
     for node in written.items:
         parts = _parts(node)
@@ -217,7 +217,7 @@ def _long_belts(written: _SectionSource) -> list[str] | None:
 
 
 def _pairs(written: _SectionSource, write: Callable[[_SectionSource, yaml.Node], str]) -> list[str] | None:
-    """Return the lines of the gear pairs with each entry in another form; None if no entry changes."""
+    """Return the lines of the section of gear pairs, with each entry rewritten by `write`; None if no entry changes."""
     entries = [written.entry(write(written, node), node) for node in written.items]
     if written.is_written_as(entries) or any("\n" in each.text for each in entries):
         return None

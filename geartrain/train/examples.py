@@ -17,8 +17,8 @@ from geartrain.train.yaml_nodes import on_one_line, parse_yaml
 
 @cache
 def examples() -> Mapping[str, tuple[str, ...]]:
-    """Return the examples as YAML texts, by the part that they declare, or by the key if several kinds of parts have
-    that key. The reference prints the first text of each.
+    """Return the examples as YAML texts, by the name of the part that they declare, or by the key if parts of several
+    kinds have that key. The reference prints the first example of each.
     """
     text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
     return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
@@ -32,7 +32,7 @@ def example_data() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _plain(data: Any) -> Any:
-    """Return the data of a declaration with numbers and booleans instead of the strings of its scalars."""
+    """Return the data of a declaration, with strings that represent numbers or booleans converted."""
     if isinstance(data, dict):
         return {key: _plain(value) for key, value in data.items()}
     if isinstance(data, list):
@@ -44,7 +44,7 @@ def _plain(data: Any) -> Any:
 
 
 def one_line(key: str, value: Any) -> str:
-    """Return a key and its value as a line of YAML."""
+    """Return a key and its value as one line of YAML."""
     return f"{key}: {on_one_line(value)}"
 
 
@@ -53,7 +53,7 @@ _OF_NAMES = ("links", "wheels", "axes", "outputs", "states", "dials", "clutches"
 
 
 def example_line(loc: Loc, kind: type) -> str:
-    """Return a line with an example of the value at `loc`, a mapping or a list; empty if there is none.
+    """Return a line of YAML with an example of the mapping or list at the path `loc`; empty without an example.
 
     The examples are searched for the last key of `loc` at any level. For a name that users choose, such as the link `a`
     in `links.a`, any entry of that mapping is an example.
@@ -69,7 +69,7 @@ def example_line(loc: Loc, kind: type) -> str:
 
 
 def _named(key: str) -> Iterator[Any]:
-    """Yield all values of one key in the examples, at any level."""
+    """Yield all values of a key that occur in the examples, at any level."""
     # reversed, so that the stack returns values in the order of the examples
     stack: list[Any] = [data for _, data in example_data()][::-1]
     while stack:

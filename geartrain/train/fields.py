@@ -1,4 +1,4 @@
-"""Base class and field types of all declared parts: strict models, names, short forms."""
+"""Base class and field types of all declared parts."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ ExpectedVerdict = Literal["determined", "free", "locked"]
 
 
 class Declared(BaseModel):
-    """Base class of all declared parts: frozen, without unknown keys, numbers accepted as names."""
+    """Base class of all declared parts. Parts are immutable and reject unknown keys; numbers are accepted as names."""
 
     SHORT: ClassVar[Mapping[str, Any] | None] = None
-    """JSON schema of the short form; None if the part has only its keys."""
+    """JSON schema of the short form; None if the part has no short form."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
@@ -57,12 +57,12 @@ class Declared(BaseModel):
         return handler(schema) if cls.SHORT is None else also(dict(cls.SHORT), handler(schema))
 
     def changed(self, **update: Any) -> Self:
-        """Return a copy with changed fields; values cached from the old fields are not copied.
+        """Return a copy of the part with changed fields; cached values are not copied.
 
         Parameters
         ----------
         **update : object
-            New values by field name, as in a declaration or already validated.
+            New values by field name: plain values as in a declaration, or validated objects.
 
         Raises
         ------
@@ -83,7 +83,7 @@ DeclaredPart = TypeVar("DeclaredPart", bound=Declared)
 
 
 def exactly_one(part: DeclaredPart, what: str, keys: Sequence[str], noun: str = "of its keys") -> DeclaredPart:
-    """Return a part if exactly one of the keys is given; otherwise raise `PydanticCustomError`."""
+    """Return the part unchanged if exactly one of the keys is given; otherwise raise `PydanticCustomError`."""
     given = [key for key in keys if getattr(part, key) is not None]
     if len(given) != 1:
         context = {
@@ -137,13 +137,13 @@ def _empty_for_nothing(raw: object) -> object:
 
 
 def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
-    """Return a JSON schema that accepts a short form in addition to the given schema."""
+    """Return a JSON schema that accepts a short form in addition to the form that the given schema describes."""
     return {"anyOf": [kind, schema]}
 
 
 @dataclass(frozen=True)
 class AlsoShort:
-    """Annotation of a field with a short form that is expanded before validation; adds it to the JSON schema."""
+    """Annotation that adds a short form to a field and its JSON schema; the form is expanded before validation."""
 
     schema: Mapping[str, Any]
 
@@ -153,18 +153,18 @@ class AlsoShort:
 
 
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
-"""Name as written. Numbers are accepted as names."""
+"""Name of a part, as written. Numbers are accepted as names."""
 Part = TypeVar("Part")
 ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
-"""Immutable mapping of names to parts."""
+"""Immutable mapping from names to parts."""
 Count = Annotated[int, BeforeValidator(read_count)]
 Nothing = BeforeValidator(_empty_for_nothing)
 
 
 @cache
 def _union_reader(key: str, *names: str) -> TypeAdapter[Any]:
-    """Return the validator of the union of the given tooth forms (key `form`) or couplings (key `kind`); no other model
-    is imported.
+    """Return the validator of the union of the named tooth forms (key `form`) or couplings (key `kind`). Only the
+    models of these names are imported.
     """
     model = tooth_form if key == "form" else coupling_model
 
@@ -178,14 +178,14 @@ def _union_reader(key: str, *names: str) -> TypeAdapter[Any]:
 
 @cache
 def friction_laws() -> TypeAdapter[Any]:
-    """Return the validator of all friction laws, imported on first use because most trains declare numbers only."""
+    """Return the validator of friction laws; it is imported on first use, because most trains declare numbers."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return TypeAdapter(AnyFrictionLaw)
 
 
 def read_friction(raw: object) -> Any:
-    """Read Coulomb friction from a coefficient or its keys, or a friction law if its keys are present."""
+    """Read Coulomb friction, given as a number or a mapping, or a friction law, given as a mapping with its keys."""
     law = isinstance(raw, Mapping) and _has_law_keys(raw)
     return (friction_laws() if law else _coulomb_friction()).validate_python(raw)
 
@@ -204,12 +204,12 @@ def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
 
 
 def _serialize_friction(friction: Any) -> Any:
-    """Return friction as it was declared, for serialization."""
+    """Return friction in the form in which it was declared, for serialization."""
     return friction.model_dump(mode="json") if isinstance(friction, BaseModel) else str(friction)
 
 
 def _read_tooth_form(raw: Any) -> Any:
-    """Return a tooth form from its keys, or from its name only, with default values.
+    """Read a tooth form from a mapping of its keys, or from its name, with default values.
 
     An unknown name is validated against all forms, so that the error lists their names.
     """
@@ -218,8 +218,8 @@ def _read_tooth_form(raw: Any) -> Any:
 
 
 def _read_coupling(raw: Any) -> Any:
-    """Return a coupling from its keys. An unknown kind is validated against all kinds, so that the error lists them;
-    without `kind`, a coupling with a `ratio` is of kind ratio.
+    """Read a coupling from a mapping of its keys. An unknown kind is validated against all kinds, so that the error
+    lists them. A coupling with `ratio` and without `kind` has the kind `ratio`.
     """
     if isinstance(raw, dict) and "ratio" in raw and "kind" not in raw:
         raw = {"kind": "ratio", **raw}

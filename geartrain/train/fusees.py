@@ -1,8 +1,9 @@
-"""Fusees: conical pulleys that even out the torque of a mainspring, and the torque over their run.
+"""Fusees, which are conical pulleys that equalise the torque of a mainspring, and the torque at the fusee over its run.
 
 A chain runs from the fusee onto the barrel, of radius R. The radius r of the fusee depends on the angle phi by which it
-has turned. The spring unwinds by dw = -(r/R) dphi, and the torque at the fusee is T = k w r/R, with the stiffness k and
-the wound angle w of the spring. A constant torque T needs the radius r = T R/(k sqrt(w0^2 - 2 T phi/k)).
+has turned. The spring unwinds by dw = -(r/R) dphi, and the torque at the fusee is T = k w r/R, where k is the stiffness
+of the spring and w its wound angle (w0 at phi = 0). A constant torque T requires the radius r = T R/(k sqrt(w0^2 - 2 T
+phi/k)).
 """
 
 from __future__ import annotations
@@ -14,10 +15,10 @@ from typing import NamedTuple
 
 
 class FuseeRun(NamedTuple):
-    """Torque of a spring at its fusee over the whole run, in SI units."""
+    """Torque that a spring exerts at its fusee over the whole run, and the chain and winding that the run requires."""
 
     first: float
-    """Torque with the spring fully wound [N m]; `last` is the torque at the end of the run."""
+    """Torque at the beginning, with the spring fully wound [N m]; `last` is the torque at the end of the run."""
     last: float
     maximum: float
     """Maximum torque [N m], reached after `maximum_at` turns of the fusee."""
@@ -28,36 +29,36 @@ class FuseeRun(NamedTuple):
     mean: float
     """Mean torque over the angle of the fusee [N m]."""
     radii: tuple[float, float]
-    """Radius of the fusee at the beginning and at the end of the run [m]."""
+    """Radius of the fusee at the beginning of the run, and at its end [m]."""
     chain: float
     """Length of the chain that passes from the fusee to the barrel [m]."""
     left: float
-    """Turns by which the spring is still wound at the end of the run."""
+    """Number of turns by which the spring is still wound at the end of the run."""
     energy: float
     """Energy that the spring delivers over the run [J]."""
 
 
 class ConicalSection(NamedTuple):
-    """Section of a fusee whose radius varies linearly with its angle."""
+    """Section of a fusee in which the radius is a linear function of the angle of the fusee."""
 
     start: float
     """Angle of the fusee at the beginning of the section [rad]; `width` is the angle of the section [rad]."""
     width: float
     radius: float
-    """Radius at the beginning [m]; `slope` is its change per angle [m/rad]."""
+    """Radius at the beginning [m]; `slope` is the derivative of the radius with respect to the angle [m/rad]."""
     slope: float
     wound: float
-    """Wound angle of the spring at the beginning [rad]."""
+    """Wound angle of the spring at the beginning of the section [rad]."""
     barrel: float
     """Radius of the barrel [m]."""
 
     def state(self, phi: float) -> tuple[float, float]:
-        """Return the wound angle of the spring [rad] and the radius [m] at an angle of the fusee [rad]."""
+        """Return the wound angle of the spring [rad] and the radius [m] at the angle `phi` of the fusee [rad]."""
         x = phi - self.start
         return self.wound - (self.radius + self.slope * x / 2) * x / self.barrel, self.radius + self.slope * x
 
     def extremes(self) -> Iterator[float]:
-        """Yield the angles at which the torque may be extreme [rad]: both ends, and roots of r' w = r^2/R."""
+        """Yield the angles [rad] where the torque can be extreme: both ends, and the roots of r' w = r^2/R."""
         yield from (self.start, self.start + self.width)
         # with r = radius + r' x this is a quadratic in x
         a, b = 1.5 * self.slope**2, 3 * self.radius * self.slope
@@ -68,7 +69,7 @@ class ConicalSection(NamedTuple):
 
     @property
     def end(self) -> float:
-        """Angle at which the spring has run down [rad], if that is within the section; otherwise infinite."""
+        """Angle of the fusee at which the spring has run down [rad]; infinite if this is not within the section."""
         # smaller root of slope x^2/2 + radius x = barrel wound
         inside = self.radius**2 + 2 * self.slope * self.barrel * self.wound
         x = 2 * self.barrel * self.wound / (self.radius + sqrt(inside)) if inside >= 0 else inf
@@ -76,25 +77,25 @@ class ConicalSection(NamedTuple):
 
 
 class FuseeSpring(NamedTuple):
-    """Spring in a barrel with a fusee: stiffness k [N m/rad], wound angle w0 [rad], and radius R of the barrel [m]."""
+    """Spring in a barrel with a fusee: stiffness [N m/rad], initial wound angle [rad], and radius of the barrel [m]."""
 
     stiffness: float
     wound: float
     barrel: float
     turns: float
-    """Turns of the fusee over the run."""
+    """Number of turns of the fusee over the run."""
     constant: float | None
-    """Constant torque of the fusee [N m]; None if the fusee is given by its radii."""
+    """Constant torque at the fusee [N m]; None if the fusee is declared by its radii."""
     radii: tuple[float, ...] = ()
-    """Radii of the fusee at equally spaced angles over the run [m]."""
+    """Radii of the fusee at equally spaced angles, from the beginning to the end of the run [m]."""
 
     @property
     def angle(self) -> float:
-        """Angle of the fusee over the run [rad]."""
+        """Angle by which the fusee turns over the run [rad]."""
         return tau * self.turns
 
     def _sections(self) -> list[ConicalSection]:
-        """Return the sections between declared radii."""
+        """Return the sections of the fusee between its declared radii."""
         width, wound, found = self.angle / (len(self.radii) - 1), self.wound, []
         for at, (first, last) in enumerate(pairwise(self.radii)):
             found.append(ConicalSection(at * width, width, first, (last - first) / width, wound, self.barrel))
@@ -102,8 +103,8 @@ class FuseeSpring(NamedTuple):
         return found
 
     def state(self, phi: float) -> tuple[float, float]:
-        """Return the wound angle of the spring [rad] and the radius of the fusee [m] after the fusee has turned by phi
-        [rad].
+        """Return the wound angle of the spring [rad] and the radius of the fusee [m] after the fusee has turned by
+        `phi` [rad].
         """
         if self.constant is None:
             sections = self._sections()
@@ -112,14 +113,14 @@ class FuseeSpring(NamedTuple):
         return wound, self.constant * self.barrel / (self.stiffness * wound) if wound else inf
 
     def torque(self, phi: float) -> float:
-        """Return the torque at the fusee [N m] after it has turned by phi [rad]."""
+        """Return the torque at the fusee [N m] after the fusee has turned by `phi` [rad]."""
         if self.constant is not None:
             return self.constant
         wound, radius = self.state(phi)
         return self.stiffness * wound * radius / self.barrel
 
     def run(self) -> FuseeRun:
-        """Return the torque over the whole run, and the chain and winding that it needs."""
+        """Return the torque at the fusee over the whole run, and the chain and winding that the run requires."""
         left, last = self.state(self.angle)
         energy = self.stiffness * (self.wound - left) * (self.wound + left) / 2
         places = [0.0, self.angle]
@@ -142,7 +143,7 @@ class FuseeSpring(NamedTuple):
 
     @property
     def end(self) -> float:
-        """Turns of the fusee after which the spring has run down; infinite if it outlasts the run."""
+        """Number of turns of the fusee until the spring has run down; infinite if it outlasts the run."""
         if self.constant is None:
             return min((section.end for section in self._sections()), default=inf) / tau
         end = self.stiffness * self.wound**2 / (2 * self.constant)

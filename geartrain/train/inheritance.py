@@ -1,4 +1,4 @@
-"""Inheritance by `extends`: a child declaration is merged into its parent, after `remove`. Line numbers are kept."""
+"""Inheritance by `extends`: after `remove` is applied, a child is merged into its parent. Line numbers are kept."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SHORT = {"wheels": "teeth", "sources": "cite"}
 
 
 def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
-    """Merge a child declaration into its parent and return the result as a new node.
+    """Return a new node in which a child declaration is merged into its parent.
 
     Raises `DeclarationError` if `remove` names a part that does not exist, or if a wheel of the parent is declared on
     another link.
@@ -48,7 +48,7 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
 
 
 def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
-    """Return a declaration with changed values by the rules of `extends`; unchanged values keep their line numbers."""
+    """Return a declaration with values changed by the rules of `extends`; other values keep their line numbers."""
 
     def place(loc: Loc) -> str:
         return declared.place(*loc)
@@ -78,7 +78,7 @@ def _moved_wheels(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterat
 
 
 def _merge_mappings(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """Merge two mappings entry by entry; null removes an entry."""
+    """Merge two mappings entry by entry, and return the result; null removes an entry."""
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):
         return new
     result, keys = dict(old.value), dict(old.keys)
@@ -95,7 +95,7 @@ def _merge_mappings(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
 
 
 def _merge_entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """Merge two entries of the same kind; short forms are expanded first."""
+    """Merge two entries of the same kind after expanding short forms, and return the result."""
     if kind == "clutches":  # exactly one of `fixes` and `locks`: merging could give both
         return new
     old, new = _expanded(old, kind), _expanded(new, kind)
@@ -121,7 +121,7 @@ def _expanded(node: YamlNode, kind: str) -> YamlNode:
 
 
 def _identity(kind: str) -> Callable[[YamlNode], object]:
-    """Return the function that computes a key by which the entries of a list are matched with those of the parent."""
+    """Return the function for the key by which list entries of a child are matched with those of the parent."""
     return {**dict.fromkeys(JOINTS, _joined_links), "gears": _pair_name, "couplings": _coupling_name}[kind]
 
 
@@ -144,7 +144,7 @@ def _coupling_name(node: YamlNode) -> str:
 
 
 def _coupling_ends(node: YamlNode) -> list[str]:
-    """Return the names of the links or wheels that a coupling joins, the driving one first."""
+    """Return the names of the links or wheels that a coupling connects, beginning with the driving one."""
     given = (node.mapping[key] for key in COUPLING_ENDS if key in node.mapping)
     return [name for each in given for name in (each.mapping or texts(each))]
 
@@ -164,8 +164,8 @@ def _merge_lists(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], ob
 
 
 def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
-    """Remove the parts named by `remove` from the parent; a link is removed with its wheels, joints, pairs and
-    couplings.
+    """Return the parent without the parts named by `remove`. A link is removed together with its wheels, joints, pairs
+    and couplings.
     """
     gone: dict[str, list[object]] = {key: list(texts(node)) for key, node in remove.mapping.items()}
     for key in (key for key in JOINTS if key in remove.mapping):
@@ -207,14 +207,14 @@ def _drop(node: YamlNode, names: Iterable[object]) -> YamlNode:
 
 
 def _without_wheels(link: YamlNode, wheels: set[object]) -> YamlNode:
-    """Return a link without the wheels named in `wheels`; the unchanged link if it has none of them."""
+    """Return a link without the wheels named in `wheels`; if it has none of these wheels, return it unchanged."""
     if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
         return link
     return YamlNode({**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}, link.place, link.keys)
 
 
 def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[object]]) -> None:
-    """Raise `DeclarationError` if `remove` names parts that the parent does not have."""
+    """Raise `DeclarationError` if `remove` names parts that do not exist in the parent."""
     known: dict[str, set[Any]] = {
         key: set(_child(root, key)) for key in ("links", "outputs", "dials", "states", "axes")
     }

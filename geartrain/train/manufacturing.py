@@ -1,9 +1,9 @@
-"""Manufacture of wheels: their materials, and the errors of cutting and mounting by hand.
+"""Manufacture of wheels: their materials, and the errors of cutting and mounting.
 
-Materials are a shipped table and the materials that a train declares. Errors are fixed, drawn from a distribution, or
-measured tooth by tooth. A number without a unit or a percentage is a fraction of the nominal value: a pitch deviation
-refers to the pitch, an aperture deviation to the aperture (the angle between the flanks of a tooth), and a length to
-the tooth depth.
+A train can use the materials of a shipped table and materials that it declares itself. Errors are fixed values, random
+values with a distribution, or measurements of each tooth. A percentage, or a number without a unit, is a fraction of a
+nominal value: of the pitch for a pitch deviation, of the aperture (angle between the two flanks of a tooth) for an
+aperture deviation, and of the tooth depth for a length.
 """
 
 from __future__ import annotations
@@ -88,8 +88,8 @@ class Material(Declared):
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Vickers hardness as a pressure [Pa]: force divided by the surface area of the indentation; None if it is not
-        declared.
+        """Vickers hardness expressed as a pressure [Pa]: force divided by the surface area of the indentation; None if
+        it is not declared.
         """
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
@@ -111,9 +111,9 @@ class ArborSizes(Declared):
 
 @cache
 def material_table() -> Mapping[str, Material]:
-    """Return the materials of the built-in table, by name.
+    """Return the materials of the shipped table, by name.
 
-    A material declared in a train takes precedence over one with the same name.
+    A material that a train declares takes precedence over a material of the table with the same name.
     """
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
@@ -121,15 +121,15 @@ def material_table() -> Mapping[str, Material]:
 
 
 FEWEST_ANGLES = 4
-"""Minimum number of measured teeth: their mean and two components of the eccentricity leave one degree of freedom."""
+"""Minimum number of measured teeth: three determine mean and eccentricity, and one more leaves a residual."""
 
 AngleOff = Annotated[Quantity, Dimension("angle or fraction", plain=True)]
 LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
 class _DeclaredError(Declared):
-    """Manufacturing error, fixed or drawn at random for each tooth, wheel or pair. A single value instead of a mapping
-    is a fixed error.
+    """Manufacturing error, either fixed or drawn at random for each tooth, wheel or pair. A single value instead of a
+    mapping is a fixed error.
     """
 
     @model_validator(mode="after")
@@ -147,8 +147,8 @@ class _DeclaredError(Declared):
 
 
 class AngleError(_DeclaredError):
-    """Error of an angle, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction
-    of the nominal value.
+    """Error of an angle, either fixed or random. A single value instead of a mapping is a fixed error. A number without
+    a unit is a fraction of the nominal value.
     """
 
     SHORT: ClassVar = {"type": ["number", "string"], "format": "angle or fraction"}
@@ -159,8 +159,8 @@ class AngleError(_DeclaredError):
 
 
 class LengthError(_DeclaredError):
-    """Error of a length, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction
-    of the tooth depth.
+    """Error of a length, either fixed or random. A single value instead of a mapping is a fixed error. A number without
+    a unit is a fraction of the tooth depth.
     """
 
     SHORT: ClassVar = {"type": ["number", "string"], "format": "length or fraction"}
@@ -234,15 +234,15 @@ class MeasuredTeeth(Declared):
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:
-        """Measured values by name, without the quantities that were not measured."""
+        """Measured values by name of the quantity; quantities that were not measured are omitted."""
         names = ("pitch_deviation", "tip", "aperture_deviation")
         return {name: column for name in names if (column := getattr(self, name)) is not None}
 
 
 def _read_angles(path: Path, column: str) -> list[str | None]:
-    """Read the angles of teeth from a column of a CSV file with a header; lines that begin with # are comments.
+    """Read the angles of teeth from one column of a CSV file with a header. Lines that begin with # are comments.
 
-    An empty cell is returned as None, and a number without a unit in degrees. Raises `PydanticCustomError`.
+    An empty cell becomes None. A number without a unit is in degrees. Raises `PydanticCustomError` for invalid files.
     """
     try:
         if not path.is_file():

@@ -1,7 +1,7 @@
 """Parts of the mechanism as declared: sources, wheels, links, axes, gear pairs.
 
-A tooth count may be uncertain (a best value and the counts that the evidence allows). A pair has a basic efficiency for
-each driving wheel, and the bearing of a link has a sliding and a static friction torque.
+A tooth count may be uncertain; it then has a best value and a list of counts that the evidence allows. A pair has one
+basic efficiency for each direction of power flow, and the bearing of a link has a sliding and a static friction torque.
 """
 
 from __future__ import annotations
@@ -90,8 +90,8 @@ _Radius = Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")]
 
 
 class BearingFriction(Declared):
-    """Friction of a bearing: a torque that does not depend on the load, and a part that is proportional to the load. In
-    a declaration, a single torque instead of a mapping sets `sliding`.
+    """Friction of a bearing, which is the sum of a torque that does not depend on the load and a part proportional to
+    the load. In a declaration, a single torque instead of a mapping sets `sliding`.
     """
 
     SHORT: ClassVar = {"type": ["string", "number"], "format": "torque"}
@@ -155,7 +155,7 @@ class BearingFriction(Declared):
 
 
 DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
-"""Friction of a bearing, or its sliding torque as a single value."""
+"""Friction of a bearing; in a declaration, a single torque instead of a mapping sets `sliding`."""
 
 
 # --------------------------------------------------------------------------------------------------------- tooth counts
@@ -163,7 +163,7 @@ DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 
 @cache
 def wheel_sets() -> Mapping[str, tuple[int, ...]]:
-    """Return the tooth counts of the wheels of each construction set in the shipped table, in ascending order."""
+    """Return the tooth counts of each construction set in the shipped table, in ascending order, by set name."""
     text = files("geartrain.train").joinpath("wheel_sets.csv").read_text(encoding="utf-8")
     found: dict[str, list[int]] = {}
     for row in csv.DictReader(text.splitlines()):
@@ -179,12 +179,12 @@ def _known(name: str) -> str:
 
 
 def _form(raw: object) -> str:
-    """Return the form of `of`: a name, numbers of wheels, or a list of counts."""
+    """Return the form in which the value of `of` is written: a name, numbers of wheels, or a list of tooth counts."""
     return "name" if isinstance(raw, str) else "numbers" if isinstance(raw, Mapping) else "list"
 
 
 class OwnedWheels(Declared):
-    """Wheels from which a wheel of the train is chosen."""
+    """Stock of wheels from which a wheel of the train is chosen."""
 
     of: Annotated[
         Annotated[str, AfterValidator(_known), Tag("name")]
@@ -203,7 +203,7 @@ class OwnedWheels(Declared):
 
     @property
     def numbers(self) -> tuple[tuple[int, int], ...]:
-        """Tooth counts with the number of wheels of each; empty if the numbers are not limited."""
+        """Pairs of a tooth count and the number of wheels that have it; empty if these numbers are not limited."""
         return tuple(sorted(self.of.items())) if isinstance(self.of, Mapping) else ()
 
 
@@ -273,8 +273,8 @@ class Teeth(Declared):
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain, or if `range`
-        contains more than 10^6 counts.
+        """All tooth counts that the evidence allows. It is empty if the tooth count is certain, or if `range` contains
+        more than 10^6 counts.
         """
         if self.choices is not None:
             return self.choices
@@ -285,7 +285,7 @@ class Teeth(Declared):
 
     @property
     def searched(self) -> Sequence[int]:
-        """Counts of `search` in ascending order; empty if `search` is not declared."""
+        """Tooth counts declared by `search`, in ascending order; empty if `search` is not declared."""
         if self.search is None:
             return ()
         if isinstance(self.search, OwnedWheels):
@@ -297,8 +297,7 @@ class Teeth(Declared):
         """Prior probability of each count from `weights`, in ascending order of counts; the sum is 1.
 
         Without weights, all counts of `range`, `choices` or `search` are equally probable. Counts with weight 0 are
-        omitted. The mapping is empty if the count is not declared as uncertain, and undefined if there is a
-        `fault_of_weights`.
+        omitted. The mapping is empty if the tooth count is certain. It is undefined if `fault_of_weights` is not None.
 
         Examples
         --------
@@ -417,12 +416,12 @@ class Wheel(Declared):
 
     @property
     def count(self) -> int | None:
-        """Tooth count that is used in computations; None if it is to be found by a search."""
+        """Tooth count that is used in computations; None if it is to be determined by a search."""
         return self.teeth if isinstance(self.teeth, int) else self.teeth.value
 
     @property
     def uncertainty(self) -> Teeth | None:
-        """Uncertain tooth count with its range or choices; None for a certain count."""
+        """Uncertain tooth count with its range or choices; None if the tooth count is certain."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
     @model_validator(mode="after")
@@ -461,12 +460,12 @@ class Wheel(Declared):
 
     @property
     def slant(self) -> float:
-        """Transverse module divided by normal module, 1 / cos(helix angle); 1 for wheels that are not helical."""
+        """Transverse module divided by normal module, 1 / cos(helix angle); 1 for a wheel without helical teeth."""
         return 1 / cos(self.helix) if self.is_helical else 1.0
 
     @property
     def transverse_module(self) -> float | None:
-        """Pitch diameter divided by tooth count [m]; None if no module with a unit is declared."""
+        """Pitch diameter divided by tooth count [m]; None if no module with a unit of length is declared."""
         # a module without a unit is only a ratio to other modules
         declared = self.module is not None and self.module.unit is not None
         return self.module.si * self.slant if self.module is not None and declared else None
@@ -514,8 +513,8 @@ class Link(Declared):
 
     @property
     def friction_radius(self) -> float:
-        """Radius of the friction circle of the link's bearing [m]: mu/sqrt(1 + mu^2) times the radius of the pivot; 0
-        if its friction does not depend on the load.
+        """Radius of the friction circle of the link's bearing [m], which is f/sqrt(1 + f^2) times the radius of the
+        pivot with the coefficient of friction f; 0 if the friction of the bearing does not depend on the load.
         """
         if self.bearing is None or not self.bearing.coefficient or not self.bearing.coefficient.value:
             return 0.0
@@ -539,7 +538,7 @@ def _not_zero(direction: tuple[Figure, Figure, Figure]) -> tuple[Figure, Figure,
 
 
 Direction = Annotated[tuple[Figure, Figure, Figure], AfterValidator(_not_zero)]
-"""Direction vector of any length above 0."""
+"""Direction vector, which may have any length greater than 0."""
 
 
 def unit_vector(direction: Direction) -> Vector:
@@ -550,7 +549,7 @@ def unit_vector(direction: Direction) -> Vector:
 
 
 class Axis(Declared):
-    """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0."""
+    """Direction and position of an axis. For a moving axis, they refer to the pose in which all angles are 0."""
 
     direction: Direction = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),

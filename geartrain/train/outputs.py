@@ -42,23 +42,23 @@ _EXTRA_DIGITS = 2  # of a computed period, more than the source prints
 
 @dataclass(frozen=True, slots=True)
 class PrintedPeriod(Figure):
-    """Time as printed in a source. Its `value` [s] and `half` [s] do not include its years."""
+    """Time as printed in a source. `value` and `half`, half a unit of its last digit [s], do not include its years."""
 
     years: Fraction
-    """Number of years, which is 0 if none is printed."""
+    """Number of years in the printed time; 0 if it has none."""
     units: tuple[str, ...]
-    """Units of the parts: y, d, h, min, s, in descending order."""
+    """Units of the printed parts (y, d, h, min, s), in descending order."""
     decimals: int
-    """Number of printed decimals of the last part."""
+    """Number of decimal places of the last part."""
 
     @property
     def above_zero(self) -> bool:
-        """True if the time is not 0."""
+        """True if the time is greater than 0."""
         return self.value > 0 or self.years > 0
 
     @classmethod
     def parse(cls, raw: object) -> PrintedPeriod:
-        """Parse a time with its units in descending order."""
+        """Parse a printed time whose units are in descending order."""
         if isinstance(raw, PrintedPeriod):
             return raw
         text = str(raw).strip()
@@ -77,7 +77,7 @@ class PrintedPeriod(Figure):
         return cls(seconds, last / 10**decimals / 2, text, years, units, decimals)
 
     def in_seconds(self, year: Fraction | None) -> Figure:
-        """Return the time and half a unit of its last digit [s].
+        """Return the time, and half a unit of its last digit as its uncertainty [s].
 
         year   length of a year [s], which is used only if the time has years
         """
@@ -86,7 +86,7 @@ class PrintedPeriod(Figure):
         return Figure(self.value + self.years * length, half, self.text)
 
     def text_of(self, seconds: Fraction, year: Fraction | None) -> str:
-        """Return another time [s] in the units of this one, with more digits than are printed."""
+        """Return the time `seconds` [s] as text in the units of this time, with more digits than this time has."""
         decimals = max(self.decimals + _EXTRA_DIGITS, 3)
         sizes = [(unit, (year or Fraction(1)) if unit == _YEAR else scale(unit)[1]) for unit in self.units]
         last = sizes[-1][1]
@@ -101,7 +101,7 @@ class PrintedPeriod(Figure):
 
 
 def is_printed_period(raw: object) -> bool:
-    """Return True if a value is a text such as "29.53 d", which `PrintedPeriod` reads."""
+    """Return True if a value is text such as "29.53 d" that `PrintedPeriod` can parse."""
     try:
         return isinstance(raw, str) and bool(PrintedPeriod.parse(raw))
     except ValueError:
@@ -109,7 +109,7 @@ def is_printed_period(raw: object) -> bool:
 
 
 def year_seconds(unit: Fraction | None) -> Fraction | None:
-    """Return a unit of time [s] if it is a year; None for any other unit."""
+    """Return the given unit of time [s] if it is a year, else None."""
     return unit if unit is not None and _YEARS[0] <= unit / 86400 <= _YEARS[1] else None
 
 
@@ -121,13 +121,13 @@ NAMED_SCALES: Mapping[str, tuple[str, tuple[tuple[str, int], ...]]] = {
     "zodiac": ("degree", tuple((name, 30) for name in _SIGNS.split())),
     "egyptian_months": ("day", (*((name, 30) for name in _MONTHS.split()), ("Epagomenal", 5))),
 }
-"""Predefined scales by name: the name of one division, and the labels with the number of divisions that each spans."""
+"""Predefined scales by name: the name of one division, and each label with the number of divisions that it spans."""
 
 _MOST = 10**6
 
 
 def _read_whole(raw: object) -> int:
-    """Read a whole number from 1 to 10^6."""
+    """Read an integer from 1 to 10^6."""
     text, number = str(raw), whole_number(raw, 1, _MOST)
     if number is not None:
         return number
@@ -153,7 +153,7 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numerals at the lines between the divisions of a dial; the last numeral is at the zero mark. In a declaration, a
+    """Numerals at the lines between the divisions of a dial. The last numeral is at the zero mark. In a declaration, a
     single string instead of a mapping is their style.
     """
 
@@ -170,7 +170,7 @@ class DialNumerals(Declared):
 
 
 class Graduation(Declared):
-    """Divisions of a scale, with their labels and numerals: common fields of a dial and of the ring around it."""
+    """Divisions of a scale with labels and numerals: common fields of a dial and of the ring around it."""
 
     divisions: Whole = Field(
         1, description="Number of divisions along all turns; default the sum of the spans of its names"
@@ -260,7 +260,7 @@ class Graduation(Declared):
 
     @property
     def cells(self) -> tuple[str, ...]:
-        """Name of every division, from the repeated `cell_names`; empty without them."""
+        """Name of every division, obtained by repeating `cell_names`; empty without such names."""
         found, count = list[str](), len(self.cell_names)
         for cell in range(1, self.divisions + 1 if count else 1):
             before = sum(each <= cell for each in self.doubled)
@@ -269,7 +269,7 @@ class Graduation(Declared):
 
     @property
     def parts(self) -> tuple[tuple[str, Fraction, Fraction], ...]:
-        """Label, start and length of every name; start and length are exact fractions [divisions]."""
+        """Label, start and length of every name; start and length are exact and counted in divisions."""
         found, first = [], Fraction(0)
         for each in self.names:
             span = Fraction(self.divisions, len(self.names)) if each.span is None else Fraction(each.span)
@@ -279,7 +279,7 @@ class Graduation(Declared):
 
 
 def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
-    """Distribute the names of a scale over another number of divisions."""
+    """Return the labels of a scale, each with its share of another total number of divisions."""
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
@@ -293,18 +293,18 @@ class DialRing(Graduation):
 
 
 INNER = 0.55
-"""Radius of the inner end of a spiral divided by the radius of its outer end."""
+"""Radius of the inner end of a spiral scale divided by the radius of its outer end."""
 RING = 0.17
-"""Width of a scale around another scale, relative to the radius of the dial."""
+"""Width of a scale that surrounds another scale, divided by the radius of the dial."""
 DEPTH = 0.26
-"""Depth of the engraving of a circle, relative to the radius of the dial."""
+"""Radial depth of the engraving of a circular scale, divided by the radius of the dial."""
 
 Place = tuple[MeasuredLength, MeasuredLength]
-"""Position of a point on a face, to the right and upwards for its reader, from the origin of the axis positions."""
+"""Position of a point on a face, right and up as seen by its reader, relative to the origin of axis positions."""
 
 
 class FacePlate(Declared):
-    """Rectangular plates on which the dials of the front and of the back are engraved."""
+    """Rectangular plate on which the dials of the front or of the back are engraved."""
 
     width: Annotated[MeasuredLength, above_zero("give a width such as 180 mm")] = Field(description="Width")
     height: Annotated[MeasuredLength, above_zero("give a height such as 330 mm")] = Field(description="Height")
@@ -316,7 +316,7 @@ class FacePlate(Declared):
 
 
 class Dial(Graduation):
-    """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative."""
+    """Dial: a scale on which a pointer is read. It is fixed to the link relative to which its output turns."""
 
     SHORT: ClassVar = {"type": "null"}
 
@@ -351,7 +351,7 @@ class Dial(Graduation):
 
     @property
     def clear(self) -> float:
-        """Radius of the disc inside the engraving, divided by the radius of the dial."""
+        """Radius of the area inside the engraving, divided by the radius of the dial."""
         outer = 1.0 if self.around is None else 1.0 - RING
         if self.turns > 1:
             return outer * (INNER - (1 - INNER) / self.turns)
@@ -374,7 +374,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if a dial faces away from an observer; the sides are given as in `Dial.face` and `View.from_`.
+    """Return True if a dial faces away from an observer; `face` is as in `Dial.face`, `seen_from` as in `View.from_`.
 
     A dial with face None faces the observer.
     """
@@ -394,7 +394,7 @@ _CALENDAR_PERIOD = re.compile(r"\s*([\d./]+)\s*(year|yr|y|month)s?\s*", re.ASCII
 
 
 def _check_calendar_unit(raw: object) -> object:
-    """Return a period unchanged; raise an error with the target to write if it is in years or months."""
+    """Return a period unchanged; raise an error that suggests a target if the period is in years or months."""
     if found := _CALENDAR_PERIOD.fullmatch(str(raw)[:100]):
         name = "month_synodic_J2000" if found[2] == "month" else "year_tropical_J2000"
         fix = f"write `{{name: {name}, turns: 1/{found[1]}}}` or another name of `geartrain periods`, or a time in days"
@@ -410,8 +410,8 @@ class Target(Declared):
     """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single string
     instead of a mapping is its name.
 
-    A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
-    `sense` is given.
+    A `speed` has a sign. A name or a period specifies only a magnitude, which outputs with either sense of rotation can
+    satisfy unless `sense` is given.
     """
 
     SHORT: ClassVar = {"type": "string"}
@@ -485,7 +485,7 @@ class Expect(Declared):
     )
 
     def holds(self, speed: Any) -> bool:
-        """Return True if a speed agrees with the expected value.
+        """Return True if a speed agrees with the expected value within the tolerance.
 
         speed   exact speed [unit of the train]
         """
@@ -493,7 +493,7 @@ class Expect(Declared):
 
 
 def _read_printed(raw: object, info: ValidationInfo) -> object:
-    """Read a published value or its tolerance: a time if a period is printed, otherwise a number."""
+    """Read a published value or its tolerance: a time if the published value is a period, otherwise a number."""
     # `as_` is missing if it is not valid, which is reported
     if info.data.get("as_", "period" if is_printed_period(raw) else None) == "period":
         return PrintedPeriod.parse(raw)
@@ -537,7 +537,7 @@ class Published(Declared):
 
     @property
     def unsigned(self) -> bool:
-        """True if only the magnitude is compared."""
+        """True if only the magnitude of the value is compared."""
         return self.magnitude or (self.as_ == "period" and self.sense is None)
 
     @model_validator(mode="after")
@@ -579,7 +579,7 @@ def _check_at_epoch(raw: object) -> str:
 
 
 class Output(Declared):
-    """Output of the train: the speed of a link, or of one link relative to another.
+    """Output of the train: the speed of a link, absolute or relative to another link.
 
     Examples
     --------
@@ -616,24 +616,24 @@ class Output(Declared):
 
     @property
     def is_pointer(self) -> bool:
-        """True if the output has a dial, a target or a published figure."""
+        """True if the output has a dial, a target or a published value."""
         return bool(self.dial or self.published or self.targets)
 
     def links(self, name: str, frame: str) -> tuple[str, str]:
-        """Return the link that turns, and the link to which its motion is relative.
+        """Return the link whose motion is the output, and the link relative to which it is measured.
 
         Parameters
         ----------
         name : str
-            Name of the output, by default also the name of its link.
+            Name of the output; it is also the name of the link if `of` is not declared.
         frame : str
-            Frame of the train.
+            Link that is the frame of the train.
         """
         return self.of or name, self.relative_to or frame
 
 
 class SpeedUnit(Declared):
-    """Unit of all speeds: a speed of 1 means one turn per declared time, length or period."""
+    """Unit of all speeds: a speed of 1 is one turn per declared time, length or period."""
 
     per: str = Field(
         description="A time (`12 h`, `7 d`), a length (`18 ft`), or the name of a period that `geartrain periods` lists"
@@ -641,7 +641,7 @@ class SpeedUnit(Declared):
 
 
 class View(Declared):
-    """View of the train: side from which it is seen, and positive sense of rotation."""
+    """View of the train: the side from which it is seen, and the positive sense of rotation."""
 
     from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, front or back")
     positive: Literal["clockwise", "counter-clockwise"] = Field(
@@ -650,7 +650,7 @@ class View(Declared):
 
 
 class TourStep(Declared):
-    """Step of the tour of a train on its page: a part at which the camera looks, and a text about it."""
+    """Step of the tour on a train's page: a part at which the camera is directed, and a text about the part."""
 
     look_at: Id = Field(
         description="Name of an output, link, wheel, dial or coupling; if several parts "

@@ -21,26 +21,26 @@ from geartrain.errors import suggest
 Calendar = Literal["julian", "gregorian"]
 
 REFORM = Fraction(4598321, 2)
-"""Julian day of 1582-10-15 (Gregorian) at midnight, the day after 1582-10-04 (Julian)."""
+"""Julian day of 1582-10-15 (Gregorian) at midnight, the day that followed 1582-10-04 (Julian)."""
 
 MOST_YEARS = 10**9
 _MARCH = {"julian": Fraction(3442235, 2), "gregorian": Fraction(3442239, 2)}
-"""Julian day of the midnight at which March 1 of the year 0 begins."""
+"""Julian day of midnight at the beginning of March 1 of the year 0, for each calendar."""
 _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{2})(?::(\d{2}))?)?")
 
 
 @dataclass(frozen=True, slots=True)
 class CalendarDate:
-    """Date in the Julian or Gregorian calendar, with the elapsed fraction of the day."""
+    """Date in the Julian or Gregorian calendar, including the elapsed fraction of the day."""
 
     year: int
-    """Astronomical year: 0 is 1 BC."""
+    """Astronomical year; the year 0 is 1 BC."""
     month: int
-    """Month, 1 to 12."""
+    """Number of the month, 1 to 12."""
     day: int
-    """Day of the month, from 1."""
+    """Number of the day in the month, beginning with 1."""
     part: Fraction
-    """Elapsed fraction of the day, 0 to less than 1; 1/2 at noon."""
+    """Elapsed fraction of the day, in [0, 1); 1/2 is noon."""
     calendar: Calendar
     """Name of the proleptic calendar, whose rules apply to all years."""
 
@@ -50,7 +50,7 @@ class CalendarDate:
 
 
 def julian_day(date: CalendarDate) -> Fraction:
-    """Return the Julian day of a calendar date. Day 31 of a month with 30 days is the first day of the next month."""
+    """Return the Julian day of a date [d]. Day 31 of a month with 30 days means the first day of the next month."""
     # years begin in March here, so that a leap day is the last day of its year
     month = (date.month - 3) % 12
     year = date.year - (date.month < 3)
@@ -61,7 +61,7 @@ def julian_day(date: CalendarDate) -> Fraction:
 
 
 def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
-    """Return the calendar date of a Julian day."""
+    """Return the calendar date of a Julian day, by default in the calendar that was in use on that day."""
     calendar = calendar or ("julian" if day < REFORM else "gregorian")
     since = day - _MARCH[calendar]
     whole = since // 1
@@ -94,7 +94,7 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
 def _split_julian(days: int) -> tuple[int, int]:
     """Split a number of days since 1 March into whole Julian years and remaining days.
 
-    1461 days are four years, and the last of them is the leap year.
+    Every four years have 1461 days; the last of them is the leap year.
     """
     fours, rest = divmod(days, 1461)
     years = min(rest // 365, 3)
@@ -104,7 +104,7 @@ def _split_julian(days: int) -> tuple[int, int]:
 def _split_gregorian(days: int) -> tuple[int, int]:
     """Split a number of days since 1 March of the year 0 into whole Gregorian years and remaining days.
 
-    146097 days are 400 years, and the last of their four centuries is one day longer.
+    Every 400 years have 146097 days; the last of their four centuries is one day longer than the others.
     """
     rounds, rest = divmod(days, 146097)
     hundreds = min(rest // 36524, 3)
@@ -123,7 +123,7 @@ class Period:
     value: Fraction
     """Exact value: a fraction as given by the source, or the decimal number as printed."""
     what: str
-    """Subject of the motion or count; for a period that is used as a unit, its plain name. It may be empty."""
+    """Subject of the motion or count; for a period that is used as a unit, its name in prose. It may be empty."""
     source: str
     """Source of the value."""
     confidence: str
@@ -160,5 +160,5 @@ def period_table() -> Mapping[str, Period]:
 
 
 def suggested_period(name: str) -> str:
-    """Suggest a replacement for an unknown name of a period."""
+    """Return a suggestion of known periods for an unknown name."""
     return suggest(name, period_table(), otherwise="`geartrain periods` lists the names", wide=True)

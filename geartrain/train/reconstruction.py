@@ -1,6 +1,4 @@
-"""Constraints of `geartrain reconstruct`: the parts that may be added, the parts that must be used, and their prior
-cost.
-"""
+"""Constraints of `geartrain reconstruct`: parts that may be added, parts that must be used, and prior costs."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ from geartrain.train.fields import Count, Declared, Id
 
 MOST_ADDED = 1000
 NEW_ARBOR = "new"
-"""Value of `of` in an output if the arbor of its pointer does not survive."""
+"""Value of `of` in an output that means that the arbor of the pointer does not survive."""
 
 
 def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
@@ -56,8 +54,8 @@ class AddedParts(Declared):
 
 
 class GivenCoupling(Declared):
-    """Coupling of two surviving links that is known from the evidence: their mean speeds are equal, with the same
-    sense of rotation.
+    """Coupling between two surviving links that is known from the evidence. The links have equal mean speeds in the
+    same sense of rotation.
     """
 
     pair: tuple[Id, Id] = Field(description="Two links, beginning with the link of the pin")
@@ -75,11 +73,12 @@ class PriorCost(Declared):
 
 
 class MeasuredGeometry(Declared):
-    """Weights of measured modules, pitch radii and positions of axes. Without this block they are ignored.
+    """Weights of measured modules, pitch radii and positions of axes. Without this block, these measurements are
+    ignored.
 
-    A misfit has the weight exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the
-    twelve pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The default spread of distances
-    corresponds to the same errors if only one wheel is measured.
+    A misfit multiplies the weight of a candidate by exp(-(misfit/spread)^2 / 2). The default spread of modules is the
+    root mean square of the twelve pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The
+    default spread of distances corresponds to the same errors if only one wheel is measured.
     """
 
     module: Spread = Field(
@@ -111,8 +110,8 @@ class Reconstruction(Declared):
     """Rules for reconstructing a train from surviving parts. A declaration with these rules describes the evidence, not
     a complete train.
 
-    Its links are the surviving arbors, its gears are pairs that were observed in mesh, and an output without `of` is a
-    pointer whose arbor is unknown (`of: new` if that arbor is known not to survive).
+    In such a declaration the links are the surviving arbors, and the gears are pairs that were observed in mesh. An
+    output without `of` is a pointer whose arbor is unknown; `of: new` means that its arbor does not survive.
     """
 
     add: AddedParts = Field(AddedParts(), description="Parts that may be added")

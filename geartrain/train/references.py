@@ -22,8 +22,8 @@ from geartrain.train.states import Drive, State
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Yield problems of inputs with and without units in one train, and of inputs per time if the train's unit is not a
-    time. Inputs of 0 may have a unit or not.
+    """Yield a problem if inputs with and without units are mixed, or if inputs are per time although the train's unit
+    is not a time. Inputs of 0 are accepted with or without a unit.
     """
     inputs = [
         ((*loc, "inputs", link), speed)
@@ -48,7 +48,7 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
 
 
 def mixed_torques(train: Train) -> Iterator[Problem]:
-    """Yield a problem if torques with and without units are mixed; torques of 0 may have a unit or not."""
+    """Yield a problem if torques with and without units are mixed. Torques of 0 are accepted with or without a unit."""
     found = [
         ((*loc, "loads", link), torque)
         for loc, part in train.cases_declared
@@ -68,7 +68,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
 
 
 def rates(train: Train) -> Iterator[Problem]:
-    """Yield a problem if the rate of the train is declared twice: by `rate` and by `drive`."""
+    """Yield a problem if the rate of the train is declared both by `rate` and by `drive`."""
     if train.rate is not None and train.drive is not None and train.drive.rate is not None:
         why = f"`rate` is {train.rate}, and the rate of `drive` is {train.drive.rate}"
         yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
@@ -78,9 +78,7 @@ _TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem if a target is not in the table or is a count, or if its dimension differs from the train's
-    unit.
-    """
+    """Yield a problem if a target is unknown, is a count, or has another dimension than the train's unit."""
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)
@@ -126,7 +124,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
 
 
 def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem if a printed period needs a unit of time, or a length of its years, that the train lacks."""
+    """Yield a problem if a published period requires a unit of time, or a length of the year, that is not declared."""
     printed = published.value
     if not isinstance(printed, PrintedPeriod):
         return
@@ -143,7 +141,7 @@ def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Pr
 
 
 def _epoch_units(train: Train) -> Iterator[Problem]:
-    """Yield a problem if an epoch is declared and the train's unit is not a time."""
+    """Yield a problem if an epoch is declared but the train's unit is not a time."""
     if train.epoch is not None and train.unit_days is None:
         yield Problem(
             "the epoch needs a unit of time",
@@ -154,7 +152,7 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
 
 
 def set_outputs(train: Train) -> Iterator[Problem]:
-    """Yield problems of links that outputs set twice at the epoch, or after an output that is relative to them."""
+    """Yield a problem if a link is set at the epoch twice, or after an output whose angle is relative to it."""
     used: dict[str, str] = {}  # links that are set or referred to, with the output
     for name, output in train.outputs.items():
         of, base = output.links(name, train.frame)
@@ -167,7 +165,7 @@ def set_outputs(train: Train) -> Iterator[Problem]:
 
 
 def _suggested_unit(train: Train, per: str) -> str:
-    """Return a correction of a unit that cannot be read."""
+    """Return the text of a fix for a unit that cannot be read."""
     number, name = re.fullmatch(r"([\d./ ]*)(.*)", per.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
     if name in ("rpm", "turn/s", "deg/s", "rad/s"):
         link = next(iter(train.inputs), "sun")
@@ -179,8 +177,8 @@ def _suggested_unit(train: Train, per: str) -> str:
 
 
 def declared_units(train: Train) -> Iterator[Problem]:
-    """Yield problems of an invalid unit, an epoch without a unit of time, and a mixture of lengths with and without
-    units.
+    """Yield a problem if the unit is invalid, if an epoch is declared without a unit of time, or if lengths with and
+    without units are mixed.
     """
     yield from _epoch_units(train)
     if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
@@ -229,7 +227,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
 
 
 def find_problems(train: Train) -> Iterator[Problem]:
-    """Yield every unresolved reference and every invalid combination of a train."""
+    """Yield a problem for every unresolved reference and every invalid combination in a train."""
     if train.remove is not None and train.extends is None:
         why = "it removes parts of a parent, and no parent is named"
         yield Problem(
@@ -257,7 +255,7 @@ _HOMES = {
     "dial": "dials: {{{}: {{}}}}",
     "source": "sources: {{{}: author and year}}",
 }
-"""Templates of the declarations of parts to which other parts refer by name."""
+"""Templates of declarations for parts to which other parts refer by name, by the kind of the part."""
 
 
 def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
@@ -333,14 +331,14 @@ def _materials(train: Train) -> Iterator[Problem]:
     for name, loc in named:
         if name not in train.materials and name not in material_table():
             known = [*train.materials, *material_table()]
-            otherwise = f"declare it in `materials`, or take one of: {', '.join(known)}"
+            otherwise = f"declare it in `materials`, or use one of: {', '.join(known)}"
             what, why = f"no material '{name}'", f"`{dotted(loc)}` refers to it"
             yield Problem(what, why, suggest(name, known, otherwise=otherwise), train.place(*loc))
 
 
 def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
-    """Yield a problem for each table of measured values whose length differs from the tooth count, and for angles that
-    do not increase from tooth to tooth.
+    """Yield a problem for each table of measurements whose length differs from the tooth count, and for measured angles
+    that do not increase from tooth to tooth.
     """
     count, cutting = train.links[link].wheels[wheel].count, train.links[link].wheels[wheel].cutting
     if cutting is None or cutting.measured is None or count is None:
@@ -363,7 +361,7 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
         if not abs(remainder(after - before - even, 2 * pi)) < even:
             what = f"the measured angle of tooth {two + 1} of wheel '{wheel}' does not follow that of tooth {one + 1}"
             why = f"angles increase from tooth to tooth, by about {360 / count:.5g} deg"
-            fix = "list the teeth in the order of rotation, and measure angles against the direction of rotation"
+            fix = "list the teeth in the order of rotation; measure angles in the sense opposite to the rotation"
             yield Problem(what, why, fix, train.place(*loc, "angles"))
             return
 
@@ -450,7 +448,7 @@ def _couplings(train: Train) -> Iterator[Problem]:
 
 
 def _unresolved(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each name of a link, wheel, dial, clutch or source that is not declared."""
+    """Yield a problem for each reference to a link, wheel, dial, clutch or source that is not declared."""
     known: dict[str, Collection[str]] = {
         "link": train.links,
         "wheel": train.wheels,
@@ -465,9 +463,7 @@ def _unresolved(train: Train) -> Iterator[Problem]:
 
 
 def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
-    """Yield the kind, name (None if none is given) and path of all references except the references of turning and gear
-    pairs.
-    """
+    """Yield the kind, name (None if not given) and path of all references, except of turning and gear pairs."""
     loc: Loc
     for at, coupling in enumerate(train.couplings):
         yield from ((kind, name, ("couplings", at, *path)) for kind, name, path in coupling.references())
@@ -514,7 +510,7 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
 
 
 def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Iterator[tuple[str, str | None, Loc]]:
-    """Yield the references of an output; in a state it may inherit its link, and in evidence it may have none."""
+    """Yield the references of an output. The link may be missing in a state, which inherits it, and in evidence."""
     inherited = loc[0] == "states" and name in train.outputs and output.of is None
     to_be_found = train.reconstruct is not None and output.of in (None, NEW_ARBOR)
     if not inherited and not to_be_found:
@@ -527,7 +523,7 @@ def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Ite
 
 
 def _dials(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each pair of dials of a face whose engravings overlap; a dial may be inside another scale."""
+    """Yield a problem for each pair of dials on a face whose engravings overlap; a dial may be inside another scale."""
     for (name, dial), (other, mate) in combinations(train.dials.items(), 2):
         one, two = dial.circle, mate.circle
         if one is None or two is None or (dial.face == "back") != (mate.face == "back"):
@@ -573,7 +569,7 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
 
 
 def _one_way(train: Train) -> Iterator[Problem]:
-    """Yield problems of clutches under `free`, which must be one-way and not engaged in the same state."""
+    """Yield a problem for each clutch under `free` that is not one-way, or that is engaged in the same state."""
     for name, state in train.states.items():
         for at, clutch in enumerate(state.free):
             place = train.place("states", name, "free", at)
@@ -586,7 +582,7 @@ def _one_way(train: Train) -> Iterator[Problem]:
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:
-    """Yield problems of the wheels and links that `reconstruct` names."""
+    """Yield a problem for each wheel or link that `reconstruct` names although it is not declared or not suitable."""
     requested = train.reconstruct
     if requested is None:
         return
@@ -622,11 +618,11 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
 # ----------------------------------------------------------------------------------------------------- links that slide
 
 _IN_TURNS = ("turn", "rpm")
-"""Beginnings of units of rotation that correspond to a travel per turn."""
+"""Prefixes of the units of rotation for which a travel per turn is defined."""
 
 
 def sliding_problems(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each speed, load or property whose unit or kind does not match the motion of its link."""
+    """Yield a problem for each speed, load or property that does not suit its link, which turns or slides."""
     for loc, part in train.cases_declared:
         yield from _sliding_inputs(train, loc, part.inputs or {})
         yield from _sliding_loads(train, loc, part.loads or {})
@@ -704,7 +700,7 @@ _TURNING_ONLY = {
     "arbor": "remove it",
     "angle": "remove it",
 }
-"""Properties of turning links, with the fix for a link that slides."""
+"""Properties that only turning links have, each with the fix that is reported for a sliding link."""
 
 
 def _sliding_links(train: Train) -> Iterator[Problem]:
@@ -714,7 +710,7 @@ def _sliding_links(train: Train) -> Iterator[Problem]:
             what, why = f"'{link}' slides and has no `{key}`", f"`{key}` belongs to a link that turns"
             yield Problem(what, why, _TURNING_ONLY[key], place)
         if part.copies > 1:
-            what, why = f"{part.copies} copies of '{link}', which slides", "copies are spaced about an axis"
+            what, why = f"'{link}' slides, but has {part.copies} copies", "copies are spaced about an axis"
             yield Problem(what, why, "declare them one by one", place)
     if train.escapement is not None and train.escapement.link in train.sliding:
         what, why = f"the escapement is on '{train.escapement.link}', which slides", "an escape wheel must turn"
@@ -722,7 +718,7 @@ def _sliding_links(train: Train) -> Iterator[Problem]:
 
 
 def _sliding_drive(train: Train, loc: Loc, drive: Drive) -> Iterator[Problem]:
-    """Yield a problem if the drive does not match the motion of its link: the input for a rate, else the crank."""
+    """Yield a problem if the drive does not suit the motion of its link: the input for a rate, else the crank."""
     inputs = next((part for part in (train.inputs, *(state.inputs for state in train.states.values())) if part), {})
     source = next((link for link, speed in inputs.items() if speed.value), None)
     link = source if drive.rate is not None else train.crank or source
@@ -736,7 +732,7 @@ def _sliding_drive(train: Train, loc: Loc, drive: Drive) -> Iterator[Problem]:
             yield Problem(what, "the rate is the speed of the input in real time", f"write `rate: {fix}`", place)
     elif slides and (drive.weight is None or drive.drum is not None):
         what = f"'{link}' slides, and can only be driven by its weight"
-        why = "other drives turn a link" if drive.weight is None else "`drum` would turn a link"
+        why = "other drives turn a link" if drive.weight is None else "a weight on a drum turns a link"
         yield Problem(what, why, "give `drive: {weight: 4 kg}` without `drum`", place)
     elif not slides and drive.weight is not None and drive.drum is None:
         what = f"the weight at '{link}' has no `drum`"

@@ -1,8 +1,8 @@
-"""Mean angles of the Sun, the Moon and the planets, to which outputs are set (`mean_elements.csv`).
+"""Mean angles of the Sun, the Moon and the planets, to which outputs can be set (data in `mean_elements.csv`).
 
 Longitudes are geocentric and counted from the mean equinox of the date. Each angle is a polynomial of the time in
-Julian centuries of Terrestrial Time since J2000.0. The anomaly of a planet is its angle on its epicycle, from the
-direction away from the Earth; the anomaly of the Moon is counted from the perigee.
+Julian centuries of Terrestrial Time since J2000.0. The anomaly of a planet is its angle on its epicycle, measured from
+the direction away from the Earth; the anomaly of the Moon is measured from the perigee.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _TERM = re.compile(r"\s*([+-]?)\s*(?:(\d+(?:\.\d+)?)\s*deg|([a-z_]+))\s*")
 def mean_elements() -> Mapping[str, Mapping[str, Polynomial]]:
     """Return the mean orbital elements of the Earth, the Moon and the planets: body -> quantity -> polynomial.
 
-    Longitudes, perihelia, perigee and node are in degrees, distances (semi-major axes) in astronomical units.
+    Angles (longitudes, perihelia, perigee and node) are in degrees, and semi-major axes in astronomical units.
     """
     text = resources.files(__package__).joinpath("mean_elements.csv").read_text(encoding="utf-8")
     rows: dict[str, dict[str, Polynomial]] = {}
@@ -64,10 +64,10 @@ def _sum(*terms: tuple[int, Polynomial]) -> Polynomial:
 
 
 def angle_at(polynomial: Polynomial, julian_day: float) -> float:
-    """Return an angle in degrees as turns, at a Julian day in Universal Time.
+    """Return the value of a polynomial in degrees, as an angle [turn], at a Julian day in Universal Time.
 
-    Terrestrial Time is 32 t^2 - 20 seconds ahead, with t in centuries since 1820 (Morrison and Stephenson 2004, Journal
-    for the History of Astronomy 35:327-336).
+    Terrestrial Time is ahead of Universal Time by 32 t^2 - 20 seconds, where t is the time since 1820 in centuries
+    (Morrison and Stephenson 2004, Journal for the History of Astronomy 35:327-336).
     """
     t = (julian_day - _DELTA_T) / _CENTURY
     time = (julian_day + (32 * t * t - 20) / 86400 - _J2000) / _CENTURY
@@ -77,8 +77,8 @@ def angle_at(polynomial: Polynomial, julian_day: float) -> float:
 def read_sky_angle(text: str) -> tuple[Polynomial, str]:
     """Parse an angle such as `sun`, `moon - sun`, `mars_anomaly + 180 deg` or `33.1 deg`.
 
-    Returns its polynomial [deg], and the body whose longitude it is (empty for any other angle). Raises `ValueError`
-    with the problem and its fix if the text is not a sum of angles.
+    Returns the polynomial of the angle [deg], and the body whose longitude the angle is (empty for any other angle).
+    Raises `ValueError` with a description of the problem and a fix if the text is not a sum of angles.
     """
     terms, names, end = list[tuple[int, Polynomial]](), list[str](), 0
     while (found := _TERM.match(text, end)) and (found[1] or not terms):

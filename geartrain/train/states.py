@@ -1,6 +1,6 @@
-"""Operation of a train: clutches, states, drives, and all prescriptions of one state.
+"""Operation of a train: clutches, states, drives, and the prescriptions of each state.
 
-A drive moves the train in time-domain simulations: a hand, a spring, a falling weight, an escapement.
+A drive moves the train in time-domain simulations: a hand, a spring, a falling weight, or a prescribed rate or torque.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in t
 
 
 class Fusee(Declared):
-    """Fusee on the driving link, by its constant torque or by its radii."""
+    """Fusee on the driving link, declared by its constant torque or by its radii."""
 
     turns: Annotated[Figure, above_zero("give the turns of the fusee in its run, such as 6")] = Field(
         description="Turns of the fusee from fully wound to run down"
@@ -92,7 +92,7 @@ class Fusee(Declared):
 
 
 class SpringDrive(Declared):
-    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding."""
+    """Spring on the driving link, whose torque is `stiffness` times the remaining wound angle."""
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 0.02 N m/rad")] = Field(
         description="Torsional stiffness: torque per radian of winding"
@@ -117,7 +117,7 @@ class SpringDrive(Declared):
 
     @property
     def chained(self) -> FuseeSpring | None:
-        """Spring with its fusee; None without a fusee."""
+        """Spring together with its fusee; None if no fusee is declared."""
         if self.barrel is None or self.fusee is None:
             return None
         from geartrain.train.fusees import FuseeSpring
@@ -133,7 +133,7 @@ class SpringDrive(Declared):
         )
 
     def torque(self, unwound: float) -> float:
-        """Return the torque after the link has turned by a given angle in the driving direction [N m].
+        """Return the torque on the driving link after it has turned by a given angle in the driving direction [N m].
 
         unwound   angle by which the link has turned [rad]
         """
@@ -143,9 +143,10 @@ class SpringDrive(Declared):
 
 
 class HandDrive(Declared):
-    """Hand at the crank: a torque or a speed through a torsional stiffness, and the inertia of arm and crank.
+    """Hand at the crank: a torque, or a speed that acts through a torsional stiffness, and the inertia of arm and
+    crank.
 
-    In Monte Carlo trials of feasibility, the torque is the maximum that the hand can exert.
+    In Monte Carlo trials of feasibility, the torque is the maximum that the operator can exert.
     """
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
@@ -180,11 +181,10 @@ _KINDS = ("rate", "torque", "weight", "spring", "hand")
 
 
 class Drive(Declared):
-    """Drive of the train for time-domain simulations, declared by exactly one of rate, torque, weight, spring and hand.
+    """Drive of the train in time-domain simulations, declared by exactly one of rate, torque, weight, spring and hand.
 
-    A drive acts at the link where power enters, which is `crank` or by default the input, in the direction in which
-    this link turns. A rate is the mean speed of the input, like the train's `rate`. If `crank` is another link, its
-    speed follows from the mean ratio.
+    A drive acts on `crank`, by default the input, in the direction in which this link turns. A rate is the mean speed
+    of the input, like the train's `rate`; if `crank` is another link, its speed follows from the mean ratio.
 
     See Also
     --------
@@ -232,23 +232,23 @@ class Drive(Declared):
 
     @property
     def torques(self) -> tuple[Quantity, ...]:
-        """Torques of the drive that are declared directly."""
+        """Torques that the drive declares directly; empty for a rate."""
         hand = () if self.hand is None else (self.hand.torque, *(self.hand.range or ()))
         return tuple(torque for torque in (self.torque, *hand) if torque is not None)
 
     @property
     def arm(self) -> float | None:
-        """Descent of the weight per radian of its drum [m]: lever arm of the line divided by the number of falls; None
-        for other drives and for a weight that is a link.
+        """Descent of the weight per radian of its drum [m]: lever arm of the line divided by the number of falls of the
+        line. None for other drives, and for a weight that is a link of the train.
         """
         return None if self.drum is None else self.drum.si / self.falls
 
     @property
     def pull(self) -> float | None:
-        """Constant torque of a weight, mass times gravity times its descent per radian, or of a spring at its equalised
-        fusee [N m]; None for other drives.
+        """Constant torque [N m] of a weight (mass times gravity times descent per radian) or of a spring with an
+        equalising fusee; None for other drives.
 
-        For a link that represents the weight itself, it is the torque equivalent to the force; see `as_torque`.
+        For a weight that is a link of the train, it is the torque equivalent to its force; see `as_torque`.
         """
         if self.spring is not None and self.spring.fusee is not None and self.spring.fusee.torque is not None:
             return self.spring.fusee.torque.si
@@ -258,7 +258,7 @@ class Drive(Declared):
 
     @property
     def steady_torque(self) -> float | None:
-        """Constant torque of a torque drive, a weight or an equalised fusee [N m]; None for other drives."""
+        """Torque of a drive by a constant torque, a weight or an equalising fusee [N m]; None for other drives."""
         return next((torque.si for torque in self.torques), self.pull)
 
     @property
@@ -268,7 +268,7 @@ class Drive(Declared):
 
 
 EXPANSIONS = {"steel": 11.5e-6, "brass": 19e-6, "pine": 4e-6, "invar": 1e-6}
-"""Coefficients of linear expansion of pendulum rods, rounded, by material [1/K]; pine along its grain."""
+"""Coefficients of linear expansion of pendulum rods by material [1/K], rounded; for pine, along the grain."""
 
 
 class Pendulum(Declared):
@@ -327,8 +327,8 @@ class Escapement(Declared):
 
     @model_validator(mode="after")
     def _check_pendulum(self) -> Escapement:
-        """Check the length l of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes the beat slightly
-        shorter.
+        """Check that the length l of the pendulum agrees with the beat, pi sqrt(l/g), where g is the gravity; a rod
+        with mass makes the beat slightly shorter.
         """
         if self.deadbeat is not None and self.recoil is not None:
             exactly_one(self, "an escapement", ("deadbeat", "recoil"), "kind")
@@ -345,14 +345,14 @@ class Escapement(Declared):
 
     @property
     def speed(self) -> Fraction:
-        """Mean speed of the escape wheel's link relative to its carrying link [turn/s]: half a tooth per beat."""
+        """Mean speed of the escape wheel relative to the link that carries it [turn/s]: half a tooth per beat."""
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Return True if a wheel of a link is the escape wheel, which does not mesh with other wheels.
+        """Return True if a wheel is the escape wheel, which requires no gear pair.
 
         link    link of the wheel
-        count   tooth count of the wheel, if known
+        count   tooth count of the wheel; None if it is not known
         """
         return (link, count) == (self.link, self.teeth)
 
@@ -364,7 +364,7 @@ def _read_sense(raw: object) -> object:
         "one_way",
         "`one_way` needs a sense of rotation",
         {
-            "why": f"{raw!r} is not a sense",
+            "why": f"{raw!r} is not a sense of rotation",
             "fix": "write `one_way: forward` or `one_way: backward`: the sense in which it may turn",
         },
     )
@@ -373,8 +373,8 @@ def _read_sense(raw: object) -> object:
 class Clutch(Declared):
     """Brake (`fixes`) or clutch (`locks`); exactly one of the two keys is required.
 
-    With `one_way` it is an overrunning clutch, freewheel or ratchet, which is active in every state: it holds, or it
-    overruns in the given sense, depending on speeds and torques.
+    A clutch with `one_way` is an overrunning clutch, freewheel or ratchet, which is active in every state: depending on
+    speeds and torques, it holds, or it overruns in the given sense.
     """
 
     fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
@@ -396,17 +396,17 @@ class Clutch(Declared):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Fixed link, or the two links that are locked together."""
+        """Name of the fixed link, or names of the two links that are locked together."""
         return self.locks or (self.fixes or "",)
 
     @property
     def senses(self) -> frozenset[int]:
-        """Signs of the torques that the clutch can exert on the last of `links`: 1, -1 or both."""
+        """Signs of the torques that the clutch can exert on the last link in `links`: 1, -1 or both."""
         return frozenset((1, -1)) if self.one_way is None else frozenset((1 if self.one_way == "forward" else -1,))
 
 
 class State(Declared):
-    """Operating mode of the train. Its values replace the values of the train; its outputs are merged by name.
+    """Operating state of the train. Its values replace those of the train; its outputs are merged by name.
 
     See Also
     --------
@@ -451,7 +451,7 @@ class Erratum(Declared):
 
 
 class Remove(Declared):
-    """Parts of the parent that a child removes before it adds its own parts."""
+    """Parts of the parent declaration that a child declaration removes before it adds its own parts."""
 
     links: tuple[Id, ...] = Field((), description="Links to remove with their wheels, joints, pairs and couplings")
     wheels: tuple[Id, ...] = Field((), description="Wheels to remove with their pairs")
@@ -470,34 +470,35 @@ class Remove(Declared):
 
 @dataclass(frozen=True)
 class OneWayAction(Result):
-    """Action of a one-way clutch in one state: it holds, or it overruns."""
+    """Behaviour of a one-way clutch in one state: it holds or overruns."""
 
     name: str
     """Name of the clutch."""
     holds: bool
     """True if the clutch holds, False if it overruns."""
     slip: Fraction | None
-    """Speed of its second link relative to its first in the sense in which it overruns [unit of the train]; 0 if it
-    holds, None if undetermined.
+    """Speed of the second link relative to the first, in the sense in which the clutch overruns [unit of the train]; 0
+    if the clutch holds, None if undetermined.
     """
     torque: Fraction | None
-    """Torque that it exerts on its second link, or on the link that it fixes; 0 if it overruns, None if undetermined.
-    In N m, or a number, if loads are declared; otherwise divided by the torque of the input.
+    """Torque of the clutch on its second link, or on the link that it fixes; 0 if the clutch overruns, None if
+    undetermined. It has the unit `torque_unit` if loads are declared; otherwise it is divided by the torque of the
+    input.
     """
     torque_unit: str = ""
     """Unit of `torque`, such as `N m`; empty for a number without a unit."""
     required: bool = False
     """True if the state names the clutch under `engaged`, so that it must hold."""
     teeth: int | None = None
-    """Tooth count of a ratchet; None for another clutch."""
+    """Tooth count of a ratchet; None for other clutches."""
 
     @property
     def fails(self) -> bool:
-        """True if the clutch is required to hold and overruns."""
+        """True if the clutch is required to hold but overruns."""
         return self.required and not self.holds
 
     def text(self, unit: str = "") -> str:
-        """Return the action as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
+        """Return the behaviour as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
 
         unit   unit of speeds
         """
@@ -515,14 +516,14 @@ class OneWayAction(Result):
 
 
 class SteppedLink(NamedTuple):
-    """Link that one-way clutches drive only while a swinging link would overtake it; friction holds it otherwise."""
+    """Link that clutches drive in steps, when a swinging link would overtake it; friction holds it otherwise."""
 
     link: str
     """Name of the link."""
     sense: int
-    """Sense in which it moves about its axis, 1 or -1."""
+    """Sense in which the link turns about its axis, 1 or -1."""
     drivers: Mapping[str, int]
-    """Links that drive it through the clutches, each with the sense about its own axis in which it drives, 1 or -1."""
+    """Links that drive it through the clutches, each with the sense about its axis in which it drives, 1 or -1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -540,13 +541,13 @@ class StateCase(Shown):
     state: str | None
     """Name of the state; None for a train without states."""
     inputs: Mapping[str, Fraction]
-    """Prescribed speed of each input link, in the unit `Train.unit_name`."""
+    """Prescribed speed of each input link [`Train.unit_name`]."""
     fixed: tuple[str, ...]
     """Links fixed to the frame."""
     locks: tuple[tuple[str, str], ...]
     """Pairs of links that are locked together."""
     outputs: Mapping[str, Output]
-    """Outputs in this state by name."""
+    """Outputs in this state, by name."""
     loc: Loc
     """Path of the keys that declare the inputs."""
     engaged: tuple[str, ...]
@@ -554,39 +555,37 @@ class StateCase(Shown):
     clutches: Mapping[tuple[str, ...], str]
     """Name of the brake or clutch for each fixed link and each pair of locked links."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
-    """Torques on links; positive if they supply power to the train."""
+    """Torque on each loaded link; positive if the torque supplies power to the train."""
     solve_for: str | None = None
-    """Link whose torque is unknown; None if none is declared."""
+    """Link whose torque is to be calculated; None if none is declared."""
     exact: bool = True
-    """False if radians were converted to turns, or turns to radians, which is done with 50 digits."""
+    """False if radians were converted to turns, or turns to radians; this conversion has 50 digits."""
     drive: Drive | None = None
-    """Drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is declared."""
+    """Drive of the state, by default of the train, or the train's `rate` as a drive; None if none is declared."""
     rate: Quantity | None = None
-    """Speed of the input in real time, from the drive or the train's `rate`; None if it is not given."""
+    """Real speed of the input, from the drive or the train's `rate`; None if neither is declared."""
     expect: ExpectedVerdict = "determined"
-    """Expected kind of verdict; a verdict of this kind is not reported as a failure."""
+    """Expected kind of verdict. A verdict of this kind is not reported as a failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
-    """Links of the declared brake or lock that causes an indirect one, by the links that are fixed or locked
-    indirectly.
-    """
+    """Links of the declared brake or lock that causes an indirect one, by the links of the indirect brake or lock."""
     sliding: frozenset[str] = frozenset()
-    """Links that slide, whose speeds are travels in mm."""
+    """Links that slide; their speeds are travels in mm."""
     problems: tuple[Problem, ...] = ()
     """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
     senses: Mapping[tuple[str, ...], int] = field(default_factory=dict)
-    """Sign of the torque that one-way clutches can exert on the last link, by fixed link or locked links that are held
-    only by one-way clutches of one sense.
+    """Sign of the torque that a brake or lock can exert on its last link, by its links; only for brakes and locks that
+    consist of one-way clutches of a single sense.
     """
     one_way: tuple[OneWayAction, ...] = ()
-    """Active one-way clutches, in the order of declaration."""
+    """One-way clutches that are active in the state, in the order of declaration."""
     notes: tuple[str, ...] = ()
-    """Notes on the one-way clutches, such as what happens if the output drives."""
+    """Remarks about the one-way clutches, such as their behaviour when the output drives."""
     stepped: SteppedLink | None = None
     """Link that one-way clutches drive in steps, so that its mean speed is not a ratio; None if there is none."""
 
     @property
     def closed(self) -> tuple[str, ...]:
-        """Names in `engaged` without the one-way clutches that hold without torque."""
+        """Names in `engaged`, without the one-way clutches that hold but transmit no torque."""
         idle = {each.name for each in self.one_way if each.torque == 0}
         return tuple(name for name in self.engaged if name not in idle)
 
@@ -596,23 +595,23 @@ class StateCase(Shown):
         Parameters
         ----------
         link : str
-            One of the inputs.
+            Name of an input link.
         """
         unit = " mm" if link in self.sliding else ""
         return f"{link} = {self.shown(self.inputs[link])}{unit}"
 
     def shown(self, speed: Fraction) -> str:
-        """Return a speed as text: a fraction, or a decimal number if it is not exact.
+        """Return a speed as text: a fraction, or a decimal number if the speed is not exact.
 
         Parameters
         ----------
         speed : Fraction
-            Any speed of the case.
+            Speed in this state [unit of the train].
         """
         return abridged_text(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
-        """Describe a brake on one link or a lock of two links, with the declared cause of an indirect brake or lock.
+        """Describe a brake on one link or a lock of two links; for an indirect brake or lock, with its declared cause.
 
         Parameters
         ----------
@@ -626,7 +625,7 @@ class StateCase(Shown):
         return f"{declared}, which {effect}"
 
     def declares(self, *links: str) -> str:
-        """Describe the declared brake or lock that fixes one link or locks two, with its clutch.
+        """Describe the declared brake or lock that directly or indirectly fixes one link or locks two links.
 
         Parameters
         ----------

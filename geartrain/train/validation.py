@@ -1,7 +1,7 @@
 """Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and
 fix.
 
-`revolutes: {main: [frame, sun, carrier]}`, and `slides` likewise: on each axis the first link carries the other links.
+`revolutes: {main: [frame, sun, carrier]}`, and `slides` likewise: on each axis, the first link carries the other links.
 `gears: [s ~ p]`: a pair of two wheels.
 `belts: [p ~ q]`: a coupling of kind belt around two wheels.
 """
@@ -55,7 +55,7 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     Returns
     -------
     Train
-        Frozen declaration; equal data give equal trains.
+        Immutable declaration; equal data give equal trains.
 
     Raises
     ------
@@ -94,12 +94,12 @@ _BLOCKS: dict[str, type[BaseModel]] = {
     "an output": Output,
     "a state": State,
 }
-"""Blocks of a declaration in which an unknown key may belong."""
+"""Models of the blocks of a declaration in which an unknown key may belong, by their description in messages."""
 _LOOKED_UP = 200  # unknown keys for which similar keys are searched
 
 
 def _problems_of(error: ValidationError, place: Marks) -> Iterator[Problem]:
-    """Yield a problem for each error. A misspelt key is reported once, not also as a missing key."""
+    """Yield a problem for each validation error. A misspelt key is reported once, not also as a missing key."""
     errors = error.errors(include_url=False)
     incomplete = {item["loc"][:-1] for item in errors if item["type"] == "missing"}
     unknown = (item["loc"] for item in errors if item["type"] == "extra_forbidden" and item["loc"][:-1] in incomplete)
@@ -119,7 +119,7 @@ def _union_tags(kind: Any) -> tuple[Any, ...]:
 
 @cache
 def _laws() -> dict[str, type[BaseModel]]:
-    """Return the class of each friction law by its tag, the value of `law`."""
+    """Return the class of each friction law by its tag, which is the value of `law`."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}
@@ -191,15 +191,15 @@ def _is_wheel_pair(loc: Loc) -> bool:
 
 
 def _wheel_pair(raw: Any) -> str:
-    """Return the line `pair: [first, second]` for text such as `first ~ second`, or for a pair with such an id."""
+    """Return a line `pair: [first, second]` as a fix for text such as `first ~ second`, or an id of that form."""
     text = raw.get("id") if isinstance(raw, dict) else raw
     wheels = _wheels(text) if isinstance(text, str) else []
     return f"pair: [{', '.join(wheels if len(wheels) == 2 and all(wheels) else ('sun', 'planet'))}]"
 
 
 def _without_space(loc: Loc, value: Any) -> str:
-    """Return the first key in a path that was probably written without a space after its colon: it contains a colon,
-    and has no value or begins with a known key. Empty if there is none.
+    """Return the first key in a path that was probably written without a space after its colon. Such a key contains a
+    colon, and it has no value or begins with a known key. The result is empty if there is none.
     """
     for at, step in enumerate(loc):
         start, colon, _ = str(step).partition(":")
@@ -209,7 +209,7 @@ def _without_space(loc: Loc, value: Any) -> str:
 
 
 def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
-    """Return the key that selects a model, and its allowed values, from pydantic's error on an unknown value."""
+    """Return the key that selects a model, and its allowed values, from a pydantic error about an unknown value."""
     context = error["ctx"]
     return context["discriminator"].strip("'"), tuple(context["expected_tags"].replace("'", "").split(", "))
 
@@ -219,7 +219,7 @@ def _where(loc: Loc) -> str:
 
 
 def _real_steps(loc: Loc) -> Loc:
-    """Return `loc` without the tags that pydantic adds for unions, which are not in the file."""
+    """Return the path without the tags that pydantic inserts for unions, which do not occur in the file."""
     tags = {"count", "doubt", *COUPLINGS, *form_names(), *_laws()}
     return tuple(
         step
@@ -232,7 +232,7 @@ def _real_steps(loc: Loc) -> Loc:
 
 
 def _keys_at(loc: Loc) -> Iterator[str]:
-    """Yield the keys that a declaration may have at `loc`, found by traversing the models."""
+    """Yield the keys that a declaration may have at the path `loc`, found by traversing the models."""
     kinds: list[Any] = [Train]
     for step in loc:
         named = [kind for kind in kinds if step in _union_tags(kind)]
@@ -243,7 +243,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
 
 
 def _step(kind: Any, step: str | int) -> Iterator[Any]:
-    """Yield the models that follow `kind` after one step of a path; the tag of a union is not a step."""
+    """Yield the models reached from `kind` by one step of a path; the tag of a union does not count as a step."""
     if isinstance(step, str) and step in kind.model_fields:
         yield from _models_in(kind.model_fields[step].annotation)
     else:
@@ -276,7 +276,7 @@ _MARK = "~"
 
 
 def has_short_forms(data: Mapping[str, Any]) -> bool:
-    """Return True if plain data contain short forms, or bare lists instead of pairs."""
+    """Return True if plain data contain short forms, or bare lists in which pairs are expected."""
     listed = (data[key] for key in ("gears", *JOINTS) if isinstance(data.get(key), list | tuple))
     pairs = (each for parts in listed for each in parts)
     short = any(isinstance(data.get(key), Mapping) for key in JOINTS) or bool(data.get("belts"))
@@ -284,9 +284,9 @@ def has_short_forms(data: Mapping[str, Any]) -> bool:
 
 
 def written_out(root: YamlNode) -> YamlNode:
-    """Return the declaration with all short forms expanded; the new parts keep the places of the short forms.
+    """Return the declaration with all short forms expanded; the new parts have the places of the short forms.
 
-    Raises `DeclarationError` for short forms that are not valid.
+    Raises `DeclarationError` for invalid short forms.
     """
     joints = {key: root.mapping[key] for key in JOINTS if key in root.mapping}
     gears = root.mapping.get("gears")
@@ -302,8 +302,8 @@ def written_out(root: YamlNode) -> YamlNode:
 
 
 def _with_belts(root: YamlNode) -> YamlNode:
-    """Return the declaration with `belts` added to its couplings. Raises `DeclarationError` for entries that are not
-    two wheels with a tilde between them.
+    """Return the declaration with the entries of `belts` added to its couplings. Raises `DeclarationError` for entries
+    that are not two wheels separated by a tilde.
     """
     belts = root.mapping.get("belts")
     if belts is None or not belts.items:
@@ -333,7 +333,7 @@ def _check_short_forms(
     short_joints: Mapping[str, YamlNode],
     short_gears: list[YamlNode],
 ) -> None:
-    """Raise `DeclarationError` if a pair is a bare list, or a short form has too few or too many parts."""
+    """Raise `DeclarationError` if a pair is a bare list, or if a short form has too few or too many elements."""
     lists = [*_lists("gears", gears, "{} ~ {}")]
     lists += [each for key, part in joints.items() for each in _lists(key, part, "{{pair: [{}, {}], axis: A}}")]
     wrong = [gear for gear in short_gears if len(names := _wheels(gear.value)) != 2 or not all(names)]
@@ -347,7 +347,7 @@ def _check_short_forms(
 
 
 def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
-    """Yield one problem for all entries of a section that are written as bare lists."""
+    """Yield one problem that covers all entries of a section that are written as bare lists."""
     listed = [part for part in parts.items if isinstance(part.value, list)] if parts is not None else []
     if listed:
         names = [*texts(listed[0]), "a", "b"][:2]

@@ -1,8 +1,8 @@
-"""YAML 1.2 (core schema) as nodes with line numbers.
+"""YAML 1.2 (core schema) parsed to nodes with line numbers.
 
 Every scalar is kept as a string, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
 becomes None. Nesting depth, number of values and expansion of aliases are limited, keys must be unique, and tags are
-rejected. Plain Python data can be converted to nodes as well, and a declaration can be written as YAML text.
+rejected. Plain Python data can also be converted to nodes, and a declaration can be written as YAML text.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class YamlNode:
     """Mapping, list, scalar or null of a YAML document, with the place where it was written."""
 
     value: Any
-    """Value. Scalars of a file are strings; scalars of plain data are the given objects."""
+    """Value of the node. Scalars from a file are strings; scalars from plain data are the given objects."""
     place: str
     keys: dict[str, str] = field(default_factory=dict)
     """Place of each key of a mapping."""
@@ -52,7 +52,7 @@ class YamlNode:
 
     @property
     def text(self) -> str:
-        """Scalar as text; "" for other nodes."""
+        """Scalar as text; empty for other nodes."""
         return "" if self.value is None or isinstance(self.value, dict | list) else str(self.value)
 
     def plain(self) -> Any:
@@ -64,7 +64,7 @@ class YamlNode:
         return self.value
 
     def place_of(self, loc: Loc) -> str:
-        """Return the place of the value at the path `loc`. Steps of the path that are not in the file are skipped."""
+        """Return the place of the value at path `loc`. Steps of the path that are not in the file are skipped."""
         node, place = self, self.place
         for step in loc:
             if isinstance(node.value, dict) and str(step) in node.value:
@@ -104,7 +104,7 @@ def parse_yaml(text: str, name: str) -> YamlNode:
 
 
 def _check_limits(text: str, name: str) -> None:
-    """Raise `DeclarationError` for too many values or deep nesting, on which the recursive composer would fail."""
+    """Raise `DeclarationError` if the text has too many values or is nested too deeply for the recursive composer."""
     depth = 0
     for values, event in enumerate(yaml.parse(text, Loader=_Loader), 1):
         depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
@@ -153,7 +153,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
 
 
 class _Reader:
-    """Conversion of composed YAML to nodes; problems with keys and tags are collected."""
+    """Converter of composed YAML to nodes, which collects problems with keys and tags."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -162,9 +162,9 @@ class _Reader:
         self._found: dict[yaml.Node, YamlNode | None] = {}
 
     def node(self, composed: yaml.Node) -> YamlNode:
-        """Convert a composed YAML node with all nodes in it; an alias becomes the node to which it refers.
+        """Convert a composed YAML node and all nodes in it. An alias is replaced by the node to which it refers.
 
-        Raises `DeclarationError` for content that exceeds a limit, and for an alias within its own value.
+        Raises `DeclarationError` for content that exceeds a limit, and for an alias that occurs within its own value.
         """
         place = f"{self.name}:{composed.start_mark.line + 1}"
         if composed in self._found:
@@ -219,9 +219,9 @@ class _Reader:
 
 
 def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
-    """Convert plain data or parts of a declaration to nodes; their places are by default their paths.
+    """Convert plain data or parts of a declaration to nodes. By default, the place of a node is its path.
 
-    Raises `DeclarationError` for data nested too deeply.
+    Raises `DeclarationError` for data that are nested too deeply.
     """
     place = marks(loc)
     if isinstance(data, BaseModel):
@@ -237,12 +237,12 @@ def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
 
 
 def texts(node: YamlNode | None) -> Iterator[str]:
-    """Return an iterator over the scalars of a list node as strings; it is empty for None."""
+    """Return an iterator over the scalars of a list node as strings. The iterator is empty if the node is None."""
     return (item.text for item in node.items) if node else iter(())
 
 
 def as_yaml(data: Mapping[str, Any]) -> str:
-    """Return YAML text that `load` reads as the same declaration, with one part per line and keys in their order."""
+    """Return YAML text that `load` reads as the same declaration. Parts have one line each; keys keep their order."""
     return "".join(_section(key, value) for key, value in data.items())
 
 
@@ -258,7 +258,7 @@ def _section(key: str, value: Any) -> str:
 
 
 def on_one_line(value: Any) -> str:
-    """Return a value on one line. Numbers are written by `repr`, as a declaration keeps the text of its numbers."""
+    """Return a value as YAML on one line. Numbers are written by `repr`, as declarations preserve their text."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{on_one_line(key)}: {on_one_line(part)}" for key, part in value.items()) + "}"
     if isinstance(value, list | tuple):

@@ -35,7 +35,7 @@ class LivePages:
 class LiveServer:
     """Web server for the pages of a train, reachable only from this computer, that runs until it is interrupted.
 
-    A missing tornado or watchdog raises `MissingExtraError`, and a port that cannot be used `QuestionError`.
+    It raises `MissingExtraError` if tornado or watchdog is missing, and `QuestionError` if the port cannot be used.
 
     make      function that builds the pages; a `GearTrainError` is shown above the last pages
     watched   function that returns the files to watch; it is called after each change
@@ -65,7 +65,7 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages and increment the version; on errors of the train, keep the old pages and store the
+        """Rebuild the pages and increment the version; if the train has errors, keep the old pages and store the
         message.
         """
         try:
@@ -76,9 +76,7 @@ class LiveServer:
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
-        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, or an empty
-        string.
-        """
+        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, or ""."""
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(report))
 
@@ -161,8 +159,8 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page: its own script, frames of this server, and its web
-        socket.
+        """Return the content security policy of the outer page, which permits its own script, frames of this server,
+        and its web socket.
         """
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]

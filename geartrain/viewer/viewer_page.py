@@ -96,7 +96,7 @@ class EmbeddedPage:
     train: GearTrain
     """Train that the page shows."""
     state: str | None = None
-    """Name of the state that the page shows; by default the user can select any state."""
+    """Name of the state that the page shows, or None to let the user select any state."""
     height: int = 620
     """Height of the frame [px]."""
 
@@ -128,7 +128,7 @@ def _words(scene: Scene) -> str:
 
 
 def own_script_only(program: str) -> str:
-    """Return a content security policy for inline styles and one script, identified by its hash; no images."""
+    """Return a content security policy that permits inline styles and one script (by its hash), but no images."""
     digest = b64encode(sha256(program.encode("utf-8")).digest()).decode("ascii")
     allowed = f"script-src 'sha256-{digest}'; style-src 'unsafe-inline'"
     return f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"

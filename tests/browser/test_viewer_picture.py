@@ -33,7 +33,9 @@ SPREAD = """(scene) => {
   };
   const {wheels, dials} = geartrain.scenes[scene];
   for (const w of wheels) round(w.body, w.centre, w.direction, w.kind === 'ring' ? w.root : w.tip);
-  for (const d of dials) round(d.body, d.centre, d.normal, d.radius);
+  const {position} = stage.camera; // the oblique view includes the dials that face the reader
+  const faces = ({normal, centre}) => new Vector(...normal).dot(position.clone().sub(new Vector(...centre))) > 0;
+  for (const d of dials) if (stage.from !== 'free' || faces(d)) round(d.body, d.centre, d.normal, d.radius);
   if (crank && !stage.world.poses.share) see(crank.body, crank.knob.clone());
   return most;
 }"""

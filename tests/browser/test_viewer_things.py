@@ -25,7 +25,7 @@ EDGES = """() => {
   return wheels.filter(({wheel}) => !wheel.cone && wheel.kind !== 'worm').map(({own, toothed, wheel}) => {
     const [names, edges] = [new Map(), new Map()];
     for (const [casting, slot] of [[teeth, toothed], ...(wheel.holes.length ? [[body, own]] : [])]) {
-      const {position} = casting.geometry.attributes, index = casting.geometry.index.array;
+      const {geometry: {attributes: {position}}, index} = casting;
       const name = (at) => {
         const key = [0, 1, 2].map((k) => Math.round(position.array[3 * at + k] * 2e3 / wheel.radius)).join();
         return names.get(key) ?? (names.set(key, names.size), names.size - 1);

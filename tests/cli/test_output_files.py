@@ -16,8 +16,7 @@ import pytest
 from commands import HEAVY, RIGHT, UNUSABLE, call, functions
 
 from geartrain.errors import GearTrainError
-from geartrain.numerics.files import LongTable, destination, write_bytes, write_folder
-from geartrain.numerics.files.atomic import check_folder
+from geartrain.numerics.files import LongTable, check_folder, destination, write_bytes, write_folder
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no socket in a folder")
 

@@ -241,10 +241,10 @@ def test_the_driver_does_the_work_of_the_load_in_time(declared: str, mean: Fract
     ("declared", "what"),
     [
         ("kind: geneva, slots: 2", "slots"),
-        ("kind: geneva, slots: 5, pins: 4", "4 pins would meet 5 slots at once: at most 3"),
-        ("kind: geneva, slots: 5, pins: 2, internal: true", "at most 1"),
+        ("kind: geneva, slots: 5, pins: 4", "with 4 pins and 5 slots, two pins would be in slots at the same time"),
+        ("kind: geneva, slots: 5, pins: 2, internal: true", "with 2 pins and 5 slots, two pins would be in slots"),
         ("kind: step, teeth: 6, moves: 7", "more than the 6 teeth"),
-        ("kind: step, teeth: 6, times: 3, over: 121 deg", "it would still be moving when the next engagement begins"),
+        ("kind: step, teeth: 6, times: 3, over: 121 deg", "would still be moving when the next engagement begins"),
         ("kind: step, teeth: 6, moves: [0, 0]", "never moves"),
         ("kind: step, teeth: 6, over: -1 deg", "below 0"),
     ],

@@ -17,8 +17,8 @@ from studies.residue_errors import first_float_failure, measure_phase_accuracy
 from teeth3d import Wheel, best, in_space, misfits
 
 from geartrain import GearTrain, GearTrainError
+from geartrain.kinematics.phasing.azimuths import rational_angle
 from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule
-from geartrain.numerics.rational_angles import rational_angle
 from geartrain.spherical import Configuration, from_polyhedron, spherical_divisibility_rule, spherical_phasing
 
 Data = dict[str, Any]

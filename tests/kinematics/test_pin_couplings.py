@@ -58,7 +58,7 @@ def test_the_winding_number_is_what_the_transmission_of_the_slot_gains_in_a_turn
         ("kind: pin_and_slot, pin_radius: 10 mm, offset: 1 cm", "equals the offset"),
         ("kind: pin_and_slot, pin_radius: 1 mm, offset: 2 mm", "is a pin_follower"),
         ("kind: pin_follower, pin_radius: 2 mm, offset: 1 mm", "is a pin_and_slot"),
-        ("kind: pin_and_slot, pin_radius: 2 mm, offset: 1", "have a unit in one value only"),
+        ("kind: pin_and_slot, pin_radius: 2 mm, offset: 1", "only one of pin_radius 2 mm and offset 1 has a unit"),
         ("kind: pin_and_slot, pin_radius: 0 mm, offset: 1 mm", "out of range"),
         ("kind: pin_and_slot, pin_radius: 2 mm, offset: -1 mm", "out of range"),
         ("kind: pin_in_hole", "pins_in_holes"),

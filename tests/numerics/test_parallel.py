@@ -531,7 +531,7 @@ def by_default(tasks: list[float]) -> tuple[list[Any], list[tuple[int, int]], se
     """Results, announcements and processes of a run on three cores whose tasks take so many seconds."""
     announced: list[tuple[int, int]] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("geartrain.numerics.work.executors.cores", lambda: 3)
+        patch.setattr("geartrain.numerics.work.task_runner.cores", lambda: 3)
         with open_executor(announce=lambda *numbers: announced.append(numbers)) as executor:
             found = list(run(slow, tasks, executor))
     return [seconds for seconds, _ in found], announced, {process for _, process in found}
@@ -561,7 +561,7 @@ def test_a_few_long_tasks_are_shared_by_as_many_processes() -> None:
 
 
 def test_a_process_that_may_not_start_others_works_itself(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.numerics.work.executors.cores", lambda: 3)
+    monkeypatch.setattr("geartrain.numerics.work.task_runner.cores", lambda: 3)
     monkeypatch.setitem(multiprocessing.current_process()._config, "daemon", True)
     with open_executor() as executor:
         assert executor is None
@@ -582,7 +582,7 @@ def test_the_work_that_is_requested_of_some_workers_is_theirs_from_the_first_tas
 
 def test_workers_are_as_many_as_the_cores_this_process_may_use(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        "geartrain.numerics.work.executors.cores", cores
+        "geartrain.numerics.work.task_runner.cores", cores
     )  # tests have one core unless they ask for more
     assert 1 <= cores() <= (os.cpu_count() or 1)
     for count in (1, 3):

@@ -21,7 +21,7 @@ FOLDERS = sorted({path.relative_to(PACKAGE).parts[0] for path in FILES})
 # the standard word stands beside each: reports, is, maximum, minimum, requested, is not a, N
 BANNED = re.compile(
     r"\b(told|tells|stands?|stood|greatest(?! common)|(?<!at )(?<!At )least(?! (squares|common))|asked"
-    r"|is no|are no|so many|mends?|spoilt|in place of|hands? in|goes for|what (stands|lies|goes))\b"
+    r"|(?<!here )(is|are) no|so many|mends?|spoilt|in place of|hands? in|goes for|what (stands|lies|goes))\b"
 )
 # a noun phrase does not begin so: the noun that is meant comes first
 FRONTED = re.compile(r"(Of|What|How|Whether|Where|Which|Why|When|As|With|That|Those|Not|By|From|For|In|On|To|At) ")

@@ -73,7 +73,7 @@ def test_exact_questions_have_the_answers_of_plain_growth(first: int) -> None:
 @pytest.mark.parametrize(
     ("name", "value", "first"),
     [
-        ("quotient_tables.ROUNDING", 0.05, 2000),  # many quotients seem to agree
+        ("added_counts.ROUNDING", 0.05, 2000),  # many quotients seem to agree
         ("path_lists._PIECE", 3, 2020),
     ],
 )

@@ -14,7 +14,8 @@ import geartrain
 from geartrain import GearTrainError
 from geartrain.dynamics import MotionRun
 from geartrain.teeth import CircularArc, Cycloidal, Involute, Lantern
-from geartrain.teeth.conjugate.displaced_contact import displaced_contact, pair_outlines
+from geartrain.teeth.conjugate.displaced_contact import displaced_contact
+from geartrain.teeth.conjugate.off_design_transmission import pair_outlines
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, TwoFlankContact, solve
 from geartrain.teeth.contact.displaced_outlines import displaced_outlines

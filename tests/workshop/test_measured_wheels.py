@@ -28,8 +28,8 @@ from geartrain.workshop import (
     run_course,
 )
 from geartrain.workshop.cutting.measured_motion import measured_motion
+from geartrain.workshop.cutting.verb import find_measured_wheels
 from geartrain.workshop.cutting.wheel_estimate import closed_steps, stepped_covariance
-from geartrain.workshop.cutting.wheel_report import find_measured_wheels
 
 FIFTEEN = [
     *(0.12, 24.31, 48.55, 72.40, 96.38, 119.92, 143.61, 167.55),

@@ -12,10 +12,10 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from geartrain.search.reconstruct import Arbor, PlacedWheel, ReconstructionProblem
+from geartrain.search.reconstruct.added_counts import QuotientTables
 from geartrain.search.reconstruct.candidate_rules import broken_rules
 from geartrain.search.reconstruct.path_lists import PathList, WayThrough
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.search_tasks import PathChoice
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Topology
 

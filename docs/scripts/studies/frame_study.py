@@ -37,8 +37,11 @@ FRAME = """((turn) => {
   context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
 })"""
 INSTANCED = "((turn) => instanced.frame(turn / 50))"
-TRIANGLES = """globalThis["geartrain"].stages[0].world.castings
-  .reduce((sum, { geometry }) => sum + geometry.index.count / 3, 0)"""
+# triangles of one frame as three.js counts them; those of parts that are cut open are drawn twice, from both sides
+TRIANGLES = """(([stage]) => {
+  stage.render();
+  return stage.renderer.info.render.triangles;
+})(globalThis["geartrain"].stages)"""
 CANVAS = """(({ clientWidth: width, clientHeight: height }) => [width, height])(
   globalThis["geartrain"].stages[0].canvas)"""
 

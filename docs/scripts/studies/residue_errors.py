@@ -11,9 +11,8 @@ import numpy as np
 
 from geartrain.kinematics import Circuit
 from geartrain.kinematics.components import find_components
-from geartrain.kinematics.phasing.azimuths import EPS, PitchPoints, contact_families
+from geartrain.kinematics.phasing.azimuths import EPS, PitchPoints, centred_residue, contact_families
 from geartrain.kinematics.phasing.phase_system import PhaseSystem
-from geartrain.numerics.rational_angles import centred_residue
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
-"""Motion with tooth and pin errors: the error of every pair propagates to the links and to the driver angles of other
-pairs.
+"""Composition of tooth and pin errors: the error of every pair propagates to the links and to the driver angles of
+other pairs.
 
 `ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's
-driver, which includes the errors of other pairs. In the order of solution the other pairs come first, so that one pass
+driver, which includes the errors of other pairs. In the order of solution these pairs precede it, so that a single pass
 composes the transmission functions exactly. Errors of coupled pairs are solved simultaneously (5).
 """
 
@@ -30,41 +30,41 @@ if TYPE_CHECKING:
 
 _CHUNK = 32768  # maximum number of positions evaluated at once
 _NUMBERS = 1 << 23  # maximum number of stored angles: longer trains use smaller chunks
-REST = 1e-9  # of the mean speed of a driver: slower motion backwards is rounding of a dwell
+REST = 1e-9  # fraction of a driver's mean speed: slower backward motion is rounding in a dwell
 PLAIN = 1  # periods up to which a plain product gives the phase of the driver to rounding
 
 
 @dataclass(frozen=True)
 class PairErrorSource:
-    """Pair with a variable transmission error, as a source of errors of the links."""
+    """Pair with a variable transmission error, which causes errors of the links."""
 
     id: str
     transmission: TransmissionFunction
-    """Transmission function of the pair; its argument is the driver's forward angle [rad]."""
+    """Transmission function of the pair. Its argument is the driver's angle in its mean sense of rotation [rad]."""
     pair: int
     """Index of the pair in `ErrorPropagation.pairs`."""
     driver_sense: int
-    """Sign of the driver's axis: -1 if it is opposite to the reference direction of its parallel axes, else 1.
+    """-1 if the driver's axis points against the reference direction of its parallel axes, else 1.
 
     `carrier_sense` is the same sign for the carrier.
     """
     carrier_sense: int
     cycles: Fraction
-    """Exact mean number of periods of the transmission function per revolution of the input, 0 or more."""
+    """Exact mean number of periods of the transmission function per revolution of the input; it is not negative."""
     phase: float
-    """Forward angle of the driver at position 0 of the input [rad]."""
+    """Angle of the driver in its mean sense of rotation, at position 0 of the input [rad]."""
     forward: int
     """Sign of the driver's mean speed about its axis, 1 or -1."""
     sense: int
     """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
     set_back: float = 0.0
-    """Angle of the driver at position 0 due to the errors of other pairs [rad]; the driver's teeth are counted from
-    there.
+    """Angle of the driver at position 0 that is due to the errors of other pairs [rad]; the driver's teeth are counted
+    from this angle.
     """
 
     @property
     def start(self) -> float:
-        """Forward angle of the driver at position 0 of the input, without the errors of links [rad]."""
+        """Angle of the driver at position 0 of the input, in its mean sense, without the errors of links [rad]."""
         return self.phase - self.set_back
 
     @property
@@ -74,7 +74,7 @@ class PairErrorSource:
 
     @property
     def mean(self) -> float:
-        """Mean forward speed of the driver divided by the speed of the input [1]."""
+        """Mean speed of the driver in its mean sense of rotation, divided by the speed of the input [1]."""
         return float(self.cycles) * self.transmission.period / (2 * np.pi)
 
 
@@ -88,29 +88,29 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Step in the order of solution: indices of the sources whose errors are solved together. Their drivers depend on
+    """Step in the order of solution: indices of the error sources that are solved together. Their drivers depend on
     earlier sources and on each other.
     """
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Indices of earlier sources on which the drivers depend; `from_known` has their coefficients, shape (sources,
-    known).
+    """Indices of the earlier sources on which the drivers depend; `from_known` contains their coefficients, shape
+    (sources, known).
     """
     from_known: Floats
     own: Floats
-    """Change of each driver's angle per unit of the error of each source of the step, shape (sources, sources)."""
+    """Change of each driver's angle per unit error of each source of the step, shape (sources, sources)."""
 
     @property
     def coupled(self) -> bool:
-        """True if the errors of the step move its own drivers."""
+        """True if the errors of the step change the angles of its own drivers."""
         return bool(self.own.any())
 
 
 class SeenLink(NamedTuple):
-    """Link whose motion is measured relative to a reference link, both by index; `sense` is -1 if the axes of the two
-    links are opposite, else 1. `scale` is 1 for angles [rad], and 1/(2 pi) for a link that slides [mm], for which the
-    equations have an angle of 2 pi for a travel of 1 mm.
+    """Link whose motion is measured relative to a reference link, both given by index. `sense` is -1 if the axes of the
+    two links are opposite, else 1. `scale` is 1 for angles [rad]. For a sliding link it is 1/(2 pi), because the
+    equations represent a travel of 1 mm by an angle of 2 pi.
     """
 
     of: int
@@ -119,7 +119,7 @@ class SeenLink(NamedTuple):
     scale: float = 1.0
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference, from values of links about their own axes."""
+        """Return the value of the link minus the value of its reference; values are about the links' own axes."""
         return float(self.scale * (values[self.of] - self.sense * values[self.base]))
 
 
@@ -128,7 +128,7 @@ class ErrorSamples(NamedTuple):
 
     See Also
     --------
-    Motion.at : returns it
+    Motion.at : method that returns it
     """
 
     turns: Floats
@@ -139,14 +139,14 @@ class ErrorSamples(NamedTuple):
     The error of an output with a pin and slot includes the designed deviation from uniform motion (anomaly).
     """
     rate: Floats
-    """Speed of each output minus its mean, divided by the input speed [1, or mm per turn for a link that slides], shape
+    """Speed of each output minus its mean, divided by the input speed [1, or mm/turn for a link that slides], shape
     (outputs, n).
     """
     reversing_drivers: frozenset[str] = frozenset()
     """Names of pairs whose driver turns against its mean sense of rotation at one or more of these positions.
 
-    While such a driver turns backwards, the coast flanks of its pair are in contact, but the transmission function of
-    the drive flanks is used, without backlash.
+    While such a driver turns backwards, the coast flanks of its pair are in contact. This is not modelled: the
+    transmission function of the drive flanks is used, without backlash.
     """
 
     def __repr__(self) -> str:
@@ -154,19 +154,19 @@ class ErrorSamples(NamedTuple):
 
 
 class ErrorSampler(Protocol):
-    """Protocol of objects that compute transmission errors of outputs, for at most `chunk` positions at once."""
+    """Protocol of objects that compute transmission errors of outputs, for at most `chunk` positions in one call."""
 
     @property
     def chunk(self) -> int:
-        """Maximum number of positions evaluated at once."""
+        """Maximum number of positions that are evaluated in one call."""
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Return errors [rad] and rates [1] of the outputs at positions of the input [revolutions]."""
 
 
 def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
-    """Return errors [rad] and rates [1] of the outputs at any number of positions of the input [revolutions], computed
-    in chunks.
+    """Return the errors [rad] and rates [1] of the outputs at any number of input positions [revolutions], computed in
+    chunks.
     """
     parts = [sampler.at(turns[start : start + sampler.chunk]) for start in range(0, len(turns), sampler.chunk)]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
@@ -182,11 +182,11 @@ class ErrorDifference:
 
     @property
     def chunk(self) -> int:
-        """Maximum number of positions that are evaluated at once."""
+        """Maximum number of positions that are evaluated in one call."""
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
+        """Return the differences of the errors at input positions `turns` [revolutions], at most `chunk` of them."""
         one, other = self.one.at(turns), self.other.at(turns)
         both = one.reversing_drivers | other.reversing_drivers
         return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
@@ -194,33 +194,33 @@ class ErrorDifference:
 
 @dataclass
 class ErrorComposition:
-    """Composition of the error sources of a train. It computes the errors of the requested outputs at any position."""
+    """Composition of the error sources of a train; it computes the errors of the requested outputs at any position."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
     outputs: tuple[SeenLink, ...]
     offsets: tuple[float, ...] = ()
-    """Constant added to the error of each output [rad or mm]; empty for zeros.
+    """Constant that is added to the error of each output [rad or mm]; empty if all constants are 0.
 
-    It contains the backlash of teeth with constant ratio, and the setting of the pointers.
+    It consists of the backlash of teeth with constant ratio and the setting of the pointers.
     """
 
     @cached_property
     def gains(self) -> Floats:
-        """Change of each source's driver angle per unit of the error of each pair [rad/rad], shape (sources, pairs)."""
+        """Change of each source's driver angle per unit error of each pair [rad/rad], shape (sources, pairs)."""
         rows = [sum(sign * self.spread.response[link] for link, sign in self.turned_by(each)) for each in self.sources]
         return np.array(rows).reshape(len(self.sources), len(self.spread.pairs))
 
     @cached_property
     def weights(self) -> Floats:
-        """Error of each output per unit of the error of each source [rad/rad or mm/rad], shape (outputs, sources)."""
+        """Change of each output per unit error of each source [rad/rad or mm/rad], shape (outputs, sources)."""
         of = [source.pair for source in self.sources]
         rows = [seen.scale * self.spread.sensitivity(*seen[:3])[of] for seen in self.outputs]
         return np.array(rows).reshape(len(self.outputs), len(self.sources))
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """Order of solution of the error sources on which an output depends."""
+        """Steps in the order of solution, for the error sources on which an output depends."""
         gains = self.gains[:, [source.pair for source in self.sources]]
         drivers = [np.flatnonzero(row).tolist() for row in gains]
         needed: set[int] = set()
@@ -245,19 +245,19 @@ class ErrorComposition:
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
-        """Return the change of a source's forward driver angle [rad] due to `error`, the errors of all links [rad]."""
+        """Return the change of a driver's angle in its mean sense [rad] due to `error`, the errors of links [rad]."""
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
-        """Return the forward angle of a source's driver [rad]; `error` has the errors of links by index [rad]."""
+        """Return a driver's angle in its mean sense [rad]; `error` is the error of each link, by index [rad]."""
         S = phase.cycles(source.cycles) * source.transmission.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the driver of a source and its carrier, whose errors change the driver angle, with their signs in
-        equation (3).
+        """Return the indices of a source's driver and of its carrier, whose errors change the driver angle, each with
+        its sign in equation (3).
         """
         joint = self.spread.joints[source.pair]
         return (
@@ -266,19 +266,19 @@ class ErrorComposition:
         )
 
     def seen_driver(self, source: PairErrorSource) -> SeenLink:
-        """Return the driver of a source relative to its carrier, as an output."""
+        """Return the motion of a source's driver relative to its carrier, in the form of an output."""
         joint = self.spread.joints[source.pair]
         return SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
 
     @cached_property
     def chunk(self) -> int:
-        """Maximum number of positions evaluated at once; it limits the memory for trains of any length."""
+        """Maximum number of positions that are evaluated in one call; it limits the memory for long trains."""
         # stored numbers: errors and rates of the sources with copies, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
         return max(64, min(_CHUNK, _NUMBERS // (4 * (len(self.sources) + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return errors [rad] and rates [1] of the outputs at no more than `chunk` positions of the input
+        """Return the errors [rad] and rates [1] of the outputs at no more than `chunk` positions of the input
         [revolutions].
         """
         phase = InputPhase(turns)
@@ -295,8 +295,8 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, phase: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the errors and rates of the driven sides of a solution step in place. Yield the names of pairs whose
-        driver turns against its mean motion.
+        """Compute the errors and rates of the driven sides of one solution step in place. Yield the names of pairs
+        whose driver turns against its mean motion.
         """
         own, known = list(step.sources), list(step.known)
         sources = [self.sources[at] for at in own]
@@ -327,7 +327,7 @@ class ErrorComposition:
 
 
 class InputPhase:
-    """Positions of the input, from which the phase of any transmission function is computed."""
+    """Positions of the input, from which the phases of transmission functions are computed."""
 
     def __init__(self, turns: Floats) -> None:
         self.turns = turns
@@ -338,10 +338,10 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """Return position times an exact number of periods per revolution [periods], modulo 1 if it may exceed `PLAIN`
-        periods.
+        """Return the positions times an exact number of periods per revolution [periods]; the result is taken modulo 1
+        if it may exceed `PLAIN` periods.
 
-        Dekker's product makes the result accurate to the rounding of one period, even after 1e12 revolutions.
+        Dekker's product keeps the rounding error at the level of one period, even after 1e12 revolutions.
         """
         factor = float(ratio)
         product: Floats = self.turns * factor

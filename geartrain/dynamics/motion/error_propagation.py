@@ -1,8 +1,8 @@
 """Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved exactly (its section 2).
 
-For a pair of links i and j on carrier k, a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle
-and delta the error of the pair's driven side. This is the Willis system without the mean speeds. One elimination gives
-every link as a sum over errors of pairs.
+For a pair of links i and j on carrier k, a (e_i - e_k) + b (e_j - e_k) = c delta, where e is the error of a link's
+angle, delta the error of the pair's driven side, and c its coefficient a or b. This is the Willis system without the
+mean speeds. One elimination gives the error of every link as a sum over the errors of pairs.
 
 Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
 docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Here S_m is the driver
@@ -46,17 +46,19 @@ _DEAD_CENTRE = "the motion is past a dead centre: an error turns its own driver 
 
 @dataclass(frozen=True)
 class CoupledErrors:
-    """Coupled pairs: names, transmission functions, senses of the driven sides, and `gain`, shape (pairs, pairs)."""
+    """Coupled pairs: names, transmission functions, senses of the driven sides, and the matrix `gain`."""
 
     names: tuple[str, ...]
     transmissions: tuple[TransmissionFunction, ...]
     senses: Floats
     gain: Floats
-    """Change of the forward angle of driver m per unit of the error of pair n's driven side [rad/rad]."""
+    """Change of the angle of driver m in its mean sense per unit error of the driven side of pair n [rad/rad], shape
+    (pairs, pairs).
+    """
 
     def transmissions_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
-        """Return the errors of the driven sides [rad] and their derivatives with respect to the driver angles [1],
-        signed, shape (pairs, n).
+        """Return the signed errors of the driven sides [rad] and their derivatives with respect to the driver angles
+        [1], shape (pairs, n) each.
         """
         error, slope = np.empty_like(S), np.empty_like(S)
         for at, transmission in enumerate(self.transmissions):
@@ -72,18 +74,18 @@ class CoupledErrors:
 
 
 def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return errors [rad], rates [1] and driver speeds [1] of coupled pairs, from driver angles and speeds without
-    these errors.
+    """Return the errors [rad], rates [1] and driver speeds [1] of coupled pairs, given the driver angles and speeds
+    without these errors.
 
     base      driver angles [rad], shape (pairs, n)
     turning   driver speeds divided by the speed of the input [1], shape (pairs, n)
 
-    Raises `GearTrainError` if the solution is not unique: the train would jump or lock there.
+    Raises `GearTrainError` if the solution is not unique, because the train would jump or lock.
     """
     delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
     # the determinant is 1 for ideal teeth and changes sign at a dead centre
-    if not (np.linalg.det(jacobian) > 0).all():
+    if not (_determinants(jacobian) > 0).all():
         raise _refusal(pairs.names, _DEAD_CENTRE)
     rate = _solve_coupled(jacobian, slope * turning)
     return delta, rate, turning + pairs.gain @ rate
@@ -91,7 +93,7 @@ def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) ->
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Return the errors [rad] by Newton's method, with the slopes of the transmission functions [1]."""
+    """Return the errors [rad], found by Newton's method, and the slopes of the transmission functions [1]."""
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.transmissions_at(base, active)
@@ -125,11 +127,11 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Return the error delta [rad] and slope [1] of a single pair by bisection; the residual of equation (5) increases
-    with delta up to a dead centre.
+    """Return the error delta [rad] and the slope [1] of a single pair, found by bisection. The residual of equation (5)
+    increases with delta up to a dead centre.
 
-    If the transmission function jumps at the solution, as for cut teeth that clash, the position of the jump is
-    returned with slope 0. Without contact the error is infinite, as in the transmission function.
+    If the transmission function jumps at the solution, as for cut teeth that collide, the position of the jump is
+    returned with slope 0. Without contact, the error is infinite, like the value of the transmission function.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -146,8 +148,8 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
-    """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
-    dead = np.linalg.det(matrices) == 0
+    """Return the Newton step, or 0 at dead centres, at which the Jacobian is singular."""
+    dead = _determinants(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
     step = np.zeros_like(right)
@@ -157,8 +159,14 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Return the solutions of n small linear systems, shape (pairs, n)."""
+    """Return the solutions of n small systems of linear equations, shape (pairs, n)."""
+    if len(right) == 1:  # the usual case; LAPACK would take half of the time of the motion
+        return np.asarray(right / matrices[:, 0, 0])
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
+
+
+def _determinants(matrices: Floats) -> Floats:
+    return np.asarray(matrices[:, 0, 0] if matrices.shape[1] == 1 else np.linalg.det(matrices))
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
@@ -175,17 +183,17 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
 
 
 class ErrorPath(NamedTuple):
-    """Links of a pair or coupling, and the coefficient of the driven side in its equation, for the propagation of
-    errors.
+    """Links of a pair or coupling through which its errors propagate, and the coefficient of the driven side in its
+    equation.
     """
 
     driver: int
     driven: int
     carrier: int
-    """Link whose angle is subtracted from the angle of the driver: usually the carrier of both sides."""
+    """Index of the link whose angle is subtracted from the driver's angle: usually the carrier of both sides."""
     coefficient: int
     driven_carrier: int
-    """Link whose angle is subtracted from the angle of the driven side."""
+    """Index of the link whose angle is subtracted from the angle of the driven side."""
 
 
 @dataclass(frozen=True)
@@ -195,17 +203,17 @@ class ErrorPropagation:
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
-    """Links of each pair, by index; they are determined on first access."""
+    """Links of each pair, by index of the pair; they are determined on first access."""
     forms: Sequence[Mapping[int, Fraction]]
     """Error of each link per unit of the right-hand side c delta of each pair's equation (2), by index of the pair."""
     reached: frozenset[int]
     """Pairs whose error affects the requested links, directly or through the driver angle of another pair. The errors
-    of other pairs are 0 here.
+    of all other pairs are taken as 0.
     """
 
     @cached_property
     def response(self) -> Floats:
-        """Error of each link per unit of the error of each pair's driven side [rad/rad], shape (links, pairs)."""
+        """Change of each link's angle per unit error of each pair's driven side [rad/rad], shape (links, pairs)."""
         found = np.zeros((len(self.links), len(self.pairs)))
         for link, form in enumerate(self.forms):
             for pair in self.reached.intersection(form):
@@ -223,7 +231,7 @@ class ErrorPropagation:
 
         sense   -1 if the axes of the two links are opposite
 
-        Raises `RangeError` if a sensitivity exceeds float64.
+        Raises `RangeError` if a sensitivity exceeds the range of float64.
         """
         with np.errstate(invalid="ignore"):
             found: Floats = self.response[link] - sense * self.response[base]
@@ -237,11 +245,11 @@ class ErrorPropagation:
 def find_error_propagation(
     system: WillisSystem, ends: Mapping[str, Sequence[int]], path: Callable[[str], ErrorPath], wanted: Iterable[int]
 ) -> ErrorPropagation | None:
-    """Return the propagation of errors to some links in a square Willis system; None if its equations do not determine
-    them.
+    """Return the propagation of errors to the requested links of a square Willis system; None if its equations do not
+    determine these errors.
 
-    ends     row label of each pair -> both sides and the carrier; other rows (inputs, locks) have no error
-    path     function that returns the `ErrorPath` of a row label; it is called when it is needed
+    ends     row label of each pair -> indices of both sides and the carrier; other rows (inputs, locks) have no error
+    path     function that returns the `ErrorPath` for a row label; it is called on demand
     wanted   indices of the requested links
     """
     at = {link: number for number, link in enumerate(system.links)}

@@ -1,8 +1,9 @@
-"""Extreme errors and rates of outputs over a run of the input, from both sides of every kink and from smooth maxima.
+"""Extreme errors and rates of outputs over a run of the input, both at kinks and at smooth maxima.
 
 The kinks of all transmission functions divide the run into pieces on which errors and rates are smooth. Each piece is
-evaluated at its ends, as one-sided limits because rates jump at kinks, and at its middle. A maximum between these
-positions is located only if it may exceed all of them. The result does not depend on the sampled positions of a run.
+evaluated in the middle and at its ends, where one-sided limits are taken because rates jump at kinks. A maximum between
+these positions is located only if it may exceed all of them. The result does not depend on the sampled positions of a
+run.
 """
 
 from __future__ import annotations
@@ -21,11 +22,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
 MOST_KINKS = 400_000  # kinks of a run that are all searched, which takes about 10 s in a train of 50 pairs
-_BESIDE = 1e-9  # of a narrow step: distance from the end of a piece at which its one-sided limit is taken
+_BESIDE = 1e-9  # [narrow steps] distance from the end of a piece at which its one-sided limit is taken
 _ULPS = 32  # units in the last place of the turns: minimum distance, so that rounding does not pass a kink
-_BEYOND = 0.1  # of the range in a piece: allowance for a maximum above the parabola through its ends and middle
+_BEYOND = 0.1  # [range in a piece] allowance for a maximum above the parabola through its ends and middle
 _STEEP = 4  # ratio of rise to bend in a piece, above which its values are taken to rise or fall throughout
-_SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
+_SURE = 1e-9  # [range of an output's errors or rates] tolerance of the search
 _ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
 _BATCH = 512  # pieces in which maxima are located at once
 _PARTS = 8  # subdivisions of a piece per round
@@ -43,12 +44,12 @@ class _Candidates(NamedTuple):
     high: Floats
 
     def chosen(self, which: Bools | Indices | slice) -> _Candidates:
-        """Return the selected candidates."""
+        """Return the selected candidates as a new object."""
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the candidates whose estimated maximum exceeds the maximum so far; equal maxima in other pieces are
-        omitted.
+        """Return the candidates whose estimated maximum exceeds the maximum found so far. Further pieces with an equal
+        maximum are omitted.
         """
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
@@ -56,13 +57,13 @@ class _Candidates(NamedTuple):
 def count_extremes(
     compositions: Sequence[ErrorComposition], sampler: ErrorSampler, turns: float, tallies: Sequence[RunningStatistics]
 ) -> frozenset[str]:
-    """Include the extremes over a run from position 0 to `turns` [revolutions] in the statistics of its outputs.
+    """Include the extremes over a run from position 0 to `turns` [revolutions] in the statistics of its outputs. Return
+    the names of the pairs whose driver turns against its mean motion at some position.
 
     compositions   compositions whose kinks divide the run
-    sampler        function of errors to search: one of the compositions, or the difference of two
+    sampler        errors to be searched: one of the compositions, or the difference of two
 
-    Runs with more than `MOST_KINKS` kinks are not searched. The result is the set of pairs whose driver turns against
-    its mean motion at some position.
+    Runs with more than `MOST_KINKS` kinks are not searched.
     """
     searches = [KinkSearch(each) for each in compositions]
     low, high = sorted((0.0, turns))
@@ -99,7 +100,7 @@ def count_extremes(
 
 
 def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -> Iterator[tuple[Floats, Floats]]:
-    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, at most `size` at once."""
+    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, for `size` pieces at once."""
     narrowest = min(searches, key=lambda each: each.step)
     for steps in narrowest.steps(low, high):
         kinks = [search.between(steps).turns for search in searches]
@@ -112,7 +113,7 @@ def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -
 
 
 def _signed(found: ErrorSamples) -> Floats:
-    """Return the quantities whose maxima are sought: errors, negated errors, rates, negated rates of each output.
+    """Return the quantities whose maxima are searched: errors, negated errors, rates and negated rates of each output.
 
     The shape is (4 outputs, n).
     """
@@ -121,8 +122,8 @@ def _signed(found: ErrorSamples) -> Floats:
 
 
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return an estimate of each piece's maximum from values at both ends and in the middle; smooth functions rarely
-    exceed it.
+    """Return an estimate of each piece's maximum from its values at both ends and in the middle. Smooth functions
+    rarely exceed the estimate.
     """
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
@@ -136,14 +137,14 @@ def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
 
 
 def _tolerance(maxima: Floats) -> Floats:
-    """Return the tolerance within which each maximum is located, from the range of the output's errors or rates."""
+    """Return the tolerance to which each maximum is located, from the range of the output's errors or rates."""
     # a maximum plus the maximum of the negatives is the range
     ranges = np.repeat(maxima[::2] + maxima[1::2], 2)
     return np.maximum(_SURE * ranges, _ROUNDING)
 
 
 def _locate(sampler: ErrorSampler, maxima: Floats, given: _Candidates) -> None:
-    """Include the maxima of the candidates' quantities inside their pieces, by repeated subdivision, in place."""
+    """Update the maxima in place with those inside the candidates' pieces, which are found by subdivision."""
     for _ in range(_ROUNDS):
         given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))

@@ -1,9 +1,10 @@
-"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between them.
+"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between these
+positions.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
-equation (3) of docs/motion.md, which includes the errors of earlier pairs. The equation S_m(x) = kink + an integer
-number of periods is solved for x. The values of S_m at the ends of a narrow step determine the number of kinks in it,
-and each is located by false position. If a driver reverses, the step is divided at the reversal.
+equation (3) of docs/motion.md, which includes the errors of earlier pairs. The position x of a kink satisfies S_m(x) =
+kink + an integer number of periods. The values of S_m at the ends of a narrow step determine the number of kinks in it,
+and each kink is located by the method of false position. If a driver reverses, the step is divided at the reversal.
 """
 
 from __future__ import annotations
@@ -26,16 +27,16 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
 MOST_KINKS = 20_000_000
-"""Maximum number of kinks of transmission functions in one list."""
+"""Maximum number of kinks of transmission functions that are listed."""
 
 _STEPS = 4  # steps per period of the fastest pair: the driver is monotonic in a step, or slow at one of its ends
 _FEWEST = 16  # minimum number of steps in a run
-_SLOW = 0.25  # of the mean speed: a slower driver may reverse within the step
+_SLOW = 0.25  # [mean speed] a slower driver may reverse within the step
 _PARTS = 16  # subdivisions of a step in which a driver may reverse
 _HALVINGS = 40  # bisections of a step to locate a reversal
-_FINE = 1e-14  # of a step: tolerance of a kink's position
-_SAME = 1e-9  # of a period: closer kinks are the same kink found from both sides
-_NEAR = 1e-11  # of a period: overlap of neighbouring steps, so that rounding loses no kink at their ends
+_FINE = 1e-14  # [steps] tolerance of a kink's position
+_SAME = 1e-9  # [periods] closer kinks are the same kink found from both sides
+_NEAR = 1e-11  # [periods] overlap of neighbouring steps, so that rounding loses no kink at their ends
 
 
 class KinkPositions(NamedTuple):
@@ -43,7 +44,7 @@ class KinkPositions(NamedTuple):
 
     See Also
     --------
-    Motion.kink_positions : returns it
+    Motion.kink_positions : method that returns it
     """
 
     turns: Floats
@@ -51,7 +52,7 @@ class KinkPositions(NamedTuple):
     pair: Indices
     """Index into `pairs` of the pair that passes a kink at each position, shape (n,)."""
     pairs: tuple[str, ...]
-    """Names of all pairs and couplings to which `pair` refers."""
+    """Names of all pairs and couplings, to which `pair` refers by index."""
 
     def __repr__(self) -> str:
         return short_repr(self)
@@ -62,7 +63,7 @@ class KinkPositions(NamedTuple):
 
 
 class InputSteps(NamedTuple):
-    """Steps of the input from `low` to `high` [revolutions], shape (n,) each."""
+    """Steps of the input, from `low` to `high` [revolutions], each of shape (n,)."""
 
     low: Floats
     high: Floats
@@ -70,16 +71,14 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of the transmission function of `source`; `drivers` is the error composition with only its driver as
-    output.
-    """
+    """Kinks of the transmission function of `source`, whose driver is the only output of `drivers`."""
 
     source: PairErrorSource
     drivers: ErrorComposition
 
     @cached_property
     def kinks(self) -> Floats:
-        """Driver angles at which the transmission function has a kink [rad], within one period, each once."""
+        """Driver angles within one period at which the transmission function has a kink [rad], without duplicates."""
         period = self.source.transmission.period
         found = folded_kinks(self.source.transmission)
         # a kink at 0 may be listed again just before the end of the period, due to rounding
@@ -87,8 +86,8 @@ class PairKinks:
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
     def shift(self, turns: Floats) -> tuple[Floats, Floats]:
-        """Return the change of the driver's forward angle due to errors [rad], and the driver's speed divided by the
-        speed of the input [1].
+        """Return the change of the driver's angle, in its mean sense of rotation, due to errors [rad], and the driver's
+        speed divided by the speed of the input [1].
         """
         if not len(turns):
             return np.zeros(0), np.zeros(0)
@@ -96,8 +95,8 @@ class PairKinks:
         return way * found.error[0], self.source.mean + way * found.rate[0]
 
     def between(self, steps: InputSteps) -> Floats:
-        """Return the positions of kinks within some steps [revolutions] and the indices of the kinks, shape (2, n), in
-        any order.
+        """Return the positions of kinks within the given steps [revolutions] and the indices of the kinks, shape (2,
+        n), in any order.
 
         A kink at the end of a step may be listed twice.
         """
@@ -110,7 +109,7 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Return the steps, divided at reversals of the driver, which are found by bisection."""
+        """Return the steps, divided at the positions at which the driver reverses; these are found by bisection."""
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
         ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum
@@ -129,8 +128,8 @@ class PairKinks:
         )
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
-        """Return positions and indices of the kinks in steps without reversals, from `low` and `high`, the driver's
-        shifts at their ends [rad].
+        """Return the positions and indices of the kinks in steps without reversals. `low` and `high` are the driver's
+        shifts at the ends of the steps [rad].
         """
         period, cycles = self.source.transmission.period, self.source.cycles
         width = steps.high - steps.low
@@ -156,7 +155,7 @@ class PairKinks:
         return np.stack([steps.low[step] + share * width[step], kink])
 
     def unique(self, found: Floats) -> Floats:
-        """Return the positions from `between` in ascending order, without kinks that were found from both sides."""
+        """Return the positions from `between` in ascending order; kinks that were found twice are merged."""
         turns, kink = found[:, np.lexsort(found)]
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
         again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(kink, prepend=-1) == 0)
@@ -164,14 +163,14 @@ class PairKinks:
 
 
 class KinkSearch:
-    """Search for kinks of all pairs on which an output of an error composition depends."""
+    """Search for the kinks of all pairs on which an output of an error composition depends."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition = composition
 
     @cached_property
     def pairs(self) -> tuple[PairKinks, ...]:
-        """Kinks of each pair on which an output depends, with the angle of the pair's driver."""
+        """Kinks of each pair on which an output depends, with the motion of the pair's driver."""
         found = []
         for source in self.composition.used:
             # no offsets: a pointer that is set does not turn any driver
@@ -186,14 +185,14 @@ class KinkSearch:
 
     @cached_property
     def step(self) -> float:
-        """Maximum width of a narrow step [revolutions]: a quarter of the mean period of the fastest component of a
+        """Maximum width of a step [revolutions]: a quarter of the mean period of the fastest component of a
         transmission function; infinite if every error is constant.
         """
         fastest = max((pair.source.pace for pair in self.pairs), default=0.0)
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Yield equal narrow steps from one position of the input to another [revolutions], in chunks."""
+        """Yield equal steps of the input between two positions [revolutions], no wider than `step`, in chunks."""
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
         for first in range(0, number, self.composition.chunk):
             at = np.arange(first, min(first + self.composition.chunk, number) + 1)
@@ -202,11 +201,11 @@ class KinkSearch:
             yield InputSteps(ends[:-1], ends[1:])
 
     def between(self, steps: InputSteps) -> KinkPositions:
-        """Return the kinks within the given narrow steps of the input."""
+        """Return the kinks within the given steps of the input."""
         return self._joined([[pair.between(steps)] for pair in self.pairs])
 
     def over(self, start: float, end: float) -> KinkPositions:
-        """Return the kinks between two positions of the input [revolutions], both included."""
+        """Return the kinks between two positions of the input [revolutions], including both ends."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
             what = f"there are about {expected:.2g} kinks from {start:g} to {end:g} turns"
             why = f"at most {MOST_KINKS:g} kinks are listed in one call"

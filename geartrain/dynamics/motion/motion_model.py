@@ -1,8 +1,8 @@
 """Motion of a solved train: pairs with variable errors, their drivers, starting positions, and error propagation.
 
-At position 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The
-angles of drivers are counted from position 0, so that the errors of other pairs do not change the phase at which a pair
-starts.
+At position 0 every tooth and pin has its declared phase, and the error of every pointer is set to 0 (section 3 of
+docs/motion.md). The angles of drivers are measured from position 0, so that the errors of other pairs do not change the
+initial phase of a pair.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class TransmissionErrorCurve(Tabular, Result):
 
     See Also
     --------
-    Motion.transmission_error : returns it
+    Motion.transmission_error : method that returns it
     """
 
     KEYS = (Key("", "statistics"),)
@@ -65,7 +65,7 @@ class TransmissionErrorCurve(Tabular, Result):
     speed: Floats
     """Speed of the output divided by the input speed [1], shape (n,)."""
     slides: bool = False
-    """True for a sliding output link; its error is then in mm, and its speed in mm per turn of the input."""
+    """True for a sliding output link; its error is then in mm, and its speed in mm per revolution of the input."""
 
     def _meaning(self, column: str) -> str:
         text, unit = super()._meaning(column), {"error": "mm", "speed": "mm/turn"}.get(column)
@@ -78,7 +78,7 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each position: angle of the input, transmission error and speed."""
+        """Columns of a table with one row for each position: angle of the input, transmission error and speed."""
         return {"angle": self.angle.tolist(), "error": self.error.tolist(), "speed": self.speed.tolist()}
 
     @property
@@ -88,7 +88,7 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @cached_property
     def statistics(self) -> RunningStatistics:
-        """Peak values and moments of the transmission error and the speed of the output."""
+        """Peak values and moments of the output's transmission error and speed."""
         found = RunningStatistics(self.name, self.ratio, slides=self.slides)
         found.add(self.error, self.speed - self.mean)
         return found
@@ -118,7 +118,7 @@ def _refuse_jumps(composition: ErrorComposition) -> None:
 
 
 class Motion(Shown):
-    """Motion of a train including the errors of its teeth and pins, as a function of the revolutions of its input.
+    """Motion of a train, including the errors of its teeth and pins, as a function of the revolutions of its input.
 
     Transmission functions are composed in the order in which the train is solved: equations (2) and (3) of
     docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link has the position that it
@@ -182,9 +182,9 @@ class Motion(Shown):
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Return the links of a pair or coupling, through which its errors propagate.
+        """Return the links through which the errors of a pair or coupling propagate.
 
-        Raise `QuestionError` if the pair is redundant, so that its errors have no unique effect.
+        Raise `QuestionError` if the pair is redundant, because its errors then have no unique effect.
         """
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
@@ -201,7 +201,7 @@ class Motion(Shown):
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition in the declared sense of the input, with the given pairs as additional sources.
+        """Return the error composition for the declared sense of the input, with the given pairs as additional sources.
 
         Pairs with constant ratio can thus be given other transmission functions.
         """
@@ -209,14 +209,14 @@ class Motion(Shown):
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """Error composition before the pointers are set: every link has the position given by the transmission
+        """Error composition before the pointers are set; every link has the position that follows from the transmission
         functions.
         """
         return replace(self._forward, offsets=())
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition of the errors if the input turns against the declared sense, with the coast flanks in contact."""
+        """Composition of the errors while the input turns in the opposite sense, with coast flanks in contact."""
         return self._composed(-1)
 
     @cached_property
@@ -233,7 +233,7 @@ class Motion(Shown):
         """Return the error composition for one direction of the input, 1 or -1, with the pairs `besides` as further
         sources.
 
-        Every pointer is set at position 0 of the declared sense.
+        Every pointer is set at position 0, with the input turning in the declared sense.
         """
         backlash, (teeth, pins) = self._errors.backlash(way), self._start
         found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
@@ -251,7 +251,7 @@ class Motion(Shown):
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles by which the errors of teeth, and of pins, turn each link at position 0 of the input [rad].
+        """Angles by which the errors of teeth, and the errors of pins, turn each link at position 0 of the input [rad].
 
         They are linear in the errors of the pairs, because all driver angles are known.
         """
@@ -281,17 +281,16 @@ class Motion(Shown):
             )
 
     def _with_angles(self, angles: Mapping[str, float]) -> Motion:
-        """Return the motion with other starting angles of some links [rad]."""
+        """Return the motion with different initial angles of some links [rad]."""
         return Motion(replace(self._problem, angles={**self._problem.angles, **angles}), self.outputs)
 
     def with_random_phases(self, random: Generator) -> Motion:
-        """Return the motion in which each pair with a declared tooth form but without a declared phase has a random
-        phase.
+        """Return the motion with random phases of the pairs that declare a tooth form but no phase.
 
         Parameters
         ----------
         random : numpy.random.Generator
-            Generator of the phases, which are uniform in 0 to 1 [pitch].
+            Generator of the phases, which are uniformly distributed in [0, 1) [pitch].
 
         Returns
         -------
@@ -313,8 +312,8 @@ class Motion(Shown):
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Change of an output's angle per angular error of a pair's driven side [rad/rad, or mm/rad for a link that
-        slides], by output and pair; also for ideal teeth.
+        """Change of an output's angle per unit error of a pair's driven side [rad/rad, or mm/rad for a link that
+        slides], by output and pair; ideal teeth are included.
         """
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
@@ -324,7 +323,7 @@ class Motion(Shown):
 
     @cached_property
     def advances(self) -> Mapping[str, float]:
-        """Mean speed of each link that one-way clutches drive in steps, per unit speed of the input [1], by link."""
+        """Mean speed of each link that clutches drive in steps, divided by the speed of the input [1], by link."""
         stepped = self._problem.stepped
         if stepped is None:
             return {}
@@ -347,14 +346,14 @@ class Motion(Shown):
 
     @property
     def _start_angles(self) -> list[float]:
-        """Starting angle of each output [rad], positive in the sense in which the input turns."""
+        """Angle of each output at position 0 [rad], positive in the sense in which the input turns."""
         angles = self._problem.way * np.array([self._problem.angles.get(link, 0.0) for link in self._propagation.links])
         return [seen.difference(angles) for seen in self._seen]
 
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
         """Yield the errors at equally spaced positions from 0 to `turns`, both included, in chunks that fit in memory.
 
-        turns   revolutions of the input; if negative, it turns against its declared sense, on the coast flanks
+        turns   revolutions of the input; if negative, it turns against its declared sense, on coast flanks
         first   index of the first position
         """
         sampler = self._sampler(turns)
@@ -365,17 +364,17 @@ class Motion(Shown):
             yield sampler.at(turns * (at / (samples - 1)))
 
     def _composition(self, turns: float) -> ErrorComposition:
-        """Return the error composition of a run, with the coast flanks in contact if `turns` is negative."""
+        """Return the error composition for a run; if `turns` is negative, the coast flanks are in contact."""
         return self._forward if turns >= 0 else self._backward
 
     def _sampler(self, turns: float) -> ErrorSampler:
-        """Return the sampler of errors of a run: one composition, or the difference of two."""
+        """Return the sampler of the errors of a run, which is one composition or the difference of two."""
         own = self._composition(turns)
         return own if self._ideal is None else ErrorDifference(own, self._ideal._composition(turns))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return transmission errors and speed deviations of the outputs at given positions of the input, which turns
-        in its declared sense.
+        """Return the transmission errors and speed deviations of the outputs at given positions of the input, which
+        turns in its declared sense.
 
         Parameters
         ----------
@@ -394,8 +393,8 @@ class Motion(Shown):
         """Return the positions of the input at which a pair passes a kink of its transmission function. The errors of
         all outputs are smooth between these positions.
 
-        Only pairs on which an output depends are included. A speed may jump at a kink: evaluate it slightly before and
-        after the kink for its one-sided limits.
+        Only pairs on which an output depends are included. A speed may jump at a kink; evaluate it slightly before and
+        after the kink to obtain its one-sided limits.
 
         Parameters
         ----------
@@ -405,7 +404,7 @@ class Motion(Shown):
         Returns
         -------
         KinkPositions
-            Positions in ascending order, with the pair at each; both ends are included.
+            Positions in ascending order, each with its pair; both ends are included.
 
         Raises
         ------
@@ -501,8 +500,8 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over a number of revolutions of the input, with peak values and moments of each output's
-        error and speed.
+        """Compute the motion over a number of revolutions of the input, and the peak values and moments of each
+        output's error and speed.
 
         Parameters
         ----------
@@ -526,11 +525,11 @@ class Motion(Shown):
 
     @cached_property
     def _usual_run(self) -> Any:
-        """Run with the default options of `geartrain motion`, which `print` shows."""
+        """Run with the default options of `geartrain motion`; `print` displays it."""
         return self.run()
 
     def _with_transmissions(self, transmissions: Mapping[str, Any]) -> Motion:
-        """Return the motion with other transmission functions of some pairs, by name."""
+        """Return the motion in which the transmission functions of some pairs are replaced, by name of the pair."""
         meshes = dict(self._problem.meshes)
         meshes |= {name: replace(meshes[name], transmission=each) for name, each in transmissions.items()}
         motion = self._of(tuple(self.outputs), replace(self._problem, meshes=meshes))
@@ -544,7 +543,7 @@ class Motion(Shown):
         return motion
 
     def _turning(self, requested: Collection[str] = ()) -> Motion:
-        """Return the motion of the outputs that turn. Raise `QuestionError` if a requested output slides, or all do."""
+        """Return the motion of the outputs that turn. Raise `QuestionError` if a requested output, or all, slide."""
         turning = tuple(name for name in self.outputs if name not in self._sliding)
         if not turning or not self._sliding.isdisjoint(requested):
             what = f"'{min(self._sliding)}' slides, and errors of pointers are angles"
@@ -570,7 +569,7 @@ class Motion(Shown):
         return motion
 
     def _with_ideal_teeth(self) -> Motion:
-        """Return the motion of the same train with ideal teeth (constant ratio, no backlash) and the same couplings."""
+        """Return the motion of the same train with the same couplings and ideal teeth (constant ratio, no backlash)."""
         return Motion(replace(self._problem, meshes={}), self.outputs)
 
     def _degrees_per_day(self, output: str) -> float | None:

@@ -30,42 +30,42 @@ class MotionProblem:
     """Data from which the motion of a train in one state is computed, as collected by `find_motion_problem`."""
 
     system: WillisSystem
-    """Labelled Willis equations without those of redundant circuits."""
+    """Labelled Willis equations, without those of redundant circuits."""
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
-    """Exact mean speeds of all links. `driving_link` is the input by whose angle positions are measured."""
+    """Exact mean speed of each link. `driving_link` is the input whose angle defines the positions."""
     frame: str
     driving_link: str
     meshes: Mapping[str, GearMesh]
-    """Gear pairs with a declared tooth form as driven in this state, by name; the teeth of a pair are built on first
-    access.
+    """Gear pairs with a declared tooth form and with their driver in this state, by name; the teeth of a pair are built
+    on first access.
     """
     couplings: Sequence[CouplingMesh]
     drivers: Mapping[str, MeshDriver]
     """Driver of each pair and coupling, with the reason why it drives."""
     angles: Mapping[str, float] = field(default_factory=dict)
-    """Starting angles of links [rad]; 0 for links without an entry."""
+    """Angle of each link at position 0 [rad]; links without an entry have the angle 0."""
     phases: Mapping[str, float] = field(default_factory=dict)
-    """Declared phase of each pair: position of a tooth of its first wheel past the line of centres [pitch]."""
+    """Declared phase of each pair: distance by which a tooth of its first wheel is past the line of centres [pitch]."""
     shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
-    """Other pairs of a wheel with the same line of centres, by pair and wheel.
+    """Other pairs that share a wheel and its line of centres with a pair, by names of the pair and the wheel.
 
     Each has a flag that is True if the two contacts are on opposite sides of the wheel.
     """
     loops: Sequence[Loop] = ()
-    """Loops closed by redundant pairs, around which the transmission errors of the teeth may be incompatible."""
+    """Loops closed by redundant pairs. The transmission errors of the teeth around such a loop may be incompatible."""
     tree: Tree | None = None
     """Joints of the train, for speeds relative to links that slide; None if no link slides."""
     stepped: SteppedLink | None = None
-    """Link that one-way clutches drive in steps, which is at rest in the system; None if there is none."""
+    """Link that one-way clutches drive in steps, and which is at rest in `system`; None if there is none."""
     behind: frozenset[str] = frozenset()
     """The stepped link and the links whose motion depends on it."""
 
     def without_steps(
         self, outputs: Mapping[str, tuple[str, str]], requested: Collection[str] = ()
     ) -> dict[str, tuple[str, str]]:
-        """Return the outputs that do not depend on the stepped link; without any, the links that drive it."""
+        """Return the outputs that do not depend on the stepped link; if there are none, the links that drive it."""
         kept = {name: ends for name, ends in outputs.items() if self.behind.isdisjoint(ends)}
         if requested and (left := outputs.keys() - kept.keys()):
             what = f"the motion of '{min(left)}' is not determined at every position"
@@ -75,19 +75,19 @@ class MotionProblem:
 
     @cached_property
     def periods(self) -> Mapping[str, Fraction]:
-        """Periods of the transmission function of each coupling in one revolution of its driver."""
+        """Number of periods of each coupling's transmission function per revolution of its driver."""
         return {joint.coupling.name: joint.coupling.periods_per_turn for joint in self.couplings}
 
     @property
     def deviation(self) -> str:
-        """Name of the angle of an output minus its mean motion: transmission error of teeth, anomaly of couplings, or
-        deviation if both contribute.
+        """Name of the difference between the angle of an output and its mean motion: transmission error for teeth,
+        anomaly for couplings, or deviation if both contribute.
         """
         return ("deviation" if self.couplings else "transmission error") if self.rippling else "anomaly"
 
     @property
     def way(self) -> int:
-        """Sign of the driving link's speed about its own axis; revolutions and angles are positive in its sense."""
+        """Sign of the driving link's speed about its own axis; its revolutions and angles are positive in its sense."""
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
@@ -108,8 +108,8 @@ class MotionProblem:
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:
-        """Return the pair that drives the driver of `pair` and so determines its phase, with its flag as in `shared`;
-        None without such a pair.
+        """Return the pair that drives the driver of `pair` and thereby determines its phase, with its flag as in
+        `shared`; None without such a pair.
         """
         if pair not in self.drivers:
             return None
@@ -124,17 +124,17 @@ class MotionProblem:
 
     @property
     def rippling(self) -> list[GearMesh]:
-        """Pairs whose teeth have a variable speed ratio."""
+        """Gear pairs whose teeth have a variable speed ratio."""
         return [mesh for mesh in self.teeth if not mesh.rigid]
 
     @property
     def rigid(self) -> list[GearMesh]:
-        """Gear pairs whose tooth form keeps a constant ratio, so that they need no evaluation at positions."""
+        """Gear pairs whose tooth form has a constant ratio, so that they need not be evaluated at each position."""
         return [mesh for mesh in self.teeth if mesh.rigid]
 
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
-        """Return the loops closed by redundant pairs in which transmission errors vary, each with the pairs that cause
-        them.
+        """Return the loops closed by redundant pairs in which transmission errors vary, each with the names of the
+        pairs that cause them.
         """
         found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
         return [(loop, real) for loop, real in found if real]
@@ -149,8 +149,8 @@ def find_motion_problem(
 ) -> MotionProblem:
     """Collect the data from which the motion of a train in one state is computed.
 
-    without   redundant pairs to omit, so that the errors of teeth are compatible around every closed loop
-    steps     True to keep a link at rest that one-way clutches drive in steps; otherwise its speed is undetermined
+    without   redundant pairs that are omitted, so that the errors of teeth are compatible around every closed loop
+    steps     True if a link that one-way clutches drive in steps is to be at rest; otherwise its speed is undetermined
 
     Raises `QuestionError` if no input turns, or if the speeds of the train are not determined.
     """
@@ -197,8 +197,8 @@ def find_motion_problem(
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
     """Return, for each pair of a wheel with coaxial mates, the other pairs that share its line of centres.
 
-    An example is a planet between sun and ring. The flag is True if the contacts are on opposite sides of the wheel,
-    because one mate is a ring.
+    An example is a planet between sun and ring. The flag is True if the two contacts are on opposite sides of the
+    wheel, which is the case if one mate is a ring.
     """
     of_wheel: dict[str, list[tuple[Circuit, str]]] = {}
     for circuit in circuits:

@@ -1,10 +1,10 @@
 """Run of a motion over a number of revolutions of the input, with its statistics and spectrum.
 
 The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
-revolution of the input, an exact rational number, so its harmonic k has the order k times `cycles`. To first order the
-amplitude of a line is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is
-also computed, by a Fourier sum with a Hann window. Differences between the two amplitudes are due to modulation of
-pairs by each other.
+revolution of the input, an exact rational number, so its harmonic k has the order k times `cycles`. To first order, the
+amplitude of a line is the amplitude of the pair's harmonic times the output's sensitivity. The amplitude in the
+composed motion is also computed, by a Fourier sum with a Hann window. The two amplitudes differ because pairs modulate
+each other.
 """
 
 from __future__ import annotations
@@ -39,16 +39,16 @@ _SAMPLES = 1 << 14  # samples of one period of a transmission function, or of 64
 _HARMONICS = 24  # harmonics of the pitch evaluated for each pair
 _MAIN = 3  # outputs in a summary
 _ANGLES = ("angle (rad)", "error (rad)", "speed")  # columns of an output that turns
-_FAINT = 1e-6  # of the strongest line: weaker lines are omitted
+_FAINT = 1e-6  # fraction of the strongest line: weaker lines are omitted
 
 
 class HarmonicShare(NamedTuple):
-    """Harmonic of a pair's error, with its first-order amplitude in an output."""
+    """Harmonic of a pair's error, and its first-order amplitude in an output."""
 
     pair: str
     """Name of the pair whose error has this harmonic."""
     harmonic: int
-    """Number of the harmonic: cycles per period of the pair's error."""
+    """Number of the harmonic, which is the number of its cycles per period of the pair's error."""
     amplitude: float
     """First-order amplitude of the harmonic in the output's error [rad]."""
 
@@ -60,11 +60,11 @@ class SpectrumLine(Result):
     KEYS = (Key("order", to=float), Key("exact", "order"), "expected", "measured", Key("pairs", "shares"))
 
     order: Fraction
-    """Exact number of periods per revolution of the input."""
+    """Order of the line: exact number of periods per revolution of the input."""
     shares: tuple[HarmonicShare, ...]
     """Harmonics of the pairs' transmission errors that have this order."""
     expected: float
-    """First-order estimate of the amplitude: sum of `shares` with their phases [rad]."""
+    """First-order estimate of the amplitude, which is the sum of `shares` with their phases [rad]."""
     measured: float
     """Amplitude of the line in the composed motion, from a Fourier sum [rad]."""
 
@@ -103,7 +103,7 @@ def find_spectrum(
 def _harmonics(superposed: Superposition, at: int) -> Complex:
     """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad].
 
-    Phases refer to the start of the run.
+    Phases refer to the beginning of the run.
     """
     source = superposed.sources[at]
     pitches = source.transmission.pitch_count
@@ -172,7 +172,7 @@ def _measure(
 
 
 MOST_TURNS = 10**12
-"""Maximum number of revolutions; positions in float64 do not resolve single teeth beyond it."""
+"""Maximum number of revolutions; beyond it, positions in float64 do not resolve single teeth."""
 
 
 def _ignore(_: int) -> None:
@@ -181,10 +181,10 @@ def _ignore(_: int) -> None:
 
 @dataclass
 class MotionRun(Tabular, Pictured):
-    """Evaluation of a motion at positions from 0 to `turns` of the input; each result is computed when its method
+    """Evaluation of a motion at input positions from 0 to `turns`; each result is computed when its method
     is called.
 
-    Results are filled in by `run`, `run_random_phases` and `find_spectra`.
+    The methods `run`, `run_random_phases` and `find_spectra` compute the results.
 
     Raises
     ------
@@ -222,9 +222,9 @@ class MotionRun(Tabular, Pictured):
     FIGURE = "drawing.output_error_plots:motion_figure"
 
     motion: Motion
-    """Motion that the run evaluates."""
+    """Motion that is evaluated."""
     turns: float
-    """Revolutions of the input, up to 1e12 in magnitude. If the number is negative, the input turns against its
+    """Number of revolutions of the input, up to 1e12 in magnitude. If it is negative, the input turns against its
     declared sense, and the coast flanks are in contact.
     """
     samples: int
@@ -234,11 +234,11 @@ class MotionRun(Tabular, Pictured):
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
     """Peak values and moments of each output's error and speed, for each set of random phases."""
     seed: int | None = None
-    """Random seed of the phases; None if no random phases were used."""
+    """Random seed for the phases; None if no random phases were used."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
     """Spectral lines by output, in descending order of the first-order amplitude."""
     done: int = 0
-    """Number of positions evaluated so far; less than `samples` after an interrupted run."""
+    """Number of positions evaluated so far; it is less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
     """Names of pairs whose driver temporarily turned against its mean sense of rotation; the backlash of these
     pairs is not modelled.
@@ -253,7 +253,7 @@ class MotionRun(Tabular, Pictured):
             raise QuestionError(
                 Problem(
                     f"samples = {self.samples} is too small",
-                    "at least two positions of the input are needed",
+                    "a run has at least two positions of the input",
                     "pass samples >= 2",
                 )
             )
@@ -272,11 +272,11 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each evaluated output: mean speed, transmission error and extreme speeds.
+        """Columns of a table with one row for each evaluated output: mean speed, transmission error and extreme speeds.
 
         The mean speed is divided by the input speed [1], and the error is in rad. `slowest` and `fastest` are the
-        extreme speeds minus the mean speed, divided by the input speed [1]. Links that slide have columns of their own,
-        in mm and in mm per turn.
+        extreme speeds minus the mean speed, divided by the input speed [1]. For links that slide there are separate
+        columns, in mm and in mm per revolution.
         """
         meanings = list(self.MEANINGS)
         found: dict[str, Sequence[Any]] = {"output": [each.name for each in self.statistics]}
@@ -359,9 +359,9 @@ class MotionRun(Tabular, Pictured):
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
         """Return the table columns for some positions: revolutions, then angle [rad], error [rad] and speed [1] of each
-        output, or travel [mm], error [mm] and speed [mm/turn] of a link that slides.
+        output; for a link that slides, travel [mm], error [mm] and speed [mm/turn].
 
-        An angle is the sum of starting angle, mean motion and error.
+        An angle is the sum of the initial angle, the mean motion and the error.
         """
         found = [passage.turns]
         for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):
@@ -370,7 +370,8 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if the last row of a partial table, cells separated by commas, does not belong to this run.
+        """Raise an error if `row`, the last row of a partial table with cells separated by commas, does not belong to
+        this run.
 
         rows   number of rows of the partial table
         """

@@ -1,7 +1,7 @@
 """Transmission errors of the pairs of a moving train: driver, phase of the teeth, and propagation of the errors.
 
-The equations are in sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the phase of the teeth at
-position 0.
+The equations are in sections 1 and 3 of docs/motion.md: the driver's angle S in its mean sense of rotation (3), and the
+phase of the teeth at position 0.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class PairErrors:
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Link -> index of its column in the Willis system."""
+        """Index of each link's column in the Willis system, by name of the link."""
         return {link: at for at, link in enumerate(self.train.system.links)}
 
     @cached_property
@@ -78,7 +78,7 @@ class PairErrors:
         return ErrorPath(ends[1 - driven], ends[driven], bases[1 - driven], coefficient, bases[driven])
 
     def driven_side(self, circuit: Circuit) -> int:
-        """Return 0 if the circuit's first link is driven, 1 if its second link is driven.
+        """Return 0 if the first link of the circuit is driven, 1 if the second link is driven.
 
         The transmission function of a coupling gives the angle of its driven link, such as a slot, even if this link
         drives, because couplings have no backlash.
@@ -109,9 +109,10 @@ class PairErrors:
         return forward if circuit.a * circuit.b < 0 else -forward
 
     def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
-        """Yield the pairs with variable error, and the pins, for one direction of the input (`way`, 1 or -1).
+        """Yield the pairs with variable error and the pins as error sources, for one direction of the input (`way`, 1
+        or -1).
 
-        besides   names of pairs with constant ratio to include too
+        besides   names of pairs with constant ratio that are also included
         """
         meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
         transmissions: dict[str, TransmissionFunction] = {mesh.name: mesh.transmission for mesh in meshes}
@@ -156,10 +157,10 @@ class PairErrors:
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
-        """Return the driver's forward angle [rad] at which a tooth of the first wheel has the declared phase of the
-        pair.
+        """Return the driver's angle in its mean sense of rotation [rad] at which a tooth of the first wheel has the
+        declared phase.
 
-        It is 0 for a coupling, whose transmission function includes its phase. If the first wheel is driven, its
+        The angle is 0 for a coupling, whose transmission function includes its phase. If the first wheel is driven, the
         transmission function is inverted. A planet between sun and ring has no independent phase in its second pair:
         its first pair determines the phase, with half a pitch added if its tooth count is odd and the contacts are on
         opposite sides.

@@ -1,7 +1,7 @@
-"""Peaks and moments of an output, accumulated over chunks of positions.
+"""Peaks and moments of an output's error and speed, accumulated over chunks of positions.
 
-Moments of chunks are combined with the update of Chan, Golub and LeVeque (1983). Transmission errors have sharp
-peaks that samples miss, so extremes are searched separately (docs/motion.md, section 5).
+Moments of chunks are combined with the update of Chan, Golub and LeVeque (1983). Transmission errors have sharp peaks
+that are missed by sampling, so extremes are searched separately (docs/motion.md, section 5).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def mean_speed(name: str, ratio: Fraction) -> float:
-    """Return an exact mean speed as a float. Raise `RangeError` beyond the range of float64."""
+    """Return an exact mean speed as a float. Raise `RangeError` if it is beyond the range of float64."""
     found = as_float(ratio)
     if found is None:
         what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the speed of the input"
@@ -32,20 +32,20 @@ def mean_speed(name: str, ratio: Fraction) -> float:
 class SpeedSpan(NamedTuple):
     """Minimum and maximum speed divided by the mean speed, and the mean speed divided by the speed of the input.
 
-    If the mean is 0, minimum and maximum are relative to the speed of the input.
+    If the mean speed is 0, minimum and maximum are divided by the speed of the input.
     """
 
     min: float
-    """Minimum speed divided by the mean speed, or by the speed of the input if the mean is 0."""
+    """Minimum speed divided by the mean speed, or by the speed of the input if the mean speed is 0 [1]."""
     max: float
-    """Maximum speed divided by the mean speed, or by the speed of the input if the mean is 0."""
+    """Maximum speed divided by the mean speed, or by the speed of the input if the mean speed is 0 [1]."""
     mean: float
-    """Mean speed divided by the speed of the input."""
+    """Mean speed divided by the speed of the input [1]."""
 
 
 @dataclass
 class RunningStatistics(Result):
-    """Running peak values and moments of error and speed of one output (algorithm of Welford, Chan et al.).
+    """Running peak values and moments of the error and speed of one output (algorithms of Welford and of Chan et al.).
 
     See Also
     --------
@@ -65,13 +65,13 @@ class RunningStatistics(Result):
     count: int = 0
     """Number of positions evaluated so far."""
     centre: float = 0.0
-    """Mean deviation of the output from its mean motion, in `unit`."""
+    """Mean deviation of the output from its mean motion [`unit`]."""
     square: float = 0.0
-    """Sum of squared deviations of the error from its mean, in the square of `unit`."""
+    """Sum of the squared differences between the deviation and its mean [`unit`^2]."""
     minimum: float = inf
-    """Minimum deviation of the output from its mean motion, in `unit`."""
+    """Minimum deviation of the output from its mean motion [`unit`]."""
     most: float = -inf
-    """Maximum deviation of the output from its mean motion, in `unit`."""
+    """Maximum deviation of the output from its mean motion [`unit`]."""
     slow: float = inf
     """Minimum speed of the output minus its mean speed, divided by the input speed [1]."""
     fast: float = -inf
@@ -89,9 +89,9 @@ class RunningStatistics(Result):
         Parameters
         ----------
         error : array of float, (n,)
-            Errors at these positions [rad].
+            Errors at these positions [`unit`].
         rate : array of float, (n,)
-            Speeds minus the mean speed, divided by the input speed.
+            Speeds minus the mean speed, divided by the input speed [1].
         """
         new = len(error)
         centre = float(error.mean())
@@ -116,27 +116,29 @@ class RunningStatistics(Result):
 
     @property
     def degrees_or_mm(self) -> float:
-        """Factor from `unit` to the unit in which deviations are printed: deg, or mm for a link that slides."""
+        """Factor that converts deviations from `unit` to the unit in which they are printed: deg, or mm if the link
+        slides.
+        """
         return 1.0 if self.slides else 180 / pi
 
     @property
     def peak_to_peak(self) -> float:
-        """Maximum minus minimum deviation of the output from its mean motion, in `unit`."""
+        """Maximum minus minimum deviation of the output from its mean motion [`unit`]."""
         return self.most - self.minimum
 
     @property
     def rms(self) -> float:
-        """Root mean square of the output's error about its mean, in `unit`."""
+        """Root mean square of the output's error about its mean [`unit`]."""
         return sqrt(self.square / self.count)
 
     @property
     def speed_span(self) -> SpeedSpan:
-        """Minimum and maximum speed as in `speeds`, together with the mean speed divided by the input speed."""
+        """Minimum and maximum speed as in `speeds`, and the mean speed divided by the input speed [1]."""
         return SpeedSpan(*self.speeds, self.mean)
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Minimum and maximum speed divided by the mean speed, or by the input speed if the mean is 0."""
+        """Minimum and maximum speed divided by the mean speed, or by the input speed if the mean speed is 0 [1]."""
         scale = self.mean or 1.0
         # a negative mean exchanges minimum and maximum
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))

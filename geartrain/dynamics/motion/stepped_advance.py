@@ -1,8 +1,9 @@
 """Mean advance of a link that one-way clutches drive in steps, from the motion of the links that drive it.
 
 The driven link has the speed max(0, v_1, v_2, ...) of its drivers, because friction holds it while none of them drives
-it. A common period of the drivers is divided at kinks, and where another driver becomes the fastest. In each piece the
-advance is that of the fastest driver, a difference of two positions: for one driver, the sum is its positive variation.
+it. A common period of the drivers is divided at kinks, and where another driver becomes the fastest. In each piece, the
+advance is the difference of the end positions of the fastest driver. For a single driver, the sum is its positive
+variation.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ _HALVINGS = 30  # bisections of a part in which the fastest driver changes; the 
 def mean_advance(problem: MotionProblem, drivers: ErrorComposition, stepped: SteppedLink) -> float:
     """Return the mean speed of the driven link divided by the speed of the input [1].
 
-    drivers   composition whose outputs are the drivers in the order of `stepped`
+    drivers   composition whose outputs are the drivers, in the order of `stepped`
     """
     search, period = KinkSearch(drivers), float(common_period(drivers.used) or 0)
     unknown = [each.id for each in problem.circuits if each.swings and each.id not in problem.periods]

@@ -1,10 +1,10 @@
 """First-order estimates of the transmission error, equation (6) of docs/motion.md.
 
-The estimates neglect the effect of pairs on each other. To first order an output's error is the sum over all pairs of
-its sensitivity times the pair's error. The sum of the ranges of these terms is an upper bound on the range of the
-output's error. For independent phases the squares of their rms values add. Superposition in phase neglects only the
-change of driver angles by errors. Part of this change is corrected by the mean error of each driver relative to
-position 0 (lag).
+The estimates neglect the effect of pairs on each other. To first order, an output's error is the sum over all pairs of
+the output's sensitivity times the pair's error. The sum of the ranges of these terms is an upper bound on the range of
+the output's error. If the phases are independent, the squares of the rms values of these terms add. Superposition in
+phase neglects only the change of driver angles by errors. Part of this change is taken into account by the mean error
+of each driver relative to position 0 (lag).
 """
 
 from __future__ import annotations
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 
 
 class Superposition:
-    """First-order errors of the outputs of an error composition; every pair is evaluated at the mean angle of its
-    driver.
-    """
+    """First-order errors of the outputs of an error composition, with each pair at the mean angle of its driver."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used
@@ -33,29 +31,29 @@ class Superposition:
 
     @cached_property
     def ranges(self) -> Floats:
-        """Range of each pair's error, maximum minus minimum angle of the driven side [rad]."""
+        """Range of the error of each pair's driven side, maximum minus minimum [rad]."""
         ends = [source.transmission.error_range() for source in self.sources]
         return np.array([high - low for low, high in ends])
 
     @cached_property
     def moments(self) -> Floats:
-        """Mean and rms value of each pair's error, angle of the driven side [rad], shape (2, pairs)."""
+        """Mean and rms value of the error of each pair's driven side [rad], shape (2, pairs)."""
         return np.array([source.transmission.error_moments() for source in self.sources]).reshape(-1, 2).T
 
     @property
     def bounds(self) -> list[float]:
-        """Upper bound on the range (maximum minus minimum) of each output's error [rad]."""
+        """Upper bound on the range of each output's error, maximum minus minimum [rad]."""
         return [float(row) for row in np.abs(self.response) @ self.ranges]
 
     @property
     def independent(self) -> list[float]:
-        """Rms value of each output's error for independent phases of the pairs [rad]."""
+        """Rms value of each output's error if the phases of the pairs are independent [rad]."""
         # variances of independent terms add
         return [hypot(*row) for row in self.response * self.moments[1]]
 
     @cached_property
     def lags(self) -> Floats:
-        """Change of each driver's forward angle due to the mean errors of all pairs [rad]."""
+        """Change of each driver's angle, in its mean sense of rotation, due to the mean errors of all pairs [rad]."""
         spread, senses = self.composition.spread, np.array([float(source.sense) for source in self.sources])
         deltas = np.zeros((len(spread.pairs), 1))
         deltas[[source.pair for source in self.sources], 0] = senses * self.moments[0]
@@ -63,7 +61,7 @@ class Superposition:
         return np.array([self.composition.driver_shift(source, error) for source in self.sources])
 
     def at(self, turns: Floats, lagged: bool = True) -> Floats:
-        """Return errors of the outputs [rad], shape (outputs, n), at positions of the input [revolutions].
+        """Return the errors of the outputs [rad], shape (outputs, n), at positions of the input [revolutions].
 
         `lagged=True` adds the mean errors of the drivers to their angles.
         """

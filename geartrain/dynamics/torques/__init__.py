@@ -1,12 +1,12 @@
-"""Mean torques: balance of every link, power flow, verdicts.
+"""Mean torques: balance of every link, power flow, and verdicts.
 
 load_case                            train in one state with its loads; check of equilibrium by virtual work
 torque_balance, flow_patterns        balance of every link; patterns of power flow consistent with the losses
-mean_efficiencies                    mean efficiency of each pair, depending on which of its torques is constant
+mean_efficiencies                    mean efficiency of each pair, which depends on which torque is constant
 bearing_loads                        forces of pairs on the axes of their wheels; friction of loaded bearings
-torque_analysis                      from a declared train to its torques and their verdict
-torque_results                       results; torques on single links and pairs
-power_flow                           power flow of a result: streams and recirculating power
+torque_analysis                      torques of a declared train and their verdict
+torque_results                       results: torques on single links and pairs
+power_flow                           power flow of a result, and recirculating power
 drivers                              driving side of each pair
 neglected_effects                    effects that a balance of mean torques neglects
 """

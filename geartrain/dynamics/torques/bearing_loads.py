@@ -1,11 +1,11 @@
-"""Forces of gear pairs on the axes of their wheels, and the friction of bearings that grows with them.
+"""Forces of gear pairs on the axes of their wheels, and the bearing friction that is proportional to these forces.
 
-The force of a pair on parallel axes is one force on one wheel and the opposite force on the other. Its moments about
-both axes are the torques T_i and T_j of the pair, so its component across the line of centres is (T_i + T_j)/a, with
-the centre distance a, for any point of contact and any friction. The component along the line of centres is in a fixed
-ratio to it. The resultant R of all forces on a link, and on the links that it carries, presses on its bearing, whose
-friction torque is rho |R|, with the radius rho = r mu/sqrt(1 + mu^2) of the friction circle: section 6 of
-docs/torques.md, equations (26) to (28).
+A pair on parallel axes exerts a force on one wheel and the opposite force on the other. Its moments about both axes are
+the torques T_i and T_j of the pair, so the component perpendicular to the line of centres is (T_i + T_j)/a with the
+centre distance a, for any point of contact and any friction. The component along the line of centres is proportional to
+it. The resultant R of all forces on a link, and on the links that it carries, presses on its bearing, whose friction
+torque is rho |R|, where rho = r mu/sqrt(1 + mu^2) is the radius of the friction circle, r the pivot radius and mu the
+coefficient of friction; see equations (26) to (28) of docs/torques.md, section 6.
 """
 
 from __future__ import annotations
@@ -36,15 +36,15 @@ if TYPE_CHECKING:
 
 _MM = 1e-3
 _MOST_ROUNDS = 20_000  # maximum iterations; one that needs more is at the limit of locking
-_GROWTH = 1e12  # of the first torques: a larger friction torque grows without limit
+_GROWTH = 1e12  # multiple of the first torques: a larger friction torque grows without limit
 _KNOWN = -1  # column of the known torques
 
 
 def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> float | None:
-    """Return the separating force of a pair on parallel axes, divided by its tangential force, without friction; None
-    if unknown.
+    """Return the separating force of a pair on parallel axes divided by its tangential force, without friction [1];
+    None if it is unknown.
 
-    mesh   pair with its tooth form; None for a pressure angle of 20 degrees, or that of the declared form
+    mesh   pair with its tooth form; None to use the pressure angle of the declared form, by default 20 degrees
     """
     if mesh is not None:
         return mesh.separation
@@ -56,40 +56,41 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
 class AxisForce(NamedTuple):
     """Force on the second link of a pair, and the opposite force on its first link; or a force on a single link.
 
-    With the torque r on the carrier (of a single link, the torque on it), the force is r `along` + |r| `lean` `apart`.
+    The force is r `along` + |r| `lean` `apart`, where r is the torque on the carrier, or for a single link the torque
+    on it.
     """
 
     name: str
     """Name of the pair, or of the link on which the line of a weight acts."""
     links: tuple[str | None, str]
-    """First link (None for a single force) and second link."""
+    """First link (None for a force on a single link) and second link."""
     carrier: str
     along: Vector
     apart: Vector
     lean: float
     """Mean separating force divided by the tangential force."""
     places: tuple[float | None, float | None]
-    """Position along the axis [m] at which the force acts on either link; None for the middle between two bearings."""
+    """Position along the axis at which the force acts on each link [m]; None for the middle between two bearings."""
 
 
 @dataclass(frozen=True)
 class BearingLoads:
-    """Loads of the bearings of a train whose friction depends on them, in one load case."""
+    """Loads of the bearings whose friction depends on the load, in one load case."""
 
     setting: LoadCase
     steady: bool = True
-    """False to omit weights, so that all forces are proportional to the torques."""
+    """True to include the weights of links; False to omit them, so that all forces are proportional to the torques."""
     _left_out: dict[str, list[str]] = field(default_factory=dict, init=False)
 
     @cached_property
     def links(self) -> tuple[str, ...]:
-        """Links that turn in bearings whose friction grows with the load."""
+        """Links in bearings whose friction depends on the load."""
         links = self.setting.train.links.items()
         return tuple(link for link, part in links if part.friction_radius and link in self.setting.tree.parent)
 
     @cached_property
     def forces(self) -> tuple[AxisForce, ...]:
-        """Forces of pairs and of the line of a weight that press on these bearings."""
+        """Forces of pairs, and of the line of a weight, that act on these bearings."""
         found = [*self._pairs(), *self._line()]
         return tuple(
             each for each in found if any(self._inside(link, end) for link in self.links for end in each.links)
@@ -97,12 +98,12 @@ class BearingLoads:
 
     @property
     def missing(self) -> Mapping[str, Sequence[str]]:
-        """Names of the pairs and lines whose forces on these bearings are unknown, by reason."""
+        """Names of the pairs and lines whose forces on these bearings are unknown, by the reason."""
         _ = self.forces  # lists the pairs
         return self._left_out
 
     def _inside(self, link: str, end: str | None) -> bool:
-        """Return True if a force on the link `end` presses on the bearing of `link`, which is `end` or carries it."""
+        """Return True if a force on the link `end` loads the bearing of `link`, which is `end` or carries it."""
         while end is not None and end != link:
             end = self.setting.tree.above(end)
         return end is not None
@@ -139,7 +140,7 @@ class BearingLoads:
             )
 
     def _line(self) -> Iterator[AxisForce]:
-        """Yield the pull of the line of a driving weight, in proportion to the torque on its drum."""
+        """Yield the force of the line of a driving weight, which is proportional to the torque on its drum."""
         drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return
@@ -162,7 +163,7 @@ class BearingLoads:
 
     @cached_property
     def _supports(self) -> tuple[tuple[int, float | None, float | None], ...]:
-        """Number of the link, own position and position of the other bearing [m] of each bearing; None without `at`."""
+        """Number of the link, own position and position of the other bearing [m], by bearing; None without `at`."""
         found: list[tuple[int, float | None, float | None]] = []
         for number, link in enumerate(self.links):
             bearing = self.setting.train.links[link].bearing
@@ -172,7 +173,7 @@ class BearingLoads:
 
     @cached_property
     def _shares(self) -> Floats:
-        """Part of each force that presses on each bearing, shape (bearings, forces)."""
+        """Fraction of each force that each bearing carries, shape (bearings, forces)."""
         found = np.zeros((len(self._supports), len(self.forces)))
         for row, (number, own, other) in enumerate(self._supports):
             for column, force in enumerate(self.forces):
@@ -183,14 +184,14 @@ class BearingLoads:
 
     @cached_property
     def masses(self) -> Mapping[str, float | None]:
-        """Mass of each link whose weight presses on these bearings [kg]; None if it is not declared."""
+        """Mass of each link whose weight loads these bearings [kg]; None if it is not declared."""
         links = self.setting.train.links.items() if self._down and self.steady else ()
         carried = {link: part.mass for link, part in links if any(self._inside(each, link) for each in self.links)}
         return {link: None if mass is None else mass.si for link, mass in carried.items()}
 
     @cached_property
     def _weights(self) -> Floats:
-        """Weight on each bearing [N], shape (bearings, 3, 1)."""
+        """Weight that each bearing carries [N], shape (bearings, 3, 1)."""
         found = np.zeros((len(self._supports), 3, 1))
         for row, (number, own, other) in enumerate(self._supports):
             mass = sum(mass or 0.0 for link, mass in self.masses.items() if self._inside(self.links[number], link))
@@ -198,7 +199,7 @@ class BearingLoads:
         return found
 
     def _ways(self, links: Iterable[str]) -> Floats:
-        """Return the reference directions of the axes of links, shape (links, 3, 1)."""
+        """Return the reference directions of the axes of the given links, shape (links, 3, 1)."""
         labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
         ways = [scaled(self.setting.train.axes.get(label, Axis()).way, axes.sign(label)) for label in labels]
         return np.array(ways).reshape(-1, 3, 1)
@@ -206,7 +207,7 @@ class BearingLoads:
     # --------------------------------------------------------------------------------------------------------- friction
 
     def loads(self, reactions: Floats, angles: Floats | None = None, leans: Floats | None = None) -> Floats:
-        """Return the load on the bearings of each link [N], shape (links, n): the sum over two bearings.
+        """Return the load on the bearings of each link [N], shape (links, n), which is the sum over its two bearings.
 
         reactions   torque on the carrier of each force, about the reference direction [N m], shape (forces, n)
         angles      angle by which each carrier has turned from its declared position [rad], shape (forces, n)
@@ -235,9 +236,9 @@ class BearingLoads:
         return found
 
     def friction(self, loads: Floats, balance: TorqueBalance) -> Floats:
-        """Return the friction torque of each link's bearing [N m], shape (links, n), from its load [N].
+        """Return the friction torque of each link's bearings [N m], given their loads [N], both of shape (links, n).
 
-        Equal planets have equal torques, also if weights or rounding make their loads differ.
+        Equal planets have equal torques, even if their loads differ due to weights or rounding.
         """
         own = np.array([[self.setting.train.links[link].friction_radius] for link in self.links]) * loads
         like, row = equal_planets(balance), {link: at for at, link in enumerate(self.links)}
@@ -247,7 +248,7 @@ class BearingLoads:
         self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]
     ) -> Mapping[str, tuple[float, float]] | None:
         """Return the friction torque [N m] and the load [N] of each bearing for one pattern of power flow; None if no
-        friction torques agree with their loads, because the friction of the bearings locks the train.
+        friction torques are consistent with the loads, because bearing friction locks the train.
 
         Torques of pairs are linear in the friction torques M, so M = rho |R(M)| is solved by fixed-point iteration.
 
@@ -267,8 +268,9 @@ class BearingLoads:
         return {link: (torque, load) for link, torque, load in rows}
 
     def _responses(self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]) -> Floats | None:
-        """Return the carrier torque of each force without load-dependent friction, and for a unit friction torque in
-        each bearing, shape (forces, 1 + links). Equal planets have one column, of the first one.
+        """Return the carrier torque of each force, first without load-dependent friction, then for a unit friction
+        torque in each bearing, shape (forces, 1 + links). Equal planets have one column, which belongs to the first of
+        them.
         """
         like = equal_planets(balance)
         known: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in balance.known.items()}
@@ -306,16 +308,16 @@ class BearingLoads:
 
 
 def _share(own: float | None, other: float | None, place: float | None) -> float:
-    """Return the part of a force that a bearing takes, by the law of the lever."""
+    """Return the fraction of a force that a bearing carries, by the law of the lever."""
     if own is None or other is None:
         return 1.0
     return 0.5 if place is None else (other - place) / (other - own)
 
 
 def fixed_point(function: Callable[[Floats], Floats], size: int) -> Floats | None:
-    """Return a column x = f(x) of nonnegative numbers by damped fixed-point iteration from 0; None if it diverges.
+    """Return a column x = f(x) of non-negative numbers by damped fixed-point iteration from 0; None if it diverges.
 
-    The mean of x and f(x) converges where f reverses deviations, as it does where friction relieves a bearing.
+    The mean of x and f(x) is used, because it converges even if f reverses deviations: friction may relieve a bearing.
     """
     found = np.zeros((size, 1))
     first = float(np.max(function(found), initial=0.0))

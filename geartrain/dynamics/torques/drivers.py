@@ -1,11 +1,12 @@
 """Driver of each gear pair and coupling, from the power that flows through it relative to its carrier.
 
-The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driver
-of all pairs that transmit a load. Otherwise every pointer on a dial is assumed to resist its motion with an
-unknown torque. Without loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0. If all
-c_o of a pair have one sign, the power flows in one direction for any torques of the pointers; otherwise the direction
-is undetermined. For pairs through which no pointer takes power, resistance is assumed at the outputs on shafts, then at
-all outputs, all shafts, and finally every joint. The order of declaration does not matter.
+The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driver of
+all pairs that transmit a load. Otherwise the motion of every pointer on a dial is assumed to be resisted by an
+unknown torque. Without losses, the multiplier x of a pair is linear in these torques T_o >= 0 of the pointers o, x =
+sum c_o T_o. If all c_o of a pair have one sign, the power flows in one direction for any torques of the pointers;
+otherwise the direction is undetermined. For pairs through which no pointer takes power, resistance is assumed at the
+outputs on shafts, then at all outputs, all shafts, and finally every joint. The result does not depend on the order of
+declaration.
 
 The coefficients c_o are exact. One elimination treats all loads at once: each load is a symbol, and every unknown
 torque is a linear form of the symbols.
@@ -37,17 +38,17 @@ if TYPE_CHECKING:
 
 
 UnitLoads = Mapping[str, Mapping[str, Fraction]]
-"""Unit loads of each resisting output or link, by name: torque on each link."""
+"""Unit loads of each resisting output or link, by its name: torque on each link."""
 
 _NAMED = 3  # loads listed by name; the others are only counted
 
 
 LoadGroup = frozenset[str]
-"""Names of outputs or links that resist their motion."""
+"""Names of outputs or links whose motion is resisted."""
 
 
 def group_text(group: LoadGroup) -> str:
-    """Return up to three names of a set of loads in alphabetical order, and the number of further names."""
+    """Return up to three names of a set of loads in alphabetical order, followed by the number of further names."""
     names = sorted(group)[:_NAMED]
     if rest := len(group) - len(names):
         names.append(f"{rest} more")
@@ -55,8 +56,8 @@ def group_text(group: LoadGroup) -> str:
 
 
 class FlowDirections(NamedTuple):
-    """Names of the loads whose power flows from a pair's first wheel to its second, and of the loads whose power flows
-    back.
+    """Directions of power in a pair: names of the loads whose power flows from the first wheel to the second, and of
+    those whose power flows back.
     """
 
     ahead: LoadGroup = frozenset()
@@ -64,20 +65,20 @@ class FlowDirections(NamedTuple):
     shared: bool = False
     """True if redundant pairs share the power in undetermined proportions."""
     note: str = ""
-    """Note on outputs that take no power through this pair."""
+    """Note on outputs to which no power flows through this pair."""
 
     def __bool__(self) -> bool:
         return bool(self.ahead or self.back or self.shared)
 
     def joined(self, other: FlowDirections) -> FlowDirections:
-        """Return the union of the loads of two results for one pair."""
+        """Return the union of the loads in two results for the same pair."""
         return FlowDirections(self.ahead | other.ahead, self.back | other.back, self.shared or other.shared, self.note)
 
 
 def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, FlowDirections]:
     """Return the direction in which each load drives power through every mesh; empty if no torques balance the loads.
 
-    balance   torque balance without losses; its known torques only mark the loaded links
+    balance   torque balance without losses; its known torques only indicate the loaded links
     """
     at = {link: row for row, link in enumerate(balance.links)}
     names = sorted(loads)
@@ -103,8 +104,8 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
     access.
 
     circuits   circuits of the pairs and couplings to include
-    setting    load case with the speeds of the state; None if they are undetermined: only declared drivers are then
-    certain
+    setting    load case with the speeds of the state; None if they are undetermined: then only declared drivers are
+               certain
     """
     if setting is None:
         return _undetermined(train, circuits, "the speeds of the train are not determined")
@@ -112,7 +113,7 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
 
 
 def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
-    """Return the drivers for a train with unknown speeds, for the reason `why`: only declared drivers are certain."""
+    """Return the drivers for a train whose speeds are unknown for the reason `why`; only declared ones are certain."""
     declared = _declared(train)
     text = f"undetermined: {why}"
     return {
@@ -125,9 +126,7 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """Drivers of all pairs in one state with known speeds. Efficiencies are computed only for pairs that transmit a
-    load.
-    """
+    """Drivers of all pairs in one state. Efficiencies are computed only for pairs that transmit a load."""
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting
@@ -145,8 +144,8 @@ class _Drivers:
 
     @cached_property
     def _idle(self) -> Collection[str]:
-        """Pairs that transmit no load, so that their efficiencies are not needed; searched for only if efficiencies
-        need teeth.
+        """Pairs that transmit no load, so that their efficiencies are not required. They are determined only if
+        efficiencies require teeth.
         """
         return find_idle_pairs(self.setting) if self.setting.meshes else ()
 
@@ -174,7 +173,7 @@ def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
 
 
 def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
-    """Return the directions of power through the pairs `wanted` from assumed resistance at pointers, outputs, shafts or
+    """Return the directions of power through the pairs `wanted`, assuming resistance at pointers, outputs, shafts or
     joints.
     """
     found: dict[str, FlowDirections] = {}
@@ -190,15 +189,15 @@ def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirection
 
 
 def _pointers(setting: LoadCase) -> UnitLoads:
-    """Return unit loads at every output with a dial, against its motion."""
+    """Return a unit load at every output with a dial, opposite to its motion."""
     outputs = setting.case.outputs
     return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
 
 
 def _output_shafts(setting: LoadCase) -> UnitLoads:
-    """Return unit loads at every output shaft that turns in the frame.
+    """Return a unit load at every output shaft that turns in the frame, opposite to its motion.
 
-    Outputs on carriers, or relative to a carrier, are treated as displays, which take no power.
+    Outputs on carriers, or relative to a carrier, are treated as displays that take no power.
     """
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
@@ -207,19 +206,19 @@ def _output_shafts(setting: LoadCase) -> UnitLoads:
 
 
 def _outputs(setting: LoadCase) -> UnitLoads:
-    """Return unit loads at every output, against its motion."""
+    """Return a unit load at every output, opposite to its motion."""
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     return {name: drag for name, (of, base) in ends.items() if (drag := drag_torques(setting, of, base))}
 
 
 def _shafts(setting: LoadCase) -> UnitLoads:
-    """Return unit loads at every link that turns in the frame, against its motion."""
+    """Return a unit load at every link that turns in the frame, opposite to its motion."""
     return {link: drag for link, drag in _joints(setting).items() if setting.bearer(link) == setting.train.frame}
 
 
 def _joints(setting: LoadCase) -> UnitLoads:
-    """Return unit loads at every link, against its rotation in its bearing."""
+    """Return a unit load at every link, opposite to its rotation in its bearing."""
     links = (link for link in setting.train.links if link != setting.train.frame)
     return {link: drag for link in links if (drag := drag_torques(setting, link, setting.bearer(link)))}
 
@@ -231,14 +230,14 @@ _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_shafts, ""),
     (_joints, ""),
 )
-"""Kinds of assumed resistance in order of precedence, each with the subject of a note on pairs that carry no power to
-it.
+"""Kinds of assumed resistance in order of precedence, each with the subject of a note on pairs that transmit no power
+to them.
 """
 
 
 def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
-    """Return a unit torque between two links against their relative rotation, by link; empty if they are at relative
-    rest.
+    """Return a unit torque between two links that opposes their relative rotation, by link; empty if they do not move
+    relative to each other.
     """
     own, other = setting.sense(of), setting.sense(base)
     relative = setting.relative(of, base) or Fraction(0)
@@ -250,7 +249,7 @@ def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 
 
 def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """Return the directions of power in every pair for any combination of loads with positive factors."""
+    """Return the directions of power in every pair for all combinations of the loads with positive factors."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting) if loads else ():
         like = equal_planets(build_balance(setting, {}, requested))
@@ -264,9 +263,9 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield the possible sets of links with unknown torque, each with as many links as there are inputs.
+    """Yield the possible sets of links with unknown torque. Each set has as many links as there are inputs.
 
-    If there is a crank besides the inputs, the sets are all combinations of the crank with further links.
+    If the crank is not an input, the sets are all combinations of the crank with further links.
     """
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
@@ -278,8 +277,8 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return a load repeated on all planets equal to the loaded one; the torque on other links is multiplied by their
-    number.
+    """Return a load that is repeated on all planets equal to the loaded one; the torque on other links is multiplied by
+    the number of planets.
     """
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
@@ -321,10 +320,11 @@ def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
 
 
 def _assumed_driver(train: Train, circuit: Circuit) -> str:
-    """Return the assumed driver of a pair whose driver is undetermined: the driving link of a coupling as declared,
-    or the wheel with fewer teeth.
+    """Return the assumed driver of a pair whose driver is undetermined: the declared driving link of a coupling, or the
+    wheel with fewer teeth.
 
-    An external wheel precedes a ring gear, and wheels with equal tooth counts are ordered by name.
+    An external wheel takes precedence over a ring gear; if tooth counts are equal, the first name in alphabetical order
+    does.
     """
     if circuit.kind != "gear":
         return circuit.j

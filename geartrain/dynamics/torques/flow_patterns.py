@@ -1,10 +1,10 @@
-"""Patterns of power flow that are consistent with the losses, equations (5), (7) and (8) of docs/torques.md.
+"""Patterns of power flow that are consistent with the losses; see equations (5), (7) and (8) of docs/torques.md.
 
-The balance is piecewise linear, with one linear system per pattern. If all pieces have the same orientation there is
-exactly one solution (Samelson, Thrall and Wesler); otherwise there is none (self-locking) or there are several. In
-block triangular form an ordinary train has one unknown per block, and only the patterns of coupled meshes in one block
-are enumerated together. In a block with too many lossy meshes, a fixed-point iteration gives one pattern, and the
-result is marked as not exhaustively checked.
+The balance is piecewise linear, with one linear system for each pattern. If all pieces have the same orientation, there
+is exactly one solution (Samelson, Thrall and Wesler); otherwise there may be none (self-locking) or several. In block
+triangular form, an ordinary train has one unknown per block, and only the patterns of coupled meshes within a block are
+enumerated. For a block with too many meshes with losses, a fixed-point iteration gives one pattern, and the result is
+marked as not exhaustively checked.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Sides = Mapping[int, int]
 """Driving side of each unknown torque, by column of the balance; see `TorqueUnknown`."""
 
 KnownTorques = Mapping[int, LinearForm]
-"""Known torques of each row of the balance, as linear forms of symbols (columns below 0)."""
+"""Known torques of each row of the balance, as linear forms of symbols, which have columns below 0."""
 _MOST_TRIED = 14  # lossy torques of a block with exhaustive enumeration: 2^14 small systems
 _MOST_OPEN = 10  # the same if torques remain undetermined anyway and the iteration has found a solution
 _MOST_ROUNDS = 50  # maximum iterations; a repeated pattern ends them sooner
@@ -46,7 +46,7 @@ def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides
 def solve_block(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques
 ) -> dict[int, LinearForm | None] | None:
-    """Return the unknown torques of a block as linear forms of symbols, with None for undetermined torques.
+    """Return the unknown torques of a block as linear forms of symbols; None for each undetermined torque.
 
     The result is None if no torques balance the known ones.
     """
@@ -65,7 +65,7 @@ def solve_block(
 
 @dataclass(frozen=True)
 class FlowPattern:
-    """Pattern of power flow that is consistent with the losses, with its torques."""
+    """Pattern of power flow that is consistent with the losses, and its torques."""
 
     pattern: DrivingSides
     solved: SolvedTorques
@@ -73,7 +73,7 @@ class FlowPattern:
 
 @dataclass
 class _Partial:
-    """Solution of the first blocks: sides and torques by column, and the sum of torques in each row."""
+    """Solution of the first blocks: driving sides and torques by column, and the sum of the torques in each row."""
 
     sides: dict[int, int]
     values: Values
@@ -99,7 +99,7 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
     """Return all combinations of the solutions of the blocks, and True if all patterns were tried.
 
-    The result is None if a block leaves a torque undetermined that a later block may need or determine.
+    The result is None if a block does not determine a torque that a later block may require or determine.
     """
     partials, complete = [_Partial({}, {}, dict(balance.rows))], True
     for block in blocks:
@@ -119,7 +119,7 @@ def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list
 def _branches(
     columns: Sequence[TorqueUnknown], partial: _Partial, found: Sequence[tuple[Sides, Values]]
 ) -> Iterator[_Partial]:
-    """Yield `partial` extended by each solution of one block. The last one is `partial`, changed in place."""
+    """Yield `partial` extended by each solution of one block. The last one is `partial` itself, changed in place."""
     for at, (sides, values) in enumerate(found):
         branch = partial.copy() if at + 1 < len(found) else partial
         branch.sides.update(sides)
@@ -162,7 +162,7 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """Return all consistent sides and torques of one block, and True if all sides were tried."""
+    """Return all consistent combinations of sides and torques of one block, and True if all sides were tried."""
     known = {row: rows[row] for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
@@ -190,7 +190,7 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
 ) -> bool:
-    """Return True if power flows in the assumed directions, equation (7), for at least one choice of undetermined
+    """Return True if power flows in the assumed directions, equation (7), for at least one choice of the undetermined
     torques.
     """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
@@ -234,8 +234,8 @@ def _iterate(
     """Return a consistent pattern found by fixed-point iteration from the lossless solution; None if it does not
     converge.
 
-    In each iteration every mesh is reversed through which power flows against the assumed direction. The iteration ends
-    if no such mesh remains, or if a pattern repeats.
+    In each iteration, the assumed direction is reversed for every mesh in which power flows against it. The iteration
+    ends if no such mesh remains, or if a pattern repeats.
     """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []

@@ -1,7 +1,7 @@
-"""Train in one load case: determined speeds, declared teeth and pins, loads; check of equilibrium by virtual work.
+"""Train in one load case: its speeds, teeth, pins and loads, and an equilibrium check by virtual work.
 
 The equations are (14) to (16) of docs/torques.md. Loads are in equilibrium if they do no work in any motion compatible
-with the constraints. The condition does not contain speeds, so a torque may be determined although a speed is not.
+with the constraints. This condition does not contain speeds, so a torque may be determined although a speed is not.
 """
 
 from __future__ import annotations
@@ -23,27 +23,27 @@ from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.train import GearPair, StateCase, Train
 
 PRESCRIBED = -1
-"""Column of a linear form that contains the constant term from prescribed speeds."""
+"""Column of a linear form that contains the constant term, which comes from prescribed speeds."""
 
 
 @dataclass(frozen=True)
 class VirtualMotion:
-    """Virtual motion of the train: speed of each link, and the power of the loads."""
+    """Virtual motion of the train: the speed of each link, and the power of the loads."""
 
     speeds: Mapping[str, Fraction]
     power: Fraction
 
 
 def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
-    """Return the speed of every link as a linear form of the free speeds and the column `PRESCRIBED`."""
+    """Return the speed of every link as a linear form in the free speeds and the column `PRESCRIBED`."""
     return _forms(system.links, system.equations)
 
 
 def unbalanced_motions(
     system: WillisSystem, loads: Mapping[str, Fraction], still: Collection[str]
 ) -> list[VirtualMotion]:
-    """Return a basis of virtual motions if loads do work in at least one, equation (15); empty if loads are in
-    equilibrium.
+    """Return a basis of the virtual motions if the loads do work in at least one of them, equation (15); empty if the
+    loads are in equilibrium.
 
     still   links with unknown torques; they are at rest in all these motions, so their torques do no work
     """
@@ -59,7 +59,7 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """Return the torque on one link that balances the loads in every motion, equation (16); None if no torque does."""
+    """Return the torque on one link that balances the loads in every motion, equation (16); None if none does."""
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))
@@ -92,26 +92,26 @@ _ONE = Fraction(1)  # efficiency without loss
 
 @dataclass(frozen=True)
 class MeanEfficiencies:
-    """Mean efficiencies of one pair. Each tuple has the values with the first link and with the second link driving."""
+    """Mean efficiencies of one pair. Each tuple has the values for the first link and for the second link driving."""
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driver's torque is constant over a revolution; at most 1."""
+    """Efficiencies if the driver's torque is constant over a revolution; they are at most 1."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
     """Efficiencies if the driven side's torque is constant over a revolution."""
     exact: bool = True
-    """True for declared values; False for means over teeth, which are floats rounded to 15 digits."""
+    """True for declared values; False for means over tooth positions, which are floats rounded to 15 digits."""
 
     @property
     def differ(self) -> bool:
-        """True if the efficiency depends on whether the driver's or the driven side's torque is constant."""
+        """True if the efficiency depends on which torque is constant, the driver's or the driven side's."""
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return the efficiencies with the first and with the second link driving, depending on which torque is
+        """Return the efficiencies with the first and with the second link driving, which depend on which torque is
         constant.
 
         side      1 if the first link's torque is constant, -1 if the second link's is, 0 if neither is
-        driving   True if loads put power in; used if neither torque is constant
+        driving   True if loads supply power to the train; only used if neither torque is constant
         """
         if side > 0:
             return self.driver[0], self.load[1]
@@ -122,22 +122,22 @@ class MeanEfficiencies:
 
 @dataclass(frozen=True)
 class LoadCase:
-    """Train in one load case with its speeds: the input of the torque analysis."""
+    """Train in one load case with its speeds, which is the input of the torque analysis."""
 
     train: Train
     tree: Tree
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
-    """-1 for each link whose axis is opposite to the reference direction of its parallel axes; other links have 1."""
+    """Signs by link: -1 if the axis points against the reference direction of its parallel axes, else 1."""
     case: StateCase
     speeds: Mapping[str, Fraction]
     """Speed of each link whose speed is determined [unit of the train]."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
     """Meshing teeth of each gear pair that has a declared tooth form, by name of the pair."""
     varying: Sequence[CouplingMesh] = ()
-    """Couplings with variable ratio and declared dimensions."""
+    """Couplings that have a variable ratio and declared dimensions."""
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
-    """Speeds of all links as linear forms of the free speeds if the train is underdetermined; otherwise empty."""
+    """Speeds of all links as linear forms in the free speeds if the train is underdetermined; otherwise empty."""
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
     """Mean efficiencies computed so far, by name of the pair or coupling."""
 
@@ -168,31 +168,31 @@ class LoadCase:
 
     @property
     def arms(self) -> Mapping[str, Fraction]:
-        """Lever arm [m] at which the force on each sliding link is calculated as a torque."""
+        """Lever arm by which the force on each sliding link is converted to a torque [m]."""
         return dict.fromkeys(self.tree.lines, TRAVEL_ARM)
 
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
-        """Return the labels of the axes of a circuit's first and second link on its carrier."""
+        """Return the labels of the axes of a circuit's first and second link, as seen from its carrier."""
         seen_from = self.tree.axis_seen_from
         return seen_from(circuit.carrier, circuit.i), seen_from(circuit.carrier, circuit.j)
 
     def helix_angles(self, circuit: Circuit) -> tuple[float, float] | None:
-        """Return the helix angles of a pair on skew axes [rad]; None for parallel axes or unknown angles."""
+        """Return the helix angles of a pair on skew axes [rad]; None if axes are parallel or angles unknown."""
         first, second = (self.train.wheels[name][1] for name in circuit.wheels)
         return self.axes.helix_angles(self.axis_labels(circuit), (first, second))
 
     @property
     def open(self) -> tuple[str, ...]:
-        """Links whose speed is undetermined."""
+        """Links whose speed is not determined."""
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """Return -1 if the link's axis is opposite to the reference direction of its parallel axes, else 1."""
+        """Return -1 if the link's axis points against the reference direction of its parallel axes, else 1."""
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:
         """Return the speed of a link relative to `carrier`, about the reference direction [unit of the train]; None if
-        undetermined.
+        it is undetermined.
 
         The relative speed of two links may be determined even if neither speed is.
         """
@@ -209,8 +209,8 @@ class LoadCase:
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
     def has_friction(self, part: GearPair | Coupling) -> bool:
-        """Return True if the declared friction of a pair or coupling is above 0 or depends on speed, or if its tooth
-        form declares the losses.
+        """Return True if the declared friction of a pair or coupling is greater than 0 or depends on speed, or if its
+        tooth form declares the losses.
         """
         mesh = self.meshes.get(part.name)
         if mesh is not None and not mesh.has_shape:
@@ -219,29 +219,29 @@ class LoadCase:
         return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
-        """Return the link that carries the axis of `link`, independent of the declared order of coaxial joints."""
+        """Return the link that carries the axis of `link`, independent of the order of coaxial joints."""
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
-        """Return the link on which the reaction of an unknown torque acts: usually the frame.
+        """Return the link on which the reaction to an unknown torque acts, which is usually the frame.
 
-        For the escape wheel it is the link on which the pallets are mounted.
+        For the escape wheel, it is the link on which the pallets are mounted.
         """
         escapement = self.train.escapement
         return self.train.frame if escapement is None or link != escapement.link else pallet_link(escapement, self.tree)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
-        """Return the speed of a circuit's first link relative to its carrier; at 0 no power flows through the pair."""
+        """Return the speed of a circuit's first link relative to its carrier; if it is 0, no power flows."""
         return self._difference(circuit.i, circuit.subtracted[0])
 
     def bearings(self, loaded: Mapping[str, tuple[float, float]], steady: bool = True) -> tuple[BearingTorque, ...]:
-        """Return the friction torque of every bearing with friction, against the rotation of its link: equation (10).
-        It includes the mean torque of jumpers on the link.
+        """Return the friction torque of every bearing with friction, which opposes the rotation of its link, equation
+        (10). It includes the mean torque of jumpers that act on the link.
 
-        The torque is 0 if the speed in the joint is 0 or undetermined.
+        The torque is 0 if the relative speed in the bearing is 0 or undetermined.
 
-        loaded   friction torque that depends on the load, and the load, by link
-        steady   False to omit friction that does not depend on the load
+        loaded   load-dependent friction torque and load, by link
+        steady   True to include friction that does not depend on the load
         """
         own = {(link, self.tree.borne_by(link)): Fraction(torque) for link, (torque, _) in loaded.items()}
         found = []
@@ -255,8 +255,8 @@ class LoadCase:
         return tuple(found)
 
     def friction_senses(self, link: str, carrier: str | None = None) -> Iterator[tuple[str, int]]:
-        """Yield the torque on a link, and on the link that carries it unless that is the frame, of a unit friction
-        torque in the bearing between them, opposed to the relative speed, each about its own axis.
+        """Yield the link and, unless it is the frame, the link that carries it, each with the sense about its own axis
+        of a unit friction torque in the bearing between them, which opposes the relative speed.
         """
         carrier = self.tree.borne_by(link) if carrier is None else carrier
         relative = self.relative(link, carrier) or Fraction(0)
@@ -267,7 +267,7 @@ class LoadCase:
 
     @cached_property
     def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
-        """Friction torques above 0 that do not depend on the load, by the link and the link that carries it."""
+        """Positive friction torques that do not depend on the load, by link and the link that carries it."""
         own = (
             (link, self.tree.borne_by(link), friction) for link in self.train.links if (friction := self.bearing(link))
         )
@@ -283,7 +283,7 @@ class LoadCase:
         return found
 
     def bearing(self, link: str) -> Fraction:
-        """Return the friction torque of a link's bearing, 0 if none is declared [N m, or number without a unit]."""
+        """Return the friction torque of a link's bearing [N m, or a number without a unit]; 0 if none is declared."""
         friction = self.train.links[link].bearing
         if friction is None or link == self.train.frame:
             return Fraction(0)
@@ -291,9 +291,10 @@ class LoadCase:
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
-    """Return the links at which power may enter: the inputs, or the crank, if it is another link.
+    """Return the links at which power may enter the train: the inputs, or the crank if it is another link.
 
-    A crank replaces a single input, which then only prescribes the speed; several inputs remain besides the crank.
+    A crank replaces a single input, which then only prescribes the speed; several inputs remain in addition to the
+    crank.
     """
     inputs, crank = tuple(setting.case.inputs), setting.train.crank
     if crank is None or crank in inputs:
@@ -304,7 +305,8 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
     """Return the links at which power enters and leaves the train; None if they are not unique.
 
-    Power enters at the crank, or at the only input. It leaves at the only loaded link, or at the only output.
+    Power enters at the crank if it is declared, else at the only input. It leaves at the only loaded link, or if there
+    is none, at the only output.
     """
     if len(case.inputs) != 1:
         return None

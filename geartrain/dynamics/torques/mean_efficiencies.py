@@ -3,8 +3,8 @@ docs/torques.md.
 
 Over a revolution the torques on the two sides of a pair cannot both be constant. Let tau be the speed ratio and eta the
 efficiency at each position. If the driver's torque is constant, the mean efficiency is mean(eta). If the driven side's
-torque is constant, it is mean(tau)/mean(tau/eta). A torque is constant if the balance of its own link alone determines
-it.
+torque is constant, it is mean(tau)/mean(tau/eta). A torque is constant if it follows from the balance of its own link
+only.
 """
 
 from __future__ import annotations
@@ -22,19 +22,17 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.pair_results import SlidingEfficiency
 
 NORMAL_ANGLE = radians(20)
-"""Normal pressure angle [rad] if no tooth form specifies it."""
+"""Normal pressure angle that is used if no tooth form specifies it [rad]."""
 _ROUNDING = 1e-9  # amount by which rounding in the quadrature may make a mean exceed 1
 
 
 def all_mean_efficiencies(setting: LoadCase) -> Mapping[str, MeanEfficiencies]:
-    """Return the mean efficiencies of all pairs and couplings, by name."""
+    """Return the mean efficiencies of each pair and coupling, by name."""
     return {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
 
 
 def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the mean efficiencies of one pair or coupling. The result is cached, because it does not depend on the
-    loads.
-    """
+    """Return the mean efficiencies of one pair or coupling. They do not depend on the loads, and are cached."""
     if circuit.id not in setting.means:
         setting.means[circuit.id] = _of_circuit(setting, circuit)
     return setting.means[circuit.id]
@@ -80,7 +78,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a coupling, first with the driven link of the declaration driving; 1 for a pin
+    """Return the efficiencies of a coupling, first with the declared driven link as the driver; they are 1 for a pin
     follower, whose mean power is 0.
     """
     coupling = setting.couplings[circuit.id]
@@ -112,7 +110,7 @@ def apply_mean_efficiencies(
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
     """Return the balance with the applicable mean efficiency of each pair, and the pairs without a constant torque.
 
-    A pair is listed only if its efficiency depends on which of its torques is constant, and neither of them is.
+    A pair is only listed if its efficiency depends on which torque is constant, and neither torque is.
     """
     if not any(each.differ for each in means.values()):
         return balance, ()
@@ -128,7 +126,7 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return, for each pair with a link whose own balance determines its torque, 1 for the first link, -1 for the
+    """Return for each pair whose torque follows from the balance of one of its links: 1 for the first link, -1 for the
     second.
     """
     found: dict[str, int] = {}
@@ -151,9 +149,9 @@ def _side(mesh: LoadedPair, link: str) -> int:
 
 
 def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
-    """Return the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less means self-locking.
+    """Return the efficiency of a screw gear pair, equation (12c) of docs/theory.md; 0 or less means self-locking.
 
-    driving, driven   helix angles of the wheels [rad], positive for right-hand helices; their sum is the shaft angle
+    driving, driven   helix angles of the driving and driven wheel [rad], positive for right-hand helices
     pressure_angle    normal pressure angle [rad]
 
     Only sliding along the teeth at the pitch point is considered; sliding along the profile is small compared with it.

@@ -1,4 +1,4 @@
-"""Effects that a balance of mean torques neglects: the table in section 13 of docs/torques.md."""
+"""Effects that a balance of mean torques neglects; see the table in section 13 of docs/torques.md."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ def find_neglected_effects(
     loads: BearingLoads | None = None,
     loose: Sequence[str] = (),
 ) -> tuple[NeglectedEffect, ...]:
-    """Return all effects that the mean torques of one load case neglect.
+    """Return all effects that are neglected in the mean torques of one load case.
 
-    neither   pairs neither of whose torques is constant over a revolution
-    idle      pairs without torque, which have no losses
-    bearings  False if constant friction of bearings was not requested
+    neither   pairs in which neither torque is constant over a revolution
+    idle      pairs that transmit no torque and have no losses
+    bearings  True if constant friction of bearings was included
     loads     loads of the bearings whose friction depends on them
-    loose     pairs with undetermined torque
+    loose     pairs whose torque is undetermined
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
@@ -59,7 +59,7 @@ def find_neglected_effects(
 def unknown_forces(
     loads: BearingLoads, idle: Sequence[str] = (), loose: Sequence[str] = ()
 ) -> Iterator[NeglectedEffect]:
-    """Yield the pairs and links whose forces on bearings are unknown, and the weights that move."""
+    """Yield the effects of unknown forces of pairs and links on bearings, and of weights that move."""
     for why, names in loads.missing.items():
         if busy := tuple(name for name in names if name not in set(idle)):
             yield NeglectedEffect("forces on bearings", busy, why)
@@ -74,7 +74,7 @@ def unknown_forces(
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the viscous drag of links, which a balance of exact means does not include."""
+    """Yield the effect of the viscous drag on links, which a balance of exact mean torques does not include."""
     if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
         yield NeglectedEffect(
             "viscous drag", links, "it depends on speed: torques over a turn include it if speeds have units"
@@ -82,11 +82,11 @@ def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
-    """Return the effects that torques over a revolution neglect.
+    """Return the effects that are neglected in the torques over a revolution.
 
-    Torques over a revolution include friction of pins and bearings, and their variation, if the data are declared.
+    Torques over a revolution include the friction of pins and bearings and its variation, if the data are declared.
 
-    at_means   pairs with a declared tooth form that have their mean efficiency at all positions
+    at_means   pairs with a declared tooth form for which the mean efficiency is used at all positions
     """
     found = [
         *_pins_without_dimensions(setting, setting.circuits),
@@ -103,7 +103,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the friction of pin followers, and of pins in slots without declared dimensions."""
+    """Yield the effect of the friction of pin followers, and of pins in slots without declared dimensions."""
     bearing_friction = _rubbing_pins(setting, busy)
     if swinging := tuple(circuit.id for circuit in bearing_friction if not circuit.b):
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
@@ -112,7 +112,7 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
 
 
 def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the effects of couplings that are not computed, such as the side loads of joints."""
+    """Yield the effects of couplings that are not computed, such as side loads."""
     named: dict[tuple[str, str], list[str]] = {}
     for circuit in busy:
         if circuit.kind != "gear" and (effect := setting.couplings[circuit.id].NEGLECTED) is not None:
@@ -135,7 +135,7 @@ def _rubbing_pins(setting: LoadCase, busy: Sequence[Circuit]) -> list[Circuit]:
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield the friction declared for teeth without a tooth form, and for worms with unknown helix angle."""
+    """Yield the effect of friction declared for teeth without a tooth form, or for worms with unknown helix angle."""
     bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: [], _NO_SLIDING: []}
     for circuit in busy:
         gear, mesh = setting.gears.get(circuit.id), setting.meshes.get(circuit.id)
@@ -154,7 +154,7 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return True if a pair is a worm drive or a pair of crossed helical gears, whose tooth forms have no mean loss."""
+    """Return True if a pair is a worm drive or a crossed helical pair, for which tooth forms give no mean loss."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
@@ -163,7 +163,7 @@ def _slides(setting: LoadCase, circuit: Circuit) -> bool:
 def _open(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield the losses of pairs whose relative speed is undetermined."""
+    """Yield the effect of losses in pairs whose relative speed is undetermined."""
     found = tuple(
         circuit.id
         for circuit in busy
@@ -190,7 +190,7 @@ def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the bearings whose sense of rotation is undetermined, or may change within a revolution."""
+    """Yield the effect of bearings whose sense of rotation is undetermined, or may change within a revolution."""
     bearing_friction = _bearing_friction(setting)
     free = tuple(link for link in bearing_friction if setting.relative(link, setting.tree.borne_by(link)) is None)
     if free:
@@ -205,7 +205,7 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the pairs whose torques vary with position."""
+    """Yield the effect of pairs whose torques vary with position."""
     found = []
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
@@ -221,7 +221,7 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the links with inertia in a train with nonuniform pairs, which accelerate them."""
+    """Yield the effect of the inertia of links that non-uniform pairs accelerate."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
     nonuniform = any(circuit.swings for circuit in setting.circuits)
     if heavy and (nonuniform or any(not tooth.rigid for tooth in setting.meshes.values())):

@@ -1,15 +1,17 @@
-"""One-way clutches (freewheels, overrunning clutches, ratchets) of a train in one state: which hold, and which overrun.
+"""Behaviour of the one-way clutches (freewheels, overrunning clutches, ratchets) of a train in one state.
 
-A clutch between links a and b that may turn in the sense s = 1 (forward) or -1 (backward) satisfies the complementarity
-conditions s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, with the torque T on b. The patterns of holding clutches
-are enumerated. A pattern is rejected if its speeds contradict each other, if the slip of an overrunning clutch is not
-positive (at equal speeds a clutch holds), if a holding clutch has a torque in the sense in which it overruns, or if the
-loads set the train in motion. Speeds are exact, and torques include declared losses.
+A clutch between links a and b permits relative rotation in the sense s = 1 (forward) or -1 (backward). It satisfies the
+complementarity conditions s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, where w are speeds and T is the torque on
+b. The patterns of holding clutches are enumerated. A pattern is rejected if its speeds contradict each other, if the
+slip of an overrunning clutch is not positive (at equal speeds a clutch holds), if a holding clutch has a torque in the
+sense in which it overruns, or if the loads set the train in motion. Speeds are exact, and torques include declared
+losses.
 
-If no loads are declared, each output resists its own rotation in turn. An output that no pattern can drive decides
-nothing.
+If no loads are declared, each output in turn is assumed to resist its rotation. An output that no pattern can drive is
+ignored.
 
-If a swinging link drives the link behind a clutch in steps, the clutch counts as overrunning (`SteppedLink`).
+If an oscillating link drives another link through a clutch in steps, the clutch is regarded as overrunning
+(`SteppedLink`).
 """
 
 from __future__ import annotations
@@ -34,36 +36,36 @@ from geartrain.train import StateCase, Train
 from geartrain.train.states import Clutch, OneWayAction, SteppedLink
 
 MOST_CLUTCHES = 12
-"""Maximum number of one-way clutches in one state: 2^12 patterns are enumerated."""
+"""Maximum number of one-way clutches in one state, for which 2^12 patterns are enumerated."""
 
 _REJECTED = ("unbalanced", "overrunning")
 
 
 @dataclass(frozen=True)
 class ClutchPattern:
-    """Set of holding clutches with its prescriptions, its speeds, and the slip of the overrunning clutches."""
+    """Set of holding clutches with the resulting prescriptions, speeds, and slip of the overrunning clutches."""
 
     holding: tuple[str, ...]
     case: StateCase
     setting: LoadCase | None
-    """Load case of the pattern; None if its speeds contradict each other."""
+    """Load case of the pattern; None if the speeds contradict each other."""
     slips: Mapping[str, Fraction | None]
-    """Speed at which each other clutch overruns [unit of the train]; None if undetermined."""
+    """Speed at which each clutch that does not hold overruns [unit of the train]; None if undetermined."""
 
     moves: bool
-    """True if the other clutches can overrun together, for some values of the undetermined speeds."""
+    """True if all clutches that do not hold can overrun, for some values of the undetermined speeds."""
 
     @property
     def stopped(self) -> tuple[str, ...]:
-        """Clutches that are assumed to overrun but do not."""
+        """Clutches that are assumed to overrun but would not overrun at the speeds of the pattern."""
         return tuple(name for name, slip in self.slips.items() if slip is not None and slip <= 0)
 
 
 def decide_case(train: Train, state: str | None) -> StateCase:
-    """Return the prescriptions of a state with the one-way clutches that hold, and the action of each clutch.
+    """Return the prescriptions of a state, including the one-way clutches that hold, and the action of each clutch.
 
-    The case has a problem if the declaration does not decide which clutches hold, for a clutch between links on
-    different axes, and for more than `MOST_CLUTCHES` clutches.
+    The case has `problems` if the declaration does not determine which clutches hold, if the links of a clutch are on
+    different axes, or if there are more than `MOST_CLUTCHES` clutches.
     """
     try:
         return _Decision(TrainMechanics(TrainKinematics(train)), state, train.one_way_clutches(state)).case()
@@ -74,7 +76,7 @@ def decide_case(train: Train, state: str | None) -> StateCase:
 def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
     """Return True if linear forms can all be positive for the same values of the unknowns.
 
-    column   unused column for a new unknown t
+    column   index of an unused column, for an additional unknown t
 
     The constants are multiplied by t >= 1, so that any positive solution can be scaled until all forms are at least 1.
     """
@@ -138,14 +140,14 @@ class _Decision:
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
-        """Return a clutch, its first link (the frame for a brake), its second link and its sense."""
+        """Return a clutch, its first link (the frame for a brake), its second link, and its overrunning sense."""
         clutch = self.train.declaration.clutches[name]
         first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
         (sense,) = clutch.senses
         return clutch, first, second, sense
 
     def _slip_form(self, setting: LoadCase, name: str, speeds: Mapping[str, LinearForm]) -> LinearForm:
-        """Return the slip of a clutch as a linear form, from the linear forms of the speeds."""
+        """Return the slip of a clutch as a linear form, given the speeds as linear forms."""
         _, first, second, sense = self._clutch(name)
         form: LinearForm = {}
         add_into(form, speeds[second], sense)
@@ -154,12 +156,12 @@ class _Decision:
 
     @cached_property
     def _moving(self) -> Sequence[ClutchPattern]:
-        """Patterns whose speeds satisfy all conditions."""
+        """Patterns whose speeds satisfy the conditions of all clutches."""
         return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a pattern with contradictory speeds, if possible one that is reached by stopping the clutches that
-        would turn in the wrong sense.
+        """Return a pattern with contradictory speeds. If possible, it is reached by locking the clutches that would
+        slip in the wrong sense.
         """
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:
@@ -183,7 +185,7 @@ class _Decision:
         return outputs or {link: (link, declared.frame) for link in borne}
 
     def _torques(self, pattern: ClutchPattern, load: str, way: int = 1) -> Torques | None:
-        """Return the torques under one load, reversed if `way` is -1; None if the load is at rest in the pattern."""
+        """Return the torques under one load, multiplied by `way` (1 or -1); None if the loaded link is at rest."""
         setting, links = pattern.setting, self._loads[load]
         assert setting is not None
         if links is None:
@@ -202,29 +204,29 @@ class _Decision:
 
     @cached_property
     def _fitting(self) -> Mapping[str, Sequence[ClutchPattern]]:
-        """Patterns that satisfy all conditions under each load."""
+        """Patterns that satisfy the conditions of all clutches, for each load."""
         return {load: [each for each in self._moving if self._fits(each, load)] for load in self._loads}
 
     def _released(self) -> tuple[ClutchPattern, tuple[str, ...]]:
-        """Return the pattern with the fewest violations, without the clutches that let go, and these clutches."""
+        """Return the pattern with the fewest violations, without the clutches that cannot hold, and these clutches."""
         found = []
         for pattern in self._moving:
             kinds = [each.verdict for load in self._loads if (each := self._torques(pattern, load)) is not None]
             wrong = {name for each in kinds if each.kind == "overrunning" for name in each.candidates}
             missing = sum(each.kind == "unbalanced" for each in kinds)
             released = self._members(pattern, wrong)
-            # of equal numbers, a pattern that names what lets go, then the one with the fewest holding clutches
+            # ties: a pattern that names the released clutches, then the one with the fewest holding clutches
             found.append((len(wrong) + missing, not released, len(pattern.holding), pattern.holding, released))
         *_, holding, released = min(found)
         return self._patterns[tuple(name for name in holding if name not in released)], released
 
     def _members(self, pattern: ClutchPattern, named: set[str]) -> tuple[str, ...]:
-        """Return the holding clutches of a pattern that occur in names such as `A and B` of clutches on one link."""
+        """Return the holding clutches of a pattern that occur in `named`, in joined names such as `A and B`."""
         joined = {pattern.case.clutches[links] for links in pattern.case.senses} & named
         return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
 
     def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
-        """Yield a note for each load that releases a clutch if it drives the train, instead of being driven."""
+        """Yield a note for each load that would release a clutch if it drove the train instead of being driven."""
         for load, forward in deciding.items():
             if forward is None or not pattern.holding:
                 continue
@@ -258,7 +260,7 @@ class _Decision:
     def _torque(
         self, pattern: ClutchPattern, name: str, deciding: Mapping[str, Torques | None]
     ) -> tuple[Fraction | None, str]:
-        """Return the torque of a holding clutch on its second link and its unit; None if it depends on the loads."""
+        """Return the torque of a holding clutch on its second link, and the unit; None if it depends on the loads."""
         links, found, unit = self._clutch(name)[0].links, set[Fraction | None](), ""
         source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
         for load, torques in deciding.items():
@@ -277,12 +279,12 @@ class _Decision:
         return (found.pop(), unit) if len(found) == 1 and None not in found else (None, "")
 
     def _is_relieved(self, pattern: ClutchPattern, name: str, torque: Fraction) -> bool:
-        """Return True if a brake or lock on the same links takes a torque that the clutch cannot take."""
+        """Return True if a brake or lock on the same links transmits a torque that the clutch cannot transmit."""
         clutch, _, _, sense = self._clutch(name)
         return clutch.links not in pattern.case.senses and sense * torque < 0
 
     def _shared(self, pattern: ClutchPattern, relieved: Collection[str]) -> Iterator[str]:
-        """Yield notes on clutches that hold the same links together, and on speeds that vary within a turn."""
+        """Yield notes on clutches that hold the same links together, and on slips that vary within a revolution."""
         case = pattern.case
         for links in dict.fromkeys(self._clutch(name)[0].links for name in pattern.holding):
             clutches = self.train.declaration.clutches
@@ -313,7 +315,7 @@ class _Decision:
         return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
 
     def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> tuple[str, str, str]:
-        """Return what, why and fix of a state in which several patterns remain."""
+        """Return description, reason and fix of the problem that several patterns are possible in a state."""
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
@@ -331,9 +333,9 @@ class _Decision:
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:
-        """Couplings with varying ratio on which the slip of each clutch depends; clutches without any are omitted.
+        """Couplings with variable ratio on which the slip of each clutch depends; clutches without any are omitted.
 
-        The rows of such couplings get a symbol each; the slip of the clutch contains these symbols.
+        Each row of such a coupling has a symbol, and the slip depends on the coupling if it contains the symbol.
         """
         setting = self._patterns[()].setting
         varying = [each for each in setting.circuits if each.swings] if setting is not None else []
@@ -353,11 +355,11 @@ class _Decision:
 
     @cached_property
     def _swinging(self) -> Sequence[str]:
-        """Clutches that are driven by a link that swings to and fro."""
+        """Names of the clutches that are driven by an oscillating link."""
         return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
 
     def _steps(self, pattern: ClutchPattern) -> StateCase:
-        """Return the case in which swinging links drive one link in steps; rejected if the steps cannot be counted."""
+        """Return the case in which oscillating links drive one link in steps, or a case with `problems`."""
         setting, frame, names = pattern.setting, self.train.declaration.frame, _joined(self._swinging)
         assert setting is not None
         driven, drivers, senses = set[str](), dict[str, int](), set[int]()
@@ -406,6 +408,6 @@ class _Decision:
 
 
 def _joined(names: Sequence[str], verb: str = "") -> str:
-    """Return names joined by commas and `and`, followed by a verb in the singular or plural; empty without names."""
+    """Return names joined by commas and `and`, followed by a verb in singular or plural form; empty without names."""
     text = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
     return f"{text} {verb}{'s' if len(names) == 1 else ''}" if verb and names else text

@@ -1,8 +1,8 @@
-"""Power flow: absolute powers between shafts and pairs, the losses of each pair, and recirculating power.
+"""Power flow: powers at absolute speeds between shafts and pairs, losses of each pair, and recirculating power.
 
-The power from a link to a pair is minus the pair's torque on the link times the link's absolute speed. Powers into and
-out of a pair differ by its loss; powers into and out of a shaft are equal. Links that are locked together are one
-shaft. A bearing with friction is treated as a pair between its link and the carrier that only has losses.
+The power from a link to a pair is -T w, where T is the pair's torque on the link and w the link's absolute speed. The
+powers into and out of a pair differ by its loss; the powers into and out of a shaft are equal. Links that are locked
+together form one shaft. A bearing with friction is treated as a pair of its link and the carrier that only has losses.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]
 
 
 class PowerNode(NamedTuple):
-    """Node of the power flow: a pair, a shaft, a bearing, or a point where power enters or leaves.
+    """Node of the power flow: a pair, a shaft, a bearing, or a point at which power enters or leaves.
 
     See Also
     --------
@@ -35,15 +35,15 @@ class PowerNode(NamedTuple):
     kind: PowerNodeKind
     """Kind of the node. Power enters the train at the node `in` and leaves it at the node `out`."""
     name: str
-    """Name of the link, pair or shaft.
+    """Name of the link, pair or shaft that is the node.
 
-    A bearing has the name of the link that turns in it. Links that are locked together are one shaft, `a + b`.
+    A bearing has the name of the link that turns in it. Links that are locked together form one shaft, `a + b`.
     """
 
 
 @dataclass(frozen=True)
 class PowerStream(Result):
-    """Power that flows from one node of the power flow to another."""
+    """Power that flows from one node of the power flow to another node."""
 
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
@@ -59,7 +59,7 @@ class PowerStream(Result):
 
 @dataclass(frozen=True)
 class RecirculatingPower(Result):
-    """Closed loops in the power flow, with the power that recirculates in them."""
+    """Closed loop in the power flow, and the power that recirculates in it."""
 
     KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
 
@@ -89,7 +89,7 @@ class RecirculatingPower(Result):
 def find_circulation(
     streams: Sequence[PowerStream], power_in: Fraction
 ) -> tuple[list[PowerStream], list[RecirculatingPower]]:
-    """Return the streams with their recirculating parts, and the power loops.
+    """Return the streams with their recirculating parts, and the loops in which power recirculates.
 
     Cycles are removed in descending order of their bottleneck power.
     """
@@ -115,7 +115,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty without a cycle."""
+    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty if none exists."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -130,7 +130,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle of the power flow in the selected streams; empty without a cycle."""
+    """Return one cycle that the selected streams form; empty if none exists."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:
@@ -163,7 +163,7 @@ def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerN
 
 @dataclass(frozen=True)
 class PowerLoss(Result):
-    """Power loss of a pair or bearing, compared with the power input and the total loss of the train."""
+    """Power loss of a pair or bearing, compared with the power input and with the total loss of the train."""
 
     KEYS = (
         *(Key("kind", "node.kind"), Key("name", "node.name"), Key("power", to=as_float)),
@@ -186,7 +186,7 @@ class PowerLoss(Result):
 
     @property
     def of_loss(self) -> Fraction:
-        """Power lost in this node divided by the total power lost in the train."""
+        """Power lost in this node divided by the total power loss of the train."""
         return self.power / self.loss
 
 
@@ -194,7 +194,7 @@ class PowerLoss(Result):
 class PowerFlow(Result):
     """Power streams of a train in one state. Power is torque times absolute speed.
 
-    Powers into and out of a shaft are equal; powers into and out of a pair differ by the loss of the pair.
+    The powers into and out of a shaft are equal; the powers into and out of a pair differ by its loss.
 
     Examples
     --------
@@ -215,10 +215,10 @@ class PowerFlow(Result):
     power_in: Fraction = Fraction(0)
     """Power that enters the train [unit of torque times the train's unit of speed]."""
     streams: tuple[PowerStream, ...] = ()
-    """Power streams from `in` through shafts and pairs to `out`."""
+    """Power streams from the node `in` through shafts and pairs to the node `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Power lost in each pair or bearing [unit of torque times the train's unit of speed]; parts without losses are
-    omitted.
+    """Power lost in each pair or bearing [unit of torque times the train's unit of speed]; pairs and bearings without
+    losses are omitted.
     """
     loops: tuple[RecirculatingPower, ...] = ()
     """Loops in which power recirculates, in descending order of power."""
@@ -235,12 +235,12 @@ class PowerFlow(Result):
 
     @property
     def shares(self) -> tuple[PowerLoss, ...]:
-        """Losses with their fractions of the power input and of the total loss."""
+        """Loss of each pair and bearing, which can be compared with the power input and the total loss."""
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
 
 def find_power_flow(found: Torques) -> PowerFlow:
-    """Compute the power flow between shafts and gear pairs from computed torques.
+    """Compute the power flow between shafts and pairs from the torques of a train.
 
     Parameters
     ----------
@@ -250,7 +250,7 @@ def find_power_flow(found: Torques) -> PowerFlow:
     Returns
     -------
     PowerFlow
-        Power flow; empty if torques are unknown, or if redundant pairs share the load in an undetermined way.
+        Power flow; empty if torques are unknown, or if redundant pairs share the load in undetermined proportions.
 
     Examples
     --------
@@ -282,7 +282,7 @@ def find_power_flow(found: Torques) -> PowerFlow:
 
 
 def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
-    """Return the shaft of every locked link; the name of a shaft contains all its links."""
+    """Return the shaft of every locked link; the name of a shaft consists of the names of all its links."""
     pairs = list(locks)
     groups = joined_groups(chain(*pairs), pairs)
     return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
@@ -306,8 +306,8 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
-    """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are numbers
-    without a unit.
+    """Return the unit of power, N m times the train's unit of speed [W]; None if torques or speeds are numbers without
+    a unit.
 
     Speeds have a unit if the train declares a `rate`, which is the speed of the first input that turns, or if its
     inputs have units.

@@ -1,7 +1,7 @@
 """Torques of a declared train in one load case: known and unknown torques, losses, and the verdict.
 
-A verdict explains why no torques balance the loads, which of several solutions is returned, or that the input must
-drive too (sections 5, 6, 8 and 11 of docs/torques.md).
+A verdict describes why no torques balance the loads, which of several solutions is returned, or that the input must
+supply power in addition to the loads (sections 5, 6, 8 and 11 of docs/torques.md).
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _GREAT = 10**12  # lambda of section 6: factor of the load that makes constant f
 
 @dataclass(frozen=True)
 class LoadedBalance:
-    """Torque balance with the two kinds of known torques: loads, and friction of bearings."""
+    """Torque balance whose known torques are loads and friction of bearings."""
 
     balance: TorqueBalance
     speeds: Mapping[str, Fraction]
@@ -51,16 +51,14 @@ class LoadedBalance:
     enough: bool = True
     """True if the number of unknown torques equals the number of degrees of freedom.
 
-    With fewer unknown torques, the loads must be in equilibrium without them.
+    If there are fewer unknown torques, the loads must be in equilibrium without additional torques.
     """
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
     bearings: tuple[BearingTorque, ...] = ()
-    """Friction torques of the bearings; `bearing_friction` is their sum by link, without the friction that depends on
-    the load.
-    """
+    """Friction torques of the bearings; `bearing_friction` is their load-independent sum on each link."""
     bearing_loads: BearingLoads | None = None
-    """Loads of the bearings whose friction depends on them; None if there are none."""
+    """Loads of the bearings whose friction depends on the load; None if there are none."""
 
     @property
     def names(self) -> str:
@@ -69,32 +67,32 @@ class LoadedBalance:
 
     @property
     def load(self) -> str:
-        """Name of the load for sentences: "the load", or "the friction of the bearings"."""
+        """Name of the load for use in sentences: "the load", or "the friction of the bearings"."""
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
     def driving(self) -> Fraction:
-        """Net power that the loads put into the train [unit of torque times the train's unit of speed]."""
+        """Net power that the loads supply to the train [unit of torque times the train's unit of speed]."""
         return self._power(self.loads)
 
     @property
     def has_friction(self) -> bool:
-        """True if both a load and friction of bearings act that is not proportional to it."""
+        """True if there is a load, and bearing friction that is not proportional to it."""
         masses = {} if self.bearing_loads is None else self.bearing_loads.masses
         return any(self.loads.values()) and any((*masses.values(), *self.bearing_friction.values()))
 
     def sorted_flows(self, balance: TorqueBalance) -> tuple[list[FlowPattern], bool]:
         """Return the patterns of power flow of a balance, and True if all patterns were tried.
 
-        Patterns with fewer undetermined torques come first, then those with smaller losses.
+        The patterns are sorted by the number of undetermined torques, then by losses.
         """
         found, complete = find_flow_patterns(balance)
         # the known powers are the same in all flows, so the power of the unknown torques orders the losses
         return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow))), complete
 
     def solve(self) -> tuple[LoadedBalance, list[FlowPattern], bool]:
-        """Return the balance with the friction of bearings under their loads, its patterns of power flow as in
-        `sorted_flows`, and True if all patterns were tried. The friction agrees with the loads in the first pattern.
+        """Return the balance with the friction of loaded bearings, its patterns of power flow as in `sorted_flows`, and
+        True if all patterns were tried. The friction is consistent with the bearing loads in the first pattern.
         """
         found, loads = self, self.bearing_loads
         flows, complete = self.sorted_flows(self.balance)
@@ -113,22 +111,22 @@ class LoadedBalance:
         return self, [], complete
 
     def power(self, flow: FlowPattern) -> Fraction:
-        """Return the power that the unknown torques put into the train [unit of torque times unit of speed]."""
+        """Return the power that the unknown torques supply [unit of torque times the train's unit of speed]."""
         return self._power(flow.solved.external)
 
     def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
-        """Return the total power of torques on links with determined speed."""
+        """Return the total power of the given torques on links whose speed is determined."""
         return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
-        """Return the flow patterns under a load so large that constant friction is negligible."""
+        """Return the patterns of power flow under a load so large that constant friction is negligible."""
         loads = {link: _GREAT * torque for link, torque in self.loads.items()}
         known = _acting(loads, self.bearing_friction)
         return tuple(replace(self, loads=loads, balance=replace(self.balance, known=known)).solve()[1])
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
-    """Return the verdict on loads that the unknown torques cannot balance even without losses; None if they can."""
+    """Return the verdict if the unknown torques cannot balance the loads even without losses; None if they can."""
     motions = unbalanced_motions(setting.system, known, requested)
     if not motions:
         return None
@@ -156,8 +154,8 @@ def _some(links: Sequence[str]) -> str:
 def find_torque_verdict(
     question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, neglected: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
-    """Return the verdict on flow patterns, sorted by number of undetermined torques, then by losses; the first one is
-    the result.
+    """Return the verdict on patterns of power flow that are sorted by the number of undetermined torques, then by
+    losses; the first pattern is the result.
     """
     if not flows:
         return _unbalanced(question, complete)
@@ -190,7 +188,7 @@ def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, with the cause: declared shares, friction of bearings or of
+    """Return the verdict that no torques balance the load, with the cause: declared shares, or friction of bearings or
     teeth.
     """
     names = question.names
@@ -219,7 +217,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load because the friction of bearings grows with their load."""
+    """Return the verdict that no torques balance the load because bearing friction is proportional to the load."""
     assert question.bearing_loads is not None
     links = ", ".join(question.bearing_loads.links)
     if question.has_friction and question.heavily_loaded():
@@ -235,7 +233,7 @@ def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a note on a load that puts power in but cannot drive the train by itself; "" otherwise."""
+    """Return a note on a load that supplies power but cannot drive the train by itself; "" for other loads."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
@@ -268,7 +266,7 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several flow patterns; it describes the returned pattern and mentions the others."""
+    """Return the verdict on several patterns of power flow; it describes the returned one and mentions the others."""
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
@@ -279,8 +277,8 @@ def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueV
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a description of one flow pattern; `resisted` is True if power leaves at the unknown torque in the
-    pattern that is returned.
+    """Return a description of one pattern of power flow. `resisted` is True if power leaves at the unknown torque in
+    the returned pattern.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -292,12 +290,12 @@ _Key = tuple[object, ...]
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
-    """Return the declared fractions of the torque on each wheel that has two or more pairs with a `share`.
+    """Return the declared fractions of the torque of each wheel, if two or more of its pairs have a `share`.
 
     loaded   links with an external torque or a brake
 
-    The pairs of an idler do not share its torque, because each of them transmits all of it; they may share the torque
-    on their other wheels.
+    The pairs of an idler do not share its torque, because each of them transmits the entire torque; they may share the
+    torque of their other wheels.
     """
     by_wheel: dict[str, dict[str, Fraction]] = {}
     for gear in train.gears:
@@ -318,13 +316,12 @@ def find_ties(
     known: Mapping[str, Fraction],
     singled: Collection[str],
 ) -> tuple[tuple[str, ...], ...]:
-    """Return groups of pairs that belong to equal planets, which have equal torques.
+    """Return groups of pairs of equal planets; the torques of the pairs in a group are equal.
 
-    Planets are equal if they have the same carrier and external torque and mesh, with equal tooth counts and
-    efficiencies, with the same wheels or with equal planets (colour refinement).
+    Planets are equal if they have the same carrier and external torque, and if they mesh with the same wheels or with
+    equal planets, with equal tooth counts and efficiencies. They are found by colour refinement.
 
-    singled   links that are not equal to any other: frame, braked, locked or requested links, links with declared
-    shares
+    singled   links that are not equal to any other: the frame, braked, locked or requested links, and links with shares
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
     # pins in slots have different angles at equal planets
@@ -345,7 +342,7 @@ def find_ties(
 def _planet_meshes(
     circuits: Sequence[Circuit], meshes: Sequence[LoadedPair], apart: Collection[str]
 ) -> dict[str, list[tuple[str, str, _Key]]]:
-    """Return the meshes of each planet: id, link of the mate, and what meshes of equal planets have in common."""
+    """Return the meshes of each planet: name, link of the mate, and a key that equal planets have in common."""
     found: dict[str, list[tuple[str, str, _Key]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
@@ -364,7 +361,7 @@ def _planet_meshes(
 def _planet_classes(
     meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
 ) -> dict[str, int]:
-    """Return the number of the class of equal planets to which each planet belongs, by colour refinement."""
+    """Return the number of the class of equal planets that contains each planet, found by colour refinement."""
     classes: dict[str, int] = {}
     while True:
         keys: dict[str, _Key] = {}
@@ -379,25 +376,25 @@ def _planet_classes(
 
 @dataclass(frozen=True)
 class TorqueQuestion:
-    """Loads in one load case [N m, or numbers without a unit], and the links with unknown torques."""
+    """Loads in one load case [N m, or numbers without a unit], and the links whose torques are to be computed."""
 
     loads: Mapping[str, Fraction]
     links: tuple[str, ...]
     enough: bool = True
     """True if the number of unknown torques equals the number of degrees of freedom.
 
-    If the number is smaller, the loads must be in equilibrium.
+    If the number of unknown torques is smaller, the loads must be in equilibrium without additional torques.
     """
     undecided: TorqueVerdict | None = None
-    """Verdict that requests a further unknown torque, returned if the loads are not in equilibrium without it; None if
-    no further torque need be chosen.
+    """Verdict that requests a further unknown torque, which is returned if the loads are not in equilibrium; None if no
+    further torque is required.
     """
 
 
 def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
-    """Compute the torques under the declared loads and friction of bearings: equations (3) to (8) and (10).
+    """Compute the torques under the declared loads and the friction of bearings; see equations (3) to (8) and (10).
 
-    flows_only   True to skip the search for neglected effects, which builds the teeth of every pair
+    flows_only   True to omit the search for neglected effects, which requires the teeth of every pair
     """
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
@@ -406,7 +403,7 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
-    """Return the pairs that have no torque under the declared loads, whatever the losses; empty if torques are
+    """Return the pairs that have no torque under the declared loads, whatever the losses are; empty if torques are
     undetermined.
 
     They correspond to the zero-force members of a truss.
@@ -421,8 +418,8 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """Return the loads and the links with unknown torques; a verdict if no load is declared or no torque can be
-    requested.
+    """Return the loads and the links with unknown torques; return a verdict if no load is declared, or if no torque can
+    be requested.
     """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)) and not setting.train.has_jumpers:
@@ -441,9 +438,7 @@ def torques_unknown(state: str | None) -> Torques:
 
 
 def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
-    """Compute the torques under given torques on links while power enters at the inputs; bearing friction is
-    neglected.
-    """
+    """Compute the torques if power enters at the inputs and the torques `drag` act; bearing friction is neglected."""
     if (verdict := _without_axis(setting, drag)) is not None:
         return Torques(setting.case.state, verdict)
     links = power_inputs(setting)
@@ -452,23 +447,23 @@ def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
 
 
 class EscapementTorques(NamedTuple):
-    """Torque that drives a clock, and torque that arrives at its escape wheel [N m]."""
+    """Torque that drives a clock, and the resulting torque at its escape wheel [N m]."""
 
     source: str
-    """Link at which power enters."""
+    """Link at which power enters the train."""
     torque: float
-    """Torque at this link in the sense of its rotation."""
+    """Torque at `source`, in its sense of rotation [N m]."""
     at_escape: float
-    """Torque at the escape wheel in the sense of its rotation; 0 or less if friction stops the train."""
+    """Torque at the escape wheel, in its sense of rotation [N m]; 0 or less if friction stops the train."""
     without_bearings: float
-    """Torque at the escape wheel without the friction of bearings that does not depend on the load."""
+    """Torque at the escape wheel if bearing friction that does not depend on the load is omitted [N m]."""
     lost_in_bearings: float
     """Fraction of the power that is lost in bearings."""
 
 
 def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
-    """Return the torque at the escape wheel of a clock under its only load, or else under its drive; None if neither
-    drives the train with a known torque [N m], or no balance exists.
+    """Return the torque at the escape wheel of a clock under its only load, or else under its drive. None if neither
+    drives the train with a known torque [N m], or if no torques balance.
     """
     escapement, case = setting.train.escapement, setting.case
     (source, torque), *more = case.loads.items() or [(power_inputs(setting)[0], None)]
@@ -498,9 +493,7 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Compute the torques while a unit of power leaves at `load` and the link `source` drives; bearing friction is
-    neglected.
-    """
+    """Compute the torques if `source` drives and unit power leaves at `load`; bearing friction is neglected."""
     if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
@@ -515,7 +508,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the links with unknown torques: as many as there are inputs, or fewer if the choice is not unique."""
+    """Return the links with unknown torques, as many as there are inputs, or fewer if the choice is not unique."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -550,7 +543,7 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
     """Return a verdict if the speed of one of the links is a sum of joint speeds about non-parallel axes; else None.
 
-    Such a sum is not a rotation, so a torque on the link has no unique power.
+    Such a sum is not a rotation, so the power of a torque on the link is not unique.
     """
     sums = setting.axes.joint_sums
     for link in links:
@@ -564,7 +557,7 @@ def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | N
     """Return a verdict if the only requested link is at rest while the train moves; else None."""
     speeds = setting.speeds
     if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
-        return TorqueVerdict("still", f"'{requested[0]}' does not turn, so no torque on it does any work")
+        return TorqueVerdict("still", f"'{requested[0]}' does not turn, so a torque on it does no work")
     return None
 
 
@@ -612,8 +605,8 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
 
 
 def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
-    """Return the one-way clutches that hold but have a torque in the sense in which they overrun; if there are none,
-    those with an undetermined torque.
+    """Return the one-way clutches that hold but transmit a torque in the sense in which they overrun; if there are
+    none, those whose torque is undetermined.
     """
     senses = setting.case.senses
     held = [each for each in _held(setting, flow) if each.links in senses]
@@ -622,9 +615,9 @@ def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Return one verdict from two: which torque could be requested, and what fails without it.
+    """Return one verdict from two: which torque could be requested, and what prevents a balance without it.
 
-    The first part is omitted if no further torque could help.
+    The first part is omitted if no further torque can be requested.
     """
     if question.undecided is None:
         return lacking
@@ -641,7 +634,7 @@ def build_balance(
     requested: tuple[str, ...],
     means: Mapping[str, MeanEfficiencies] | None = None,
 ) -> TorqueBalance:
-    """Build the torque balance of a train with known and unknown torques, without losses if `means` is None."""
+    """Build the torque balance of a train with known and unknown torques; it has no losses if `means` is None."""
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
     locks = _locks(setting)
@@ -667,8 +660,8 @@ def build_balance(
 
 
 def _reactions(setting: LoadCase, requested: Iterable[str]) -> dict[str, tuple[str, int]]:
-    """Return, for each unknown torque whose reaction does not act on the frame, the link of the reaction and the
-    reaction to a unit torque.
+    """Return, for each unknown torque whose reaction does not act on the frame, the link on which the reaction acts,
+    and the reaction to a unit torque.
     """
     bases = ((link, setting.reacts_on(link)) for link in requested)
     return {
@@ -685,7 +678,7 @@ def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """Return a circuit as a loaded pair with its losses; without losses if its relative speed is undetermined."""
+    """Return a circuit as a loaded pair with its losses, or without losses if its relative speed is undetermined."""
     # a travel reacts on a link that slides and on a link that turns, other pairs on one link
     links = (circuit.i, circuit.j, *(circuit.subtracted if circuit.travels else circuit.subtracted[:1]))
     senses = tuple(map(setting.sense, links))
@@ -707,7 +700,7 @@ def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fracti
 
 
 def _bearing_friction(setting: LoadCase, bearings: Sequence[BearingTorque]) -> dict[str, Fraction]:
-    """Return the friction torque of all bearings on each link, as the link in a bearing or as its carrier."""
+    """Return the total friction torque of bearings on each link, also as the carrier of a bearing."""
     found: dict[str, Fraction] = {}
     for bearing in bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -760,7 +753,7 @@ def _torques(
 
 
 def _load(arms: Mapping[str, Fraction], link: str, torque: Fraction) -> Fraction:
-    """Return the force on a sliding link [N] for the torque by which it is calculated; torques are unchanged."""
+    """Return the force on a sliding link [N] that a torque represents; other torques are unchanged."""
     return torque / arms[link] if link in arms else torque
 
 
@@ -786,7 +779,7 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 
 
 def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Return brakes and locks with their torques, each about the axis of its link.
+    """Return the brakes and locks with their torques, each about the axis of its link.
 
     The torque of a lock on its second link is the reaction to the torque on the first.
     """

@@ -1,9 +1,9 @@
-"""Torque balance of every link, A^T x + T = 0: the transpose of the Willis system, exact, with losses.
+"""Exact torque balance of every link including losses, A^T x + T = 0, where A is the matrix of the Willis system.
 
-The equations are (1) to (7) of docs/torques.md. A mesh of links i and j with carrier k and the equation a (w_i - w_k)
-+ b (w_j - w_k) = 0 has one multiplier x. Without loss its torques are a x on i, b x on j, and minus their sum on k. If
-i drives in the carrier's frame, the torque on j is reduced by the efficiency eta; if j drives, the torque on i is
-reduced. The loss is the driver's power in this frame times 1 - eta, which is never negative.
+The equations are (1) to (7) of docs/torques.md. A mesh of links i and j with carrier k and the equation a (w_i - w_k) +
+b (w_j - w_k) = 0 has one multiplier x. Without losses, its torques are a x on i, b x on j, and minus their sum on k. If
+i drives relative to the carrier, the torque on j is multiplied by the efficiency eta; if j drives, the torque on i is.
+The loss is the driver's power relative to the carrier times 1 - eta; it is never negative.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Driving side of each mesh in the carrier's frame: 1 for the first link, -1 for the second link, 0 without loss."""
+"""Driving side of each mesh relative to the carrier: 1 for the first link, -1 for the second link, 0 without losses."""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
-"""Link, and the meshes on one of its wheels, each with its fraction of the wheel's torque."""
+"""Link, and meshes of one of its wheels, each with the fraction of the wheel's torque that it transmits."""
 _SCALES = 1_000_003, 1_414_213  # factors of the coefficients of a row, so that nothing cancels by chance
 
 
@@ -31,19 +31,18 @@ class LoadedPair:
 
     id: str
     links: tuple[str, ...]
-    """Links i, j and k: first link, second link, and carrier; four links if the two sides react on different links."""
+    """Links i, j and k (first, second, carrier); four links if the two sides react on different links."""
     senses: tuple[int, ...]
-    """Senses of the axes of `links`, 1 or -1."""
+    """Senses of the axes of `links` relative to the reference direction, 1 or -1."""
     a: int
     """Coefficient of the first link in the pair's Willis equation."""
     b: int
     """Coefficient of the second link in the pair's Willis equation."""
     rolling: Fraction
-    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), with the angular speeds w of the links; 0 without relative motion.
-    """
+    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), where w are angular speeds; 0 without relative motion."""
     forward: Fraction = Fraction(1)
-    """Efficiency with the first link driving, at most 1; 0 or less is self-locking. `backward` is the efficiency with
-    the second link driving.
+    """Efficiency with the first link driving, at most 1; 0 or less means self-locking. `backward` is the efficiency
+    with the second link driving.
     """
     backward: Fraction = Fraction(1)
 
@@ -62,75 +61,73 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed. Power flows from the first to the second link if the multiplier has the opposite
-        sign.
-        """
+        """Sign of the rolling speed; power flows from first to second link if the multiplier has the opposite sign."""
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Driving sides to be tried. Self-locking sides are omitted, unless both sides are self-locking: the result is
-        then (1,).
+        """Driving sides that are to be tried. Self-locking sides are omitted; if both sides are self-locking, the
+        result is (1,).
         """
         if not self.loses:
             return (0,)
         return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
 
     def efficiency(self, side: int) -> Fraction:
-        """Return the efficiency with the first link driving (`side` 1) or the second (-1); 1 for side 0."""
+        """Return the efficiency with the first link driving (`side` 1) or the second (-1); it is 1 for side 0."""
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, ...]:
-        """Return the torques on `links` for a multiplier of 1: equation (5)."""
+        """Return the torques on `links` for a multiplier of 1, equation (5)."""
         left = self.a * (self.backward if side < 0 else Fraction(1))
         right = self.b * (self.forward if side > 0 else Fraction(1))
         reactions = (-left - right,) if len(self.links) == 3 else (-left, -right)
         return tuple(sense * torque for sense, torque in zip(self.senses, (left, right, *reactions), strict=True))
 
     def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
-        """Return the signs of the torques on both links relative to `other`, an equal pair with the same unknown
-        torque.
+        """Return the signs of the torques on both links relative to the torques of `other`, an equal pair with the same
+        unknown torque.
 
-        alike   True if both pairs have their links in the same order; a planet with reversed axis changes the sign
+        alike   True if both pairs have their links in the same order; a reversed axis of a planet changes the sign
         """
         coefficients = (other.a, other.b) if alike else (other.b, other.a)
         first, second = (-1 if a * b < 0 else 1 for a, b in zip((self.a, self.b), coefficients, strict=True))
         return first, second
 
     def power(self, multiplier: Fraction) -> Fraction:
-        """Return the power from first to second link in the carrier's frame, before losses if the first drives:
-        equation (4).
+        """Return the power from the first link to the second relative to the carrier, before losses if the first
+        drives; equation (4).
         """
         return -multiplier * self.rolling
 
 
 @dataclass(frozen=True)
 class TorqueUnknown:
-    """Unknown torque that one or more meshes have in common, with its coefficient in each row of the balance."""
+    """Unknown torque that is common to one or more meshes, with its coefficient in each row of the balance."""
 
     pieces: Mapping[int, LinearForm]
-    """Coefficients of the torque, by driving side and row of the balance. Sides refer to the first lossy mesh; side 0
-    is without loss.
+    """Coefficients of the torque, by driving side and row of the balance. A side refers to the first mesh with losses;
+    side 0 means without losses.
     """
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
-    """Driving sides of the first lossy mesh to be tried."""
+    """Driving sides of the first mesh with losses that are to be tried."""
     turn: int = 0
-    """Sign of the rolling speed of the first lossy mesh."""
+    """Sign of the rolling speed of the first mesh with losses."""
     barred: bool = False
-    """True if no power can flow, so that the torque must be 0."""
+    """True if no power can flow, which requires the torque to be 0."""
     sense: int = 0
-    """Required sign of the torque, of a one-way clutch; 0 for any sign."""
+    """Required sign of the torque of a one-way clutch, 1 or -1; 0 if any sign is permitted."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
-        """Return True if a torque transmits power in the direction of `side`, or no power."""
+        """Return True if a torque transmits power in the direction of `side`, or transmits no power."""
         if (self.barred and torque) or self.sense * torque < 0:
             return False
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one mesh with this unknown torque, whose links may be in another order; 0 without
-        loss.
+        """Return the driving side of one mesh with this unknown torque, whose links may be in the reverse order; 0
+        without losses.
         """
         return side * mesh.turn * self.turn if mesh.loses else 0
 
@@ -140,14 +137,14 @@ class TorqueBalance:
     """Known and unknown torques in one load case.
 
     links     all links except the frame
-    known     link -> external torque: loads and friction of bearings; 0 for other links
+    known     link -> external torque, which includes loads and friction of bearings; 0 for other links
     unknown   links with unknown external torque
     reactions link with unknown torque -> link on which the reaction acts if it is not the frame, and the reaction to a
               unit torque
-    held      links braked to the frame; `locks` are pairs of links locked together, with the senses of both axes
+    held      links braked to the frame; `locks` are pairs of links that are locked together, with both senses
     ties      groups of meshes with equal multipliers, such as meshes of equal planets
-    shares    declared fractions of the torque on a wheel
-    senses    sign of the torque on the last link, by held link or locked links that one-way clutches hold
+    shares    declared fractions of the torque of a wheel
+    senses    sign of the torque on the last link of a brake or lock that consists of one-way clutches, by its links
     """
 
     links: tuple[str, ...]
@@ -163,7 +160,7 @@ class TorqueBalance:
 
     @cached_property
     def columns(self) -> tuple[TorqueUnknown, ...]:
-        """All unknowns: torques of meshes, then external torques, brakes and locks."""
+        """All unknowns in this order: torques of meshes, external torques, brakes and locks."""
         tied = {name: group for group in self.ties for name in group}
         groups: dict[tuple[str, ...], list[LoadedPair]] = {}
         for mesh in self.meshes:
@@ -181,7 +178,7 @@ class TorqueBalance:
 
     @property
     def _signs(self) -> tuple[int, ...]:
-        """Required sign of each unknown torque without a mesh: external torques, brakes and locks; 0 for any sign."""
+        """Required sign of each unknown external torque and of each brake and lock; 0 if any sign is permitted."""
         held = (self.senses.get((link,), 0) for link in self.held)
         # the unknown torque of a lock acts on its first link, and with the opposite sign on the second
         locks = (-t * self.senses.get((a, b), 0) for (a, _), (b, t) in self.locks)
@@ -206,7 +203,7 @@ class TorqueBalance:
                 alike.setdefault(tuple(at for at, _, _ in entries), []).append(row)
         kept: list[int] = []
         for group in alike.values():
-            # of proportional rows the first is kept
+            # the first of several proportional rows is kept
             said = {_direction(held[row], known.get(row, Fraction(0))): row for row in reversed(group)}
             kept += said.values() if len(group) > 1 else group
         return {row: known.get(row, Fraction(0)) for row in sorted(kept)}
@@ -223,7 +220,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block; it is used if a block leaves an unknown of a later block undetermined."""
+        """Whole balance as one block; used if a block does not determine an unknown that a later block requires."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -232,9 +229,9 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """Rows of declared shares that contain the torque of a mesh, by mesh.
+        """Rows of declared shares that contain the torque of a mesh, by name of the mesh.
 
-        Such a row states that the torque of a mesh on the link, divided by its share, is the same as for the first
+        Such a row states that the torque of a mesh on the link, divided by its share, equals this quotient of the first
         mesh.
         """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
@@ -260,7 +257,7 @@ class TorqueBalance:
         return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
-        """Yield the entries of a mesh's torques in the balance: row, index of its link in `links`, and factor."""
+        """Yield the entries of a mesh's torques in the balance: row, index of the link in `links`, and factor."""
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
 
@@ -270,13 +267,13 @@ class TorqueBalance:
 
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
-    """Return a row divided by its first entry, to recognise proportional rows."""
+    """Return a row divided by its first entry, which is equal for proportional rows."""
     scale = entries[0][2] if entries else known
     return (known / scale, *((at, side, value / scale) for at, side, value in entries))
 
 
 def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
-    """Return the sum of the entries of one row by column, without zeros."""
+    """Return the sums of the entries of one row by column, without zeros."""
     row: LinearForm = {}
     for at, value in entries:
         row[at] = row.get(at, Fraction(0)) + value
@@ -285,9 +282,7 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques for one pattern of power flow: multipliers of meshes, unknown external torques, torques of brakes and
-    locks.
-    """
+    """Torques for one pattern of power flow: multipliers of meshes, external torques, torques of brakes and locks."""
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
@@ -295,13 +290,13 @@ class SolvedTorques:
     locks: tuple[Fraction | None, ...]
     """Torque of each lock on its first link, about the reference direction of parallel axes; None if undetermined."""
     loose: tuple[str, ...]
-    """Meshes with undetermined torque, such as meshes of several planets; their multiplier is set to 0 here."""
+    """Meshes with undetermined torque, such as those of several planets; here their multiplier is set to 0."""
     open: tuple[str, ...]
-    """Requested or braked links whose torque is undetermined, and therefore omitted from `external` and `brakes`."""
+    """Requested or braked links whose torque is undetermined. They are omitted from `external` and `brakes`."""
 
 
 def idle_pairs(balance: TorqueBalance) -> set[str]:
-    """Return the pairs without torque at any position, because no link that they drive has a torque."""
+    """Return the pairs that transmit no torque at any position, because no link that they drive has a torque."""
     rows = {row for row, torque in balance.rows.items() if torque}
     idle: set[str] = set()
     for block in balance.parts:
@@ -314,7 +309,7 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
 
 
 def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
-    """Return the torque balance without the pairs `names`."""
+    """Return the torque balance without the pairs in `names`."""
     return replace(
         balance,
         meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),
@@ -323,9 +318,7 @@ def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """Return the balance with generic coefficients, which do not cancel by coincidence; it determines the order of
-    solution.
-    """
+    """Return the balance with generic coefficients, which do not cancel; it determines the order of solution."""
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(
@@ -343,7 +336,7 @@ def generic_balance(balance: TorqueBalance) -> TorqueBalance:
 
 
 def equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
-    """Return for each planet the planets that are equal to it, including itself."""
+    """Return for each planet the names of the planets that are equal to it, including its own."""
     ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
     found: dict[str, tuple[str, ...]] = {}
     for group in balance.ties:

@@ -20,10 +20,10 @@ class LinkTorque(Result):
     KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "requested")
 
     torque: Fraction
-    """External torque on the link, or force on a link that slides [N m or N, or number without a unit]."""
+    """External torque on the link, or force on a link that slides [N m or N, or a number without a unit]."""
     power: Fraction | None
-    """Power that the torque puts into the train [torque times the train's unit of speed]; None if the speed is
-    undetermined.
+    """Power that the torque supplies to the train [unit of torque times the train's unit of speed]; None if the speed
+    is undetermined.
     """
     requested: bool
     """True if the torque was computed, False if it was declared."""
@@ -31,20 +31,20 @@ class LinkTorque(Result):
 
 @dataclass(frozen=True)
 class HoldingTorque(Result):
-    """Brake on one link or lock between two links, with the torques that it exerts."""
+    """Brake on one link or lock between two links, and the torques that it exerts."""
 
     KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
 
     links: tuple[str, ...]
-    """Braked link, or the two links that are locked together."""
+    """Name of the braked link, or names of the two links that are locked together."""
     torques: tuple[Fraction, ...] | None
-    """Torque on each of the links about its own axis [N m, or number without a unit]; None if undetermined."""
+    """Torque on each of the links about its own axis [N m, or a number without a unit]; None if undetermined."""
     clutch: str | None = None
-    """Name of the brake or clutch; None if no clutch is declared for it."""
+    """Name of the brake or clutch; None if it has no name."""
     cause: tuple[str, ...] = ()
     """Links of the declared lock that implies this brake or lock; empty if the brake or lock is itself declared.
 
-    A lock across several axes closes every joint on the path between its links.
+    A lock across several axes locks every joint on the path between its links.
     """
 
     @property
@@ -54,26 +54,26 @@ class HoldingTorque(Result):
 
     @property
     def by_link(self) -> Mapping[str, Fraction] | None:
-        """Torque on each held link [N m, or number without a unit]; None if undetermined."""
+        """Torque on each held link [N m, or a number without a unit]; None if undetermined."""
         return None if self.torques is None else dict(zip(self.links, self.torques, strict=True))
 
 
 class MemberTorques(NamedTuple):
-    """Torques on the members of a gear pair or coupling, and the force on a member that slides [N m and N, or numbers
-    without a unit].
+    """Torques on the members of a gear pair or coupling, or forces on members that slide [N m or N, or numbers without
+    a unit].
     """
 
     first: Fraction
-    """Torque on the first link of the pair [N m, or number without a unit]."""
+    """Torque on the first link of the pair [N m, or a number without a unit]."""
     second: Fraction
-    """Torque on the second link of the pair [N m, or number without a unit]."""
+    """Torque on the second link of the pair [N m, or a number without a unit]."""
     carrier: Fraction
-    """Torque on the carrier of the pair [N m, or number without a unit]."""
+    """Torque on the carrier of the pair [N m, or a number without a unit]."""
 
 
 @dataclass(frozen=True)
 class BearingTorque(Result):
-    """Friction torques of one bearing: equation (10) of docs/torques.md."""
+    """Friction torques of one bearing, equation (10) of docs/torques.md."""
 
     KEYS = ("link", "carrier", *(Key(key, to=as_float) for key in ("torque", "reaction", "loss")), "load")
 
@@ -82,20 +82,20 @@ class BearingTorque(Result):
     carrier: str
     """Link that carries the bearing."""
     torque: Fraction
-    """Torque on the link about its own axis [N m, or number without a unit]; 0 if the bearing is at rest or its speed
+    """Torque on the link about its own axis [N m, or a number without a unit]; 0 if the bearing is at rest or its speed
     is undetermined.
     """
     reaction: Fraction
-    """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
+    """Torque on the carrier about its own axis [N m, or a number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
-    """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
+    """Power lost in the bearing [unit of torque times the train's unit of speed]; it is not negative."""
     load: float | None = None
-    """Load on the bearing, or on two bearings the sum [N]; None if the friction does not depend on the load."""
+    """Load on the bearing, or total load on two bearings [N]; None if friction does not depend on it."""
 
 
 @dataclass(frozen=True)
 class PairTorque(Result):
-    """Gear pair or coupling under load: equations (2) and (4) to (6) of docs/torques.md."""
+    """Gear pair or coupling under load; see equations (2) and (4) to (6) of docs/torques.md."""
 
     KEYS = (
         "driver",
@@ -108,52 +108,49 @@ class PairTorque(Result):
     id: str
     """Name of the pair or coupling."""
     driver: str
-    """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
+    """Wheel or link that drives relative to the carrier; "" if no power flows."""
     links: tuple[str, ...]
-    """Names of first link, second link and carrier of the pair. If one of them slides and the other turns, the third
-    link takes the reaction of the force, and a fourth link the reaction of the torque.
+    """Names of the first link, second link and carrier of the pair. If one link slides and the other turns, the
+    reaction of the force acts on the third link, and the reaction of the torque on a fourth link.
     """
     torques: tuple[Fraction, ...]
-    """Torques on these links, each about its own axis, or forces on links that slide [N m or N, or number without a
-    unit].
-    """
+    """Torques on `links` about their own axes, or forces on sliding links [N m or N, or numbers without a unit]."""
     multiplier: Fraction
-    """Multiplier x of the pair's Willis equation; without losses the torque on the first link is x times its
+    """Multiplier x of the pair's Willis equation. Without losses, the torque on the first link is x times its
     coefficient a.
     """
     rolling: Fraction | None
-    """Rolling speed: coefficient a of the Willis equation times the speed of the first link relative to the carrier;
-    None if undetermined.
+    """Rolling speed, which is the coefficient a of the Willis equation times the speed of the first link relative to
+    the carrier; None if undetermined.
 
     The power from the first link to the second is -x times this speed.
     """
     share: Fraction
-    """Efficiency of the pair with the carrier at rest, for `driver` as driving side; 1 for a pair without losses."""
+    """Efficiency of the pair with the carrier at rest and `driver` driving; 1 for a pair without losses."""
     loose: bool = False
     """True if the balance of torques does not determine the torque of the pair."""
     exact: bool = True
-    """False if `share` is a mean over teeth, a float with 15 digits."""
+    """False if `share` is a mean over positions of the teeth, which is a float with 15 digits."""
 
     @property
     def forces(self) -> tuple[bool, ...]:
-        """True for each of `links` on which a force acts, False for a torque."""
+        """True for each of the `links` on which a force acts, False if a torque acts on it."""
         return (True, False, True, False) if len(self.links) == 4 else (False,) * 3
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Basic efficiency (with the carrier at rest) for `driver` as driving side; a float for a mean over teeth."""
+        """Basic efficiency (carrier at rest) if `driver` drives; a float for a mean over positions of the teeth."""
         return self.share if self.exact else float(self.share)
 
     @property
     def on_members(self) -> MemberTorques:
-        """Torques on first link, second link and carrier [N m, or number without a unit]."""
+        """Torques on first link, second link and carrier [N m, or numbers without a unit]."""
         return MemberTorques(self.torques[0], self.torques[1], self.torques[-1])
 
     @cached_property
     def power(self) -> Fraction | None:
-        """Power input of the driver relative to the carrier; None if undetermined.
-
-        Its unit is the unit of torque times the train's unit of speed.
+        """Power input of the driver relative to the carrier [unit of torque times the train's unit of speed]; None if
+        undetermined.
         """
         # computed on demand, because both factors have many digits in a long train
         if self.rolling is None:
@@ -184,9 +181,10 @@ TorqueVerdictKind = Literal[
 
 @dataclass(frozen=True)
 class TorqueVerdict(Result):
-    """Verdict on whether and how the loads determine the torques: sections 5, 8, 11 and 13 of docs/torques.md.
+    """Verdict on whether and how the loads determine the torques; see sections 5, 8, 11 and 13 of docs/torques.md.
 
-    The verdict is true if torques are returned: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
+    The truth value is True if torques are returned, which is the case for `determined`, `incomplete`, `ambiguous` and
+    `indeterminate`.
 
     Kinds:
 
@@ -199,9 +197,9 @@ class TorqueVerdict(Result):
     - `contradictory`: declared shares of pairs contradict the balance.
     - `unbalanced`: the loads set the train in motion, and no torques on the requested links can balance them.
     - `overrunning`: a one-way clutch that must hold would overrun.
-    - `undecided`: several links could have the unknown torque.
+    - `undecided`: the unknown torque could act on several links.
     - `unloaded`: no load and no friction of a bearing is declared.
-    - `still`: the train or the requested link is at rest, or its speed is undetermined.
+    - `still`: the train or the requested link is at rest, or the speed is undetermined.
 
     Examples
     --------
@@ -215,7 +213,7 @@ class TorqueVerdict(Result):
     text: str
     """Verdict and its reason in one sentence."""
     candidates: tuple[str, ...] = ()
-    """Links whose torque may be requested (`solve_for`) or balances the loads, or pairs with undetermined torques."""
+    """Links whose torque may be requested (`solve_for`) or balances the loads, or pairs with unknown torques."""
 
     def _summary(self) -> str:
         return f"{self.kind}: {self.text}"
@@ -226,7 +224,7 @@ class TorqueVerdict(Result):
 
 @dataclass(frozen=True)
 class NeglectedEffect(Result):
-    """Declared effect that the torque calculation neglects, as listed in docs/torques.md, section 13."""
+    """Declared effect that is neglected in the calculation of torques; see docs/torques.md, section 13."""
 
     what: str
     """Neglected effect, such as `friction of bearings` or `variation within a turn`."""
@@ -237,8 +235,8 @@ class NeglectedEffect(Result):
 
     @property
     def counts(self) -> bool:
-        """True if the neglected effect changes mean values. Variations within a revolution, and the choice between two
-        mean values, are not counted.
+        """True if the neglected effect changes mean values; False for variations within a revolution, and for the
+        choice between two mean values.
         """
         return self.what not in ("variation within a turn", "mean efficiency")
 
@@ -247,7 +245,7 @@ class NeglectedEffect(Result):
 
 
 class DrivenWay(NamedTuple):
-    """Torques of a train in which link `source` drives and a unit of power leaves at link `load`."""
+    """Torques of a train in which the link `source` drives and a unit of power leaves at the link `load`."""
 
     torques: Torques
     """Torques of the driven train, with the `efficiency` in this direction."""
@@ -259,15 +257,15 @@ class DrivenWay(NamedTuple):
 
 @dataclass(frozen=True)
 class Torques(FrozenFields, Tabular, TrainResult):
-    """Torques and powers of a train in one state, exact: A^T x + T = 0, equation (3) of docs/torques.md.
+    """Exact torques and powers of a train in one state, from A^T x + T = 0, equation (3) of docs/torques.md.
 
-    Torques are in N m if loads have units, otherwise numbers without a unit. Powers are torques times the train's unit
-    of speed, positive into the train.
+    Torques are in N m if loads have units, and otherwise are numbers without a unit. The unit of power is the unit of
+    torque times the train's unit of speed. Powers are positive if they flow into the train.
 
     Examples
     --------
     Both pairs of a planetary set have an efficiency of 0.98, and the ring is fixed. The efficiency from sun to carrier
-    is (1 + p e) / (1 + p), with p = 60/24 and e = 0.98^2 (the table in section 10 of docs/torques.md):
+    is (1 + p e) / (1 + p), where p = 60/24 and e = 0.98^2 (see the table in section 10 of docs/torques.md):
 
     >>> import geartrain
     >>> found = geartrain.load('''
@@ -284,8 +282,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
     MEANINGS: ClassVar = {
         "link": "Link with an external torque.",
         "torque": "External torque on the link",
-        "speed": "Speed of the link; empty where it is not determined",
-        "power": "Power that the torque puts into the train; empty where the speed is not determined",
+        "speed": "Speed of the link; empty if it is not determined",
+        "power": "Power that the torque supplies to the train; empty if the speed is not determined",
     }
 
     PAGE = "report.torque_report:torques_document"
@@ -313,30 +311,30 @@ class Torques(FrozenFields, Tabular, TrainResult):
     requested: tuple[str, ...] = ()
     """Links whose external torque was computed from the torque balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
-    """External torque on each link, or force on a link that slides [N m or N, or number without a unit]: loads,
-    requested torques, brakes.
+    """External torque on each link, or force on a link that slides [N m or N, or a number without a unit], including
+    loads, requested torques and brakes.
     """
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
     """Speed of each link whose speed is determined [unit of the train]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
     """Torques and power of each gear pair and coupling, by name."""
     bearings: tuple[BearingTorque, ...] = ()
-    """Friction torques of bearings; empty if no bearing declares friction."""
+    """Friction torques of bearings; empty if no friction of bearings is declared."""
     held: tuple[HoldingTorque, ...] = ()
-    """Brakes and locks with the torques that they exert."""
+    """Brakes and locks, and the torques that they exert."""
     neglected: tuple[NeglectedEffect, ...] = ()
-    """Declared effects that the torques do not include."""
+    """Declared effects that are not included in the torques."""
     reactions: Mapping[str, tuple[str, Fraction]] = field(default_factory=dict)
-    """Reactions that do not act on the frame: link of `requested` -> link that takes the reaction, such as the pallets
-    of an escapement, and its torque, which `external` includes.
+    """Reactions that do not act on the frame. For a link in `requested`: the link on which the reaction acts, such as
+    the link of the pallets, and its torque, which is included in `external`.
     """
     overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
-    """Speed at which each one-way clutch overruns, without torque and loss [unit of the train], by clutch; None if
-    undetermined.
+    """Speed at which each overrunning one-way clutch slips [unit of the train], by clutch; None if undetermined. It
+    transmits no torque.
     """
     arms: Mapping[str, Fraction] = field(default_factory=dict)
-    """Lever arm [m] of the force on each link that slides. Its power is force times arm times speed, where a travel of
-    1 mm counts as one turn.
+    """Lever arm of the force on each link that slides [m]. Power is force times arm times angular speed, where a travel
+    of 1 mm counts as one turn.
     """
 
     def power(self, link: str, load: Fraction) -> Fraction:
@@ -345,9 +343,9 @@ class Torques(FrozenFields, Tabular, TrainResult):
         Parameters
         ----------
         link : str
-            Link with determined speed.
+            Link whose speed is determined.
         load : Fraction
-            Torque, or force on a link that slides.
+            Torque on the link, or force on a link that slides.
         """
         return load * self.arms.get(link, 1) * self.speeds[link]
 
@@ -373,7 +371,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def powers(self) -> Mapping[str, Fraction]:
-        """External power of each link whose speed is determined [unit of torque times the train's unit of speed],
+        """External power of each link whose speed is determined [unit of torque times the train's unit of speed];
         positive if it flows into the train.
         """
         return {link: self.power(link, load) for link, load in self.external.items() if link in self.speeds}
@@ -388,7 +386,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each external torque: torque, speed and power as floats, None if undetermined."""
+        """Columns of a table of external torques: torque, speed and power as floats, None if undetermined."""
         speeds, powers = ((each.get(link) for link in self.external) for each in (self.speeds, self.powers))
         return {
             "link": [*self.external],
@@ -430,8 +428,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in pairs and bearings [unit of torque times the train's unit of speed]; if torques of pairs are
-        undetermined, the net external power.
+        """Power lost in pairs and bearings [unit of torque times the train's unit of speed]; it equals the net external
+        power if torques of pairs are undetermined.
         """
         if any(pair.loose for pair in self.pairs.values()):
             return self._missing
@@ -453,8 +451,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output divided by power input; a float if pairs have mean efficiencies over teeth, or if friction of
-        bearings depends on their load.
+        """Power output divided by power input; a float if efficiencies of pairs are means over positions of the teeth,
+        or if the friction of bearings depends on their load.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """
@@ -473,7 +471,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     def circulating(self) -> Fraction | None:
         """Maximum power through a pair divided by the power input; None if a power is undetermined.
 
-        Power recirculates if the ratio exceeds 1.
+        Power recirculates if this quotient exceeds 1.
         """
         powers = [None if pair.loose else pair.power for pair in self.pairs.values()]
         known = [power for power in powers if power is not None]

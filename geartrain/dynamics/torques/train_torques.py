@@ -1,4 +1,4 @@
-"""Torques of a train at mean speeds, under the declared loads or with one link driven by another."""
+"""Torques of a train at mean speeds, under the declared loads or if one link drives another."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 
 def solve(train: TrainMechanics, state: str | None) -> Torques:
-    """Compute the torques on links and pairs under the loads of one state; equal planets share loads equally."""
+    """Compute the torques on links and pairs under the loads of one state. Equal planets share loads equally."""
     found = train.unfolded.load_case(state)
     return torques_unknown(state) if found is None else find_torques(found)
 
 
 def solve_driven(train: TrainMechanics, load: str, source: str, state: str | None) -> Torques:
-    """Compute the torques while link `source` drives and a unit of power leaves at `load`."""
+    """Compute the torques if the link `source` drives and a unit of power leaves at `load`."""
     train = train.unfolded
     for link in (load, source):
         check_choice("link", link, tuple(train.declaration.links))
@@ -31,10 +31,10 @@ def solve_driven(train: TrainMechanics, load: str, source: str, state: str | Non
 
 
 def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]:
-    """Compute the torques with the input driving, and with the output driving; a unit of power leaves at the other
-    link.
+    """Compute the torques if the input drives the output, and if the output drives the input, for a unit of power at
+    the driven link.
 
-    The default state is the first one. The list is empty if the output link is not unique.
+    By default, the first state is used. The list is empty if the output link is not unique.
     """
     train = train.unfolded
     declared = train.declaration
@@ -47,8 +47,8 @@ def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]
 
 
 def _without_rests(train: TrainMechanics, torques: Torques) -> Torques:
-    """Return the torques, with the verdict `self-locking` if power flows back through a coupling with a lock, which
-    holds its driven link at rest.
+    """Return the torques, with the verdict `self-locking` if power would flow back through a coupling that locks its
+    driven link in a dwell.
     """
     wheels = train.declaration.wheels
     locked = {

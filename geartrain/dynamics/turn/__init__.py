@@ -1,7 +1,8 @@
-"""Torque over a revolution: balance at every position with its actual ratio and friction (docs/torques.md, section 16).
+"""Torque over a revolution: the balance at every position with the actual ratio and friction (docs/torques.md, section
+16).
 
-train_turn           entry: torque of a train over revolutions of its input, and the results of a run
-turn_run             positions at which torques are computed, and integrals over them
+train_turn           main functions: torque of a train over revolutions of its input, and the results of a run
+turn_run             positions at which torques are computed, and integrals over the run
 position_motion      speeds of all links, and driver angles of the pairs, at these positions
 train_contacts       transmission function, friction and driving side of every pair in one load case
 turn_balance         torque balance, powers and losses at any position

@@ -1,6 +1,6 @@
 """Motion of all links at given positions of the input: speeds of the links, and driver angles of the pairs.
 
-If the torque of a pair presses on the coast flanks, its error follows from their transmission function. The flank in
+If the torque of a pair acts on the coast flanks, its error follows from their transmission function. The flank in
 contact may change from position to position.
 """
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class LinkMotion(NamedTuple):
-    """Motion of the links at some positions of the input."""
+    """Motion of the links at the given positions of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
@@ -35,14 +35,14 @@ class LinkMotion(NamedTuple):
     shape (links, n).
     """
     angles: Mapping[str, Floats]
-    """Forward angle [rad] of the driver of each pair that is evaluated at positions, shape (n,), by pair."""
+    """Angle of the driver of each evaluated pair in its mean sense of rotation [rad], shape (n,), by pair."""
 
 
 class PositionMotion:
     """Motion of the links that transmit torque, for any choice of the flanks in contact.
 
     motion  motion of these links relative to the frame
-    pairs   names of pairs whose ratio or losses depend on their position
+    pairs   names of the pairs whose ratio or losses depend on position
     """
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
@@ -64,12 +64,12 @@ class PositionMotion:
 
     @property
     def period(self) -> Fraction | None:
-        """Revolutions of the input after which every evaluated pair repeats its position; None without such pairs."""
+        """Revolutions of the input after which the evaluated pairs repeat their positions; None without such pairs."""
         return common_period(self.composition.used)
 
     @property
     def way(self) -> int:
-        """Sign of the input's speed about its own axis; motion is positive in the input's sense."""
+        """Sign of the input's speed about its own axis; motion is positive in the sense of the input."""
         return self.motion._problem.way
 
     @cached_property
@@ -79,13 +79,13 @@ class PositionMotion:
 
     @cached_property
     def means(self) -> Floats:
-        """Mean speed of each link divided by the speed of the input."""
+        """Mean speed of each link divided by the speed of the input [1]."""
         return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
-        """Return speeds and angles at no more than one chunk of positions of the input [revolutions].
+        """Return the speeds and angles at no more than one chunk of positions of the input [revolutions].
 
-        coasting   pair -> mask of the positions at which its coast flanks are in contact
+        coasting   pair -> boolean mask of the positions at which its coast flanks are in contact
         """
         speeds = np.empty((len(self.links), len(turns)))
         angles = {name: np.empty(len(turns)) for name in self.sources}
@@ -113,7 +113,7 @@ class PositionMotion:
         return KinkSearch(self.coasting_all_along(coasting)).over(0.0, span).turns
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition in which the coast flanks of the given pairs are in contact at all positions."""
+        """Return the error composition with the coast flanks of the given pairs always in contact."""
         if not pairs:
             return self.composition
         sources = tuple(

@@ -1,4 +1,4 @@
-"""Results of torque over a run: torque at every position, energies, and extremes with their positions."""
+"""Results of the torques over a run: torque at every position, energies, and extremes with their positions."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ class TorqueExtreme(NamedTuple):
     """Extreme value of the torque, and its position in the run."""
 
     torque: float
-    """Torque at the requested link [N m, or number without a unit], positive if it drives in the link's mean sense of
+    """Torque at the requested link [N m, or a number without a unit]; positive if it drives in the link's mean sense of
     rotation.
     """
     turns: float
-    """Revolutions of the input from the start of the run."""
+    """Position in the run [revolutions of the input]."""
     days: float | None = None
-    """Time from the start of the run [days]; None if the train's speeds have no unit of time."""
+    """Time since the beginning of the run [d]; None if the train's speeds have no unit of time."""
 
 
 class PlaceInRun(NamedTuple):
     """Position in a run, in revolutions of the input and in days."""
 
     turns: float
-    """Revolutions of the input from the start of the run."""
+    """Revolutions of the input since the beginning of the run."""
     days: float | None = None
-    """Time from the start of the run [days]; None if the train's speeds have no unit of time."""
+    """Time since the beginning of the run [d]; None if the train's speeds have no unit of time."""
 
 
 @dataclass(frozen=True)
@@ -50,11 +50,11 @@ class CycleEnergy(Result):
     )
 
     put_in: float
-    """Energy supplied by the unknown torques (such as the torque at the crank) while their power is positive [J, or rad
+    """Energy supplied by the unknown torques, such as the torque at the crank, while their power is positive [J, or rad
     if torques are numbers without a unit].
     """
     returned: float
-    """Energy absorbed by the unknown torques while their power is negative because the loads drive [J, or rad if
+    """Energy absorbed by the unknown torques while their power is negative, because the loads drive [J, or rad if
     torques are numbers without a unit].
     """
     taken_out: float
@@ -62,11 +62,11 @@ class CycleEnergy(Result):
     loads_put_in: float
     """Energy supplied by the loads while their power is positive [J, or rad if torques are numbers without a unit]."""
     mesh: float
-    """Energy lost in gear pairs, 0 or more [J, or rad if torques are numbers without a unit]."""
+    """Energy lost in gear pairs [J, or rad if torques are numbers without a unit]; it is not negative."""
     pin: float
-    """Energy lost in couplings such as pins in slots, 0 or more [J, or rad if torques are numbers without a unit]."""
+    """Energy lost in couplings such as pins in slots [J, or rad if torques are numbers without a unit], 0 or more."""
     bearing: float
-    """Energy lost in bearings, 0 or more [J, or rad if torques are numbers without a unit]."""
+    """Energy lost in bearings [J, or rad if torques are numbers without a unit]; it is not negative."""
 
     @property
     def net_in(self) -> float:
@@ -100,38 +100,39 @@ class CycleEnergy(Result):
 
 @dataclass(frozen=True)
 class PairCycle(Result):
-    """Loss, transmitted energy and torque of one gear pair, coupling or bearing over a run."""
+    """Loss, energy input and torque of one gear pair, coupling or bearing over a run."""
 
     kind: str
-    """Kind of the part of the train: `mesh`, `pin` or `bearing`."""
+    """Kind of the pair: `mesh`, `pin` or `bearing`."""
     loss: float
     """Energy lost in the pair, coupling or bearing over the run [J, or rad if torques are numbers without a unit]."""
     passed: float
-    """Energy input of the driving side relative to the carrier [J, or rad if torques are numbers without a unit]. For a
-    bearing it equals the loss.
+    """Energy input of the driving side relative to the carrier [J, or rad if torques are numbers without a unit]; for a
+    bearing, it equals the loss.
     """
     flank_changes: int = 0
-    """Number of sign changes of the torque through the pair. Teeth cross their backlash at each sign change.
+    """Number of sign changes of the torque that the pair transmits. The teeth cross their backlash at each sign change.
 
-    If the run is an integer number of periods, a change between the end and the start of the run is included.
+    If the run is an integer number of periods, a change between the end and the beginning of the run is included.
     """
     maximum: float = 0.0
-    """Maximum magnitude of the torque on the driven side [N m, or number without a unit]; 0 for a bearing."""
+    """Maximum magnitude of the torque on the driven side [N m, or a number without a unit]; 0 for a bearing."""
 
 
 @dataclass(frozen=True)
 class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
-    """Torques of a train over some revolutions of its input, position by position: docs/torques.md, sections 16 to 18.
+    """Torques of a train at positions over several revolutions of its input; see docs/torques.md, sections 16 to 18.
 
-    The run has about `samples` equally spaced positions. Positions are added at both sides of every kink and jump of
-    the transmission functions, where a motion reverses or the flank in contact changes, and where the integrals need
+    The run has about `samples` equally spaced positions. Positions are added on both sides of every kink and jump of
+    the transmission functions, where a motion reverses or the flank in contact changes, and where the integrals require
     more positions. Arrays with one value per position are read-only. At positions where no torque balances the loads,
     the train is locked and the torque is NaN.
 
     Examples
     --------
-    A pin at a radius of 10 mm drives a slot with an axis offset of 8 mm, with friction, against 10 N m. The mean has a
-    closed form, 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
+    A pin at a radius of 10 mm drives a slot with an axis offset of 8 mm against a torque of 10 N m, with a coefficient
+    of friction of 0.3. The mean torque is 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times
+    the load:
 
     >>> import geartrain
     >>> found = geartrain.load('''
@@ -173,54 +174,51 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     `determined`: all torques follow from the loads. `incomplete`: some effects are neglected. `ambiguous`: several
     patterns of power flow balance the loads at some position. `self-locking`: no torque balances the loads at some
     position. `indeterminate`: redundant pairs share a load in an undetermined way, and the minimum-norm torques are
-    returned. If no torque can be requested, the verdict is the verdict of `Torques`, and the other fields are empty.
+    returned. If no torque can be requested, the verdict is that of `Torques`, and the other fields are empty.
     """
     link: str = ""
     """Link at which the torque is requested."""
     newton_metres: bool = True
     """True if torques are in N m, False if they are numbers without a unit."""
     span: float = 0.0
-    """Length of the run [revolutions of the input]."""
+    """Length of the run, in revolutions of the input."""
     period: float | None = None
     """Revolutions of the input after which all positions repeat; None if the torque is constant."""
     turns: Floats | None = None
-    """Positions of the input [revolutions], ascending, shape (n,). A jump has two entries with the same position, one
-    for each side.
+    """Positions of the input [revolutions], in ascending order, shape (n,). At a jump, the same position occurs twice,
+    once for each side.
     """
     torque: Floats | None = None
-    """Torque at `link` in the solution with minimum loss [N m, or number without a unit], shape (n,).
+    """Torque at `link` in the solution with minimum loss [N m, or a number without a unit], shape (n,).
 
     The torque is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean
     speed is 0.
     """
     highest: Floats | None = None
-    """Torque at `link` in the solution with maximum loss [N m, or number without a unit], shape (n,)."""
+    """Torque at `link` in the solution with maximum loss [N m, or a number without a unit], shape (n,)."""
     standing: Floats | None = None
-    """Breakaway torque at each position, with static friction in every contact [N m, or number without a unit], shape
-    (n,).
+    """Breakaway torque at each position, which overcomes static friction in every contact [N m, or a number without a
+    unit], shape (n,).
     """
     speeds: LabelledArray | None = None
-    """Speeds of links divided by the input speed [1], as an array labelled by link and position."""
+    """Speed of each link divided by the input speed [1], as an array labelled by link and position."""
     powers: LabelledArray | None = None
-    """Power of each external torque divided by the input speed, positive into the train [N m, or number without a
-    unit], as an array labelled by link and position.
+    """Power of each external torque divided by the input speed [N m, or a number without a unit], positive into the
+    train, as an array labelled by link and position.
     """
     losses: LabelledArray | None = None
-    """Power lost in each pair, coupling and bearing divided by the input speed [N m, or number without a unit], as an
+    """Power lost in each pair, coupling and bearing divided by the input speed [N m, or a number without a unit], as an
     array labelled by part and position.
     """
     mean: float | None = None
     """Mean torque at `link` over the run [N m, or number without a unit]; None if the train locks at some position."""
     maximum: TorqueExtreme | None = None
-    """Maximum torque over all solutions at all positions, with its position; None if the train locks at some position.
-    """
+    """Maximum torque of all solutions at all positions, with its position; None if the train locks at some position."""
     minimum: TorqueExtreme | None = None
-    """Minimum torque in the solution with minimum loss, with its position; None if the train is locked at all
-    positions.
-    """
+    """Minimum torque in the solution with minimum loss, with its position; None if the train is always locked."""
     starting: TorqueExtreme | None = None
-    """Maximum breakaway torque, which starts the train from rest at any position; None if no torque starts it at some
-    position.
+    """Maximum breakaway torque over all positions, which starts the train at any of them; None if no torque starts it
+    at some position.
     """
     energy: CycleEnergy | None = None
     """Energy balance of the run; None if the train locks at some position."""
@@ -229,13 +227,13 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     locked_share: float = 0.0
     """Fraction of the run in which no torque balances the loads."""
     held_share: float = 0.0
-    """Fraction of the run in which both the loads and the requested link supply power, all of which is lost to
+    """Fraction of the run in which the loads and the requested link both supply power, all of which is lost to
     friction.
     """
     ambiguous_share: float = 0.0
     """Fraction of the run in which several patterns of power flow balance the loads."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()
-    """Start and end of each part of the run in which no torque balances the loads."""
+    """Beginning and end of each part of the run in which no torque balances the loads."""
     complete: bool = True
     """False if there were too many patterns of power flow to examine all of them."""
     neglected: tuple[NeglectedEffect, ...] = ()
@@ -267,20 +265,20 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each position: revolutions of the input, torque with minimum and with maximum loss, and
-        breakaway torque.
+        """Columns of a table with one row for each position: revolutions of the input, torque with minimum and with
+        maximum loss, and breakaway torque.
         """
         names = ("turns", "torque", "highest", "standing")
         return {name: getattr(self, name).tolist() for name in names}
 
     @property
     def unit(self) -> str:
-        """Unit of torques: `N m`, `N` for a link that slides, or empty for numbers without a unit."""
+        """Unit of the torques: `N m`; `N` for a link that slides; empty for numbers without a unit."""
         return ("N" if self.force else "N m") if self.newton_metres else ""
 
     @property
     def maximum_torque(self) -> float | None:
-        """Maximum torque [N m, or number without a unit]; None if the train locks at some position."""
+        """Maximum torque [N m, or a number without a unit]; None if the train locks at some position."""
         return None if self.maximum is None else self.maximum.torque
 
     @property
@@ -290,8 +288,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def minimum_torque(self) -> float | None:
-        """Minimum torque, negative if the loads drive; None if the train is locked at all positions [N m, or number
-        without a unit].
+        """Minimum torque [N m, or a number without a unit], negative if the loads drive; None if the train is locked at
+        all positions.
         """
         return None if self.minimum is None else self.minimum.torque
 
@@ -302,26 +300,26 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def starting_torque(self) -> float | None:
-        """Maximum breakaway torque [N m, or number without a unit]; None if no torque starts the train at some
+        """Maximum breakaway torque [N m, or a number without a unit]; None if no torque starts the train at some
         position.
         """
         return None if self.starting is None else self.starting.torque
 
     @property
     def starting_place(self) -> PlaceInRun | None:
-        """Position of the run with the maximum breakaway torque."""
+        """Position of the maximum breakaway torque in the run; None if no torque starts the train at some position."""
         return _place(self.starting)
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output divided by energy input of the run; None if the train locks at some position or has no net
+        """Energy output divided by energy input over the run; None if the train locks at some position or has no net
         input.
         """
         return None if self.energy is None else self.energy.efficiency
 
     @property
     def flank_changes(self) -> Mapping[str, int]:
-        """Number of times that the teeth of each pair or coupling cross their backlash."""
+        """Number of times that the teeth of each gear pair, or the pin of each coupling, cross their backlash."""
         return {name: part.flank_changes for name, part in self.parts.items() if part.kind != "bearing"}
 
     @property
@@ -352,7 +350,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         Returns
         -------
         float
-            Torque at the requested link [N m, or number without a unit]; NaN where the train is locked.
+            Torque at the requested link [N m, or a number without a unit]; NaN if the train is locked at this position.
         """
         import numpy as np
 

@@ -2,11 +2,11 @@
 
 The theory is in section 17 of docs/torques.md.
 
-The multiplier x of a pair is the torque on its driven side in the forward sense. For x >= 0 the drive flanks are in
-contact, for x <= 0 the coast flanks are. Let tau be the speed ratio of the flank in contact at this position. The
-torque on the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without friction.
-Friction reverses with the sliding velocity, so with a coefficient of friction f, a flank that is driven from the other
-side has the efficiency eta'(f) = 1/eta(-f) (23).
+The multiplier x of a pair is the torque on its driven side, in the mean sense of its rotation. The drive flanks are in
+contact for x >= 0, and the coast flanks for x <= 0. Let tau be the speed ratio of the flank in contact at this
+position. The torque on the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without
+friction. Friction reverses with the sliding velocity. If a flank has the efficiency eta(f) with a coefficient of
+friction f, its efficiency when driven from the other side is therefore eta'(f) = 1/eta(-f) (23).
 """
 
 from __future__ import annotations
@@ -36,45 +36,45 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques of a contact for a multiplier of 1, shape (n,) each: on the driven side, and from the driver, in forward
-    senses.
+    """Torques on the driven side and from the driver for a multiplier of 1, in the mean senses of rotation, shape (n,)
+    each.
     """
 
     driven: Floats
     driver: Floats
     barred: Bools | None = None
-    """Mask of positions at which no power can flow; None if power can flow everywhere."""
+    """Boolean mask of the positions at which no power can flow; None if power can flow at all positions."""
     lean: Floats | None = None
-    """Separating force divided by the tangential force; None for their mean ratio."""
+    """Separating force divided by the tangential force [1]; None to use the mean value."""
 
 
 class PairForce(NamedTuple):
-    """Torques on both links of a circuit for a multiplier of 1, about the reference direction of parallel axes, shape
-    (n,).
+    """Torques on the two links of a circuit for a multiplier of 1, about the reference direction of parallel axes,
+    shape (n,) each.
     """
 
     first: Floats
     second: Floats
     barred: Bools | None
-    """Mask of positions at which no power can flow; None if power can flow everywhere."""
+    """Boolean mask of the positions at which no power can flow; None if power can flow at all positions."""
     lean: Floats | None = None
-    """Separating force divided by the tangential force; None for their mean ratio."""
+    """Separating force divided by the tangential force [1]; None to use the mean value."""
 
 
 class DriverState(NamedTuple):
     """Position and speed of the driver of a pair, shape (n,) each."""
 
     S: Floats
-    """Forward angle of the driver [rad]; empty if no property of the pair depends on it."""
+    """Angle of the driver in its mean sense of rotation [rad]; empty if no property of the pair depends on it."""
     turning: Floats
-    """Forward speed of the driver relative to the carrier, divided by the speed of the input [1]."""
+    """Speed of the driver relative to the carrier, in its mean sense, divided by the speed of the input [1]."""
 
 
 class ContactLosses:
-    """Contact without losses. Subclasses describe the effect of friction on the torques of a contact."""
+    """Contact without losses; its subclasses describe the effect of friction on the torques of a contact."""
 
     has_friction: ClassVar[bool] = False
-    """True if the contact loses power."""
+    """True if power is lost in the contact."""
 
     @property
     def starts_harder(self) -> bool:
@@ -86,22 +86,23 @@ class ContactLosses:
     ) -> ContactTorques:
         """Return the torques on the driven side and from the driver for a multiplier of 1.
 
-        tau   speed ratio of the flank in contact, from `transmission`
-        way   1 if the driver of the transmission function drives, -1 if the other side does, 0 without relative motion
+        tau   speed ratio of the flank in contact, which is given by `transmission`
+        way   1 if the driver of the transmission function drives, -1 if the other side drives, 0 without relative
+              motion
         """
         del transmission, at, way, static
         return ContactTorques(np.ones_like(tau), tau)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values whose signs change where torques, but not the speed ratio, have kinks; None by default."""
+        """Return values whose signs change where the torques, but not the speed ratio, have kinks; None by default."""
         del at
         return None
 
 
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
-    """Declared efficiencies of a pair, for each driving side. The pair locks for a driving side with a value of 0 or
-    less.
+    """Declared efficiencies of a pair, one for each driving side. If the value is 0 or less, the pair locks when that
+    side drives.
     """
 
     has_friction: ClassVar[bool] = True
@@ -111,9 +112,9 @@ class BasicEfficiency(ContactLosses):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques, reduced by the efficiency for the side that drives.
+        """Return the torques, reduced by the efficiency of the driving side.
 
-        Where the ratio is negative, as on the return stroke of a pin follower, the other side drives.
+        If the ratio is negative, as on the return stroke of a pin follower, the other side drives.
         """
         del transmission, at, static
         ahead, back = way * tau > 0, way * tau < 0
@@ -131,8 +132,8 @@ class SlidingFriction(ContactLosses):
     sliding: float | Callable[[Floats, Floats], Floats]
     """Coefficient of sliding friction: a number, or a function of two speeds.
 
-    Its arguments are the sliding speed divided by the pitch-line speed, and the driver's speed divided by the speed of
-    the input.
+    The arguments are the sliding speed divided by the pitch-line speed, and the driver's speed divided by the input
+    speed.
     """
     static: float
     """Coefficient of static friction of the contact."""
@@ -147,18 +148,18 @@ class SlidingFriction(ContactLosses):
 class ToothFriction(SlidingFriction):
     """Friction of teeth: each tooth pair in contact multiplies the torque by (1 + f out)/(1 + f into).
 
-    Here `into` and `out` are the friction terms of input and output power, and f is the coefficient of friction,
-    negative if the driven side of the transmission function drives.
+    Here `into` and `out` are the friction terms of the input and output power, and f is the coefficient of friction,
+    which is negative if the driven side of the transmission function drives.
     """
 
     turned: int = 1
-    """-1 for a pair with a ring, whose wheels turn in the same sense; otherwise 1."""
+    """Factor that is -1 for a pair with a ring, whose wheels turn in the same sense, and 1 for other pairs."""
 
     def lean(self, tau: Floats, rubbing: tuple[Floats, Floats], f: Floats, way: Floats) -> Floats:
-        """Return the separating force divided by the tangential force: docs/torques.md (29).
+        """Return the separating force divided by the tangential force [1], equation (29) of docs/torques.md.
 
-        rubbing   friction terms `into` and `out` of each tooth pair, NaN for pairs that do not touch
-        f         coefficient of friction, negative if the driven side of the transmission function drives
+        rubbing   friction terms `into` and `out` of each tooth pair, NaN for tooth pairs that are not in contact
+        f         coefficient of friction, which is negative if the driven side of the transmission function drives
         """
         into, out = rubbing
         # components of the normal and of the sliding direction across the line of centres, times D/n2
@@ -195,7 +196,7 @@ class ToothFriction(SlidingFriction):
 
 @dataclass(frozen=True)
 class PinFriction(SlidingFriction):
-    """Friction of a pin along its slot; the pin torque follows from the slot torque by equation (25) of
+    """Friction of a pin in its slot. The torque on the pin follows from the torque on the slot by equation (25) of
     docs/torques.md.
     """
 
@@ -205,15 +206,15 @@ class PinFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques from lever arms, which are finite also at dead points."""
+        """Return the torques, computed from lever arms, which are finite even at dead points."""
         del transmission
         # by the law of sines sin d = e sin S / rho, so the arm is r e |sin S| / rho^2
         arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
     def kinks(self, at: DriverState) -> Floats:
-        """Return the sine of the driver angle. It is 0 if the pin is on the line through both axes, where the sliding
-        velocity reverses.
+        """Return the sine of the driver angle, which is 0 if the pin is on the line through both axes; there the
+        sliding velocity reverses.
         """
         return np.sin(at.S)
 
@@ -228,14 +229,14 @@ class PairContact:
     way: int
     """Sense of the driver's mean motion relative to the carrier, about the reference direction of parallel axes.
 
-    `sense` is the same for the driven side.
+    `sense` is the corresponding sense of the driven side.
     """
     sense: int
     ratio: float
-    """Magnitude of the constant speed ratio, driven divided by driver; used if `source` is None."""
+    """Magnitude of the constant speed ratio, driven speed divided by driver speed; used if `source` is None."""
     losses: ContactLosses
     source: PairErrorSource | None = None
-    """Source of the transmission error; None for a pair with constant ratio, whose position has no effect."""
+    """Source of the transmission error; None for a pair with constant ratio, which is not evaluated at positions."""
 
     @property
     def name(self) -> str:
@@ -244,29 +245,29 @@ class PairContact:
 
     @property
     def kind(self) -> str:
-        """Kind of the pair: `mesh` or `pin`."""
+        """Kind of the contact: `mesh` or `pin`."""
         return "mesh" if self.circuit.kind == "gear" else "pin"
 
     @property
     def ends(self) -> tuple[str, str]:
-        """Names of the driver of the transmission function, and of the driven side."""
+        """Names of the driver of the transmission function and of the driven link."""
         i, j = self.circuit.i, self.circuit.j
         return (i, j) if self.first else (j, i)
 
     @property
     def bases(self) -> tuple[str, str]:
-        """Links whose speeds are subtracted from the speeds of the two `ends`, usually the carrier."""
+        """Links whose speeds are subtracted from the speeds of the two `ends`; usually the carrier."""
         i, j = self.circuit.subtracted
         return (i, j) if self.first else (j, i)
 
     @property
     def two_sided(self) -> bool:
-        """True if the two flanks differ, or if friction depends on the driving side."""
+        """True if the two flanks have different transmission functions, or if friction depends on the driving side."""
         return self.losses.has_friction or self.has_flanks
 
     @property
     def has_flanks(self) -> bool:
-        """True for teeth, which have a drive and a coast flank with backlash; False for pins."""
+        """True for teeth, which have drive and coast flanks with backlash; False for pins."""
         return self.source is not None and self.source.transmission.reversed_motion() is not self.source.transmission
 
     def torques(self, side: int, at: DriverState, static: bool = False) -> PairForce:
@@ -301,7 +302,8 @@ def find_contacts(
 ) -> dict[str, PairContact]:
     """Return the contact of every pair and coupling, by name.
 
-    positions   motion with the pairs that are evaluated at every position; other pairs have a constant ratio
+    positions   motion of the train, with the pairs that are evaluated at every position; other pairs have a constant
+                ratio
     teeth       meshes with a declared tooth form; their driver is the driver of the transmission function
     """
     found = {}
@@ -317,7 +319,7 @@ def find_contacts(
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """Yield the redundant pairs with friction of teeth. Their mean friction is used, because the motion does not
+    """Yield the redundant pairs with friction of teeth, whose mean friction is used because the motion does not
     determine their position.
     """
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
@@ -356,7 +358,7 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair: friction of teeth at each position, or a constant efficiency."""
+    """Return the losses of a gear pair: tooth friction at each position, or a constant efficiency."""
     if source is not None and mesh is not None and _by_friction(setting, mesh):
         return _tooth_friction(setting, circuit, source, mesh)
     return _constant_efficiency(setting, circuit, first)
@@ -382,18 +384,18 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
 
 
 class BearingTorques(NamedTuple):
-    """Friction torque of a bearing in motion and at rest, and viscous drag torque divided by the input speed."""
+    """Friction torques of a bearing in motion and at rest, and its viscous drag torque divided by the input speed."""
 
     sliding: float
     static: float
     drag: float = 0.0
     radius: float = 0.0
-    """Friction torque divided by the load of the bearing [m], added to both friction torques."""
+    """Load-dependent friction torque divided by the bearing load [m]; it is added to both friction torques."""
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """Return the friction of every link with bearing friction; viscous drag is included if speeds and torques have
-    units.
+    """Return the friction of each link's bearing, if it has friction; viscous drag is included if speeds and torques
+    have units.
     """
     train, unit = setting.train, _radians_per_second(setting)
     found = {}

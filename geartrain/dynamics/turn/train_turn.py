@@ -53,10 +53,10 @@ _ODD = Fraction(1_414_213, 1_000_003)  # factor of friction that cancels no decl
 def find_extreme(
     value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
 ) -> tuple[float, float] | None:
-    """Return position [revolutions] and value of a quantity's maximum (`way` 1) or minimum (-1) over a run; None if no
-    value is finite.
+    """Return the position [revolutions] and value of the maximum (`way` 1) or minimum (-1) of a quantity over a run;
+    None if no value is finite.
 
-    value_at   function that returns the values at positions
+    value_at   function that returns the values at given positions
     values     values at the positions of the run, NaN where the train is locked
     """
     signed = np.where(np.isfinite(values), way * values, -np.inf)
@@ -90,7 +90,7 @@ def solve(
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
-    """Compute the torque at every position over some revolutions of the input. See `GearTrain.torques`."""
+    """Compute the torque at every position over several revolutions of the input. See `GearTrain.torques`."""
     check_numbers(turns=turns)
     check_whole_numbers(samples=samples)
     train = train.unfolded
@@ -106,7 +106,7 @@ def solve(
         raise QuestionError(
             Problem(
                 f"samples = {samples} is too small",
-                "at least two positions of the input are needed",
+                "a run has at least two positions of the input",
                 "pass samples >= 2",
             )
         )
@@ -132,9 +132,9 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
 
 
 def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
-    """Return the torque balance of a train for any position; a verdict if the torques cannot be determined.
+    """Return the torque balance of a train for any position; return a verdict if the torques cannot be determined.
 
-    of   link with unknown torque, by default as declared
+    of   link whose torque is unknown; by default the declared one
     """
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
@@ -188,7 +188,7 @@ def _refuse_jumps(setting: LoadCase) -> None:
 
 @dataclass
 class _RunResults:
-    """Results of a run, computed from its positions."""
+    """Results of a run, which are computed from its positions."""
 
     run: TurnRun
     of: str | None
@@ -206,11 +206,11 @@ class _RunResults:
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link, positive in its mean sense, in the solution with minimum loss."""
+        """Return the torque at the reported link in the solution with minimum loss, positive in its mean sense."""
         return np.asarray(self._way * found.torque[self._row] / self._arm)
 
     def _highest(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link, positive in its mean sense, in the solution with maximum loss."""
+        """Return the torque at the reported link in the solution with maximum loss, positive in its mean sense."""
         return np.asarray(self._way * found.highest[self._row] / self._arm)
 
     @property
@@ -219,7 +219,7 @@ class _RunResults:
 
     @property
     def _arm(self) -> float:
-        """Lever arm of the force on a reported link that slides [m]; 1 for a torque."""
+        """Lever arm of the force if the reported link slides [m]; 1 if it turns."""
         return float(self.run.train.setting.arms.get(self._link, 1))
 
     def cycle(self) -> TorqueCycle:
@@ -311,14 +311,14 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if none is finite."""
+        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if not finite."""
         torque = self._highest if way > 0 else self._torque
         values = torque(self.run.standing if static else self.run.found)
         extreme = find_extreme(lambda turns: torque(self.run.train.at(turns, static)), self.run.cells, way, values)
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
     def _starting(self, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
-        """Return the maximum torque with static friction; None if the train does not start at every position."""
+        """Return the maximum breakaway torque; None if no torque starts the train at some position."""
         if not self.run.standing.valid.all():
             return None
         return self._extreme(1, True) if self.run.train.starts_harder else maximum
@@ -331,7 +331,7 @@ class _RunResults:
         driving, loading = found.powers[:requested], found.powers[requested:]
 
         def summed(powers: Floats) -> float:
-            """Return the integral of the positive part of powers over the run."""
+            """Return the integral of the positive parts of the given powers over the run."""
             return float(weights @ np.maximum(powers, 0).sum(axis=0))
 
         lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)
@@ -364,14 +364,14 @@ class _RunResults:
         return period is None or (self.run.span / float(period)) % 1 == 0
 
     def _held(self) -> float:
-        """Return the fraction of the run in which loads and unknown torques both put power in."""
+        """Return the fraction of the run in which loads and unknown torques both supply power."""
         found, requested = self.run.found, len(self.run.train.requested)
         driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
         minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
         return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
-        """Return start and end of each part of the run in which no torque balances the loads."""
+        """Return the beginning and end of each part of the run in which no torque balances the loads."""
         turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
         starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
         return tuple(
@@ -380,8 +380,8 @@ class _RunResults:
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """Return the number of sign changes of a sequence, without zeros; `closes` includes the change from its end to its
-    start.
+    """Return the number of sign changes in a sequence without its zeros. If `closes`, the change from its end to its
+    beginning is included.
     """
     own = signs[signs != 0]
     if not len(own):

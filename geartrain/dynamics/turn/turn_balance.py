@@ -1,7 +1,7 @@
 """Torque balance of a train at any position of the input: torques, powers and losses.
 
-The order of solution (8) and the consistency test of a pattern (7) are the same as in the balance of mean torques. Only
-the coefficients depend on the position. A block of one pair is solved by a division. For a block of several coupled
+The order of solution (8) and the consistency test of a pattern (7) are the same as in the balance of mean torques; only
+the coefficients depend on the position. A block with one pair is solved by division. For a block with several coupled
 pairs, all patterns of power flow are enumerated, each at all positions in one array operation.
 """
 
@@ -30,50 +30,50 @@ if TYPE_CHECKING:
 MOST_TRIED = 7  # two-sided torques of a block with exhaustive enumeration: 2^7 small systems per position
 _MOST_ROUNDS = 30  # maximum iterations for blocks with more two-sided torques
 _MOST_LAYERS = 16  # maximum number of solutions kept per position
-NEAR = 1e-9  # of the maximum torque: the sign of a smaller torque is undecided
-SINGULAR = 1e-13  # of the product of the row norms (Hadamard's bound): a smaller determinant counts as 0
-SAME = 1e-8  # of the maximum torque: solutions closer than this are equal
-AT_REST = 1e-12  # of the maximum speed: slower links are at rest
-FAINT = 1e-9  # of the maximum torque through a pair: smaller torques do not press on a flank
-CONVERGED = 1e-14  # of the maximum friction torque: smaller changes end the iteration of loaded bearings
+NEAR = 1e-9  # [maximum torque] the sign of a smaller torque is undecided
+SINGULAR = 1e-13  # [product of the row norms, Hadamard's bound] a smaller determinant counts as 0
+SAME = 1e-8  # [maximum torque] solutions closer than this are equal
+AT_REST = 1e-12  # [maximum speed] slower links are at rest
+FAINT = 1e-9  # [maximum torque of a pair] smaller torques do not press on a flank
+CONVERGED = 1e-14  # [maximum friction torque] smaller changes end the iteration of loaded bearings
 _MOST_LOADED = 200  # maximum iterations of loaded bearings; one that needs more is at the limit of locking
 ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 
 
 @dataclass(frozen=True)
 class ColumnPieces:
-    """Coefficients of one unknown torque in each row, for each sign of the torque."""
+    """Coefficients of one unknown torque in each row of the balance, for each sign of the torque."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
-    """Coefficients, shape (n,), by side (sign 1 or -1 of the torque, or 0 if the sign has no effect) and row."""
+    """Coefficients, shape (n,), by side (sign 1 or -1 of the torque; 0 if the sign has no effect) and row."""
     barred: Mapping[int, Bools]
-    """Mask of positions at which the torque must be 0, by side."""
+    """Boolean mask of the positions at which the torque must be 0, by side."""
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Signs of the torque to be tried."""
+        """Signs of the torque that are to be tried."""
         return tuple(self.pieces)
 
 
 @dataclass
 class BalanceLayer:
-    """One solution of the torque balance at each position where a solution exists."""
+    """Solution of the torque balance at each position at which a solution exists."""
 
     values: Floats
-    """Torques by column, shape (columns, n). `rows` is the sum of torques in each row, shape (rows, n)."""
+    """Torques by column, shape (columns, n). `rows` is the sum of the torques in each row, shape (rows, n)."""
     rows: Floats
     valid: Bools
     """True at positions where the torques of all rows are balanced."""
 
     def copy(self) -> BalanceLayer:
-        """Return a copy with its own arrays."""
+        """Return a copy that does not share arrays with this object."""
         return BalanceLayer(self.values.copy(), self.rows.copy(), self.valid.copy())
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """Torques of one block for one pattern, shape (columns, n), and a mask of positions where they are consistent with
-    the pattern and with earlier blocks.
+    """Torques of one block for one pattern, shape (columns, n), and a boolean mask of the positions at which they are
+    consistent with the pattern and with earlier blocks.
     """
 
     layer: BalanceLayer
@@ -87,7 +87,7 @@ def solve_positions(
 ) -> tuple[list[BalanceLayer], bool]:
     """Return every solution of the torque balance at every position, and True if all patterns were tried.
 
-    known   known torques of each row, shape (rows, n)
+    known   known torque of each row, shape (rows, n)
     """
     size = known.shape[1]
     layers = [BalanceLayer(np.zeros((len(columns), size)), known.copy(), np.ones(size, bool))]
@@ -126,8 +126,8 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
 def _solve(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques of a block for one pattern, shape (columns, n), and a mask of positions where they are
-    consistent with it.
+    """Return the torques of a block for one pattern, shape (columns, n), and a boolean mask of the positions at which
+    they are consistent with the pattern.
     """
     known = layer.rows[list(block.rows)]
     if len(block.rows) == len(block.columns) == 1:
@@ -145,7 +145,7 @@ def _solve(
 
 
 def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
-    """Return the solution of one equation with one unknown, and a mask of positions where it is regular."""
+    """Return the solution of an equation with one unknown, and a mask of the positions at which it is regular."""
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
     # a coefficient may be 0 at dead points; without a load the torque is 0 there too
@@ -158,7 +158,7 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
 def _eliminated(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques of several rows by LAPACK; minimum-norm torques if there are more unknowns than rows."""
+    """Return the torques that solve several rows, by LAPACK; their norm is minimal if they are not unique."""
     known = layer.rows[list(block.rows)]
     scale = np.max(np.abs(layer.values), axis=0, initial=0.0)
     size = known.shape[1]
@@ -185,7 +185,7 @@ def _eliminated(
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Return consistent solutions found by fixed-point iteration: every torque that contradicts the pattern is
+    """Return consistent solutions found by fixed-point iteration, in which every torque that contradicts the pattern is
     reversed.
     """
     patterns = {tuple(each.sides[0] for each in own): None}
@@ -211,7 +211,7 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """Return the layers extended by the solutions of one block, as many as there are solutions at any position."""
+    """Return the layers extended by the solutions of one block; their number is the maximum over all positions."""
     # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
@@ -237,7 +237,7 @@ def _joined(
 
 
 def _write(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
-    """Write the torques of a trial into a layer at some positions, in place."""
+    """Write the torques of a trial into a layer, at the selected positions, in place."""
     layer.valid |= where
     for column, side, value in zip(block.columns, trial.sides, trial.values, strict=True):
         layer.values[column, where] = value[where]
@@ -249,75 +249,73 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at n positions (last axis of all arrays). Powers and losses are divided by the speed of the input."""
+    """Torques at n positions (the last axis of all arrays). Powers and losses are divided by the speed of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     valid: Bools
-    """True at positions where a solution balances the loads. `layers` is the number of solutions."""
+    """True at positions at which a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """True at positions where a link rests within its backlash, or no choice of flanks agrees with the torques."""
+    """True where a link rests within its backlash, or where no choice of flanks is consistent with the torques."""
     layers: Floats
     torque: Floats
-    """Unknown torque on each requested link about its own axis, in the solution with minimum loss, shape (requested,
-    n).
-    """
+    """Unknown torque on each requested link in the solution with minimum loss, shape (requested, n)."""
     highest: Floats
     """Unknown torque on each requested link in the solution with maximum loss, shape (requested, n)."""
     speeds: Floats
-    """Speeds of the links with external torques, about their own axes, divided by the speed of the input, shape
+    """Speeds of the links with external torques about their own axes, divided by the speed of the input, shape
     (outside, n).
     """
     powers: Floats
     """Power of each external torque, positive into the train, shape (outside, n)."""
     losses: Floats
-    """Power lost in pairs, then in bearings, divided by the input speed, shape (parts, n). `passed` is the power input
-    of each driving side.
+    """Power lost in pairs, followed by power lost in bearings, divided by the input speed, shape (parts, n). `passed`
+    is the power input of each driving side.
     """
     passed: Floats
     pressed: Floats
     """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
     turning: Floats
-    """Forward speed of each pair's driver divided by the speed of the input, shape (pairs, n)."""
+    """Speed of each pair's driver in its mean sense, divided by the speed of the input, shape (pairs, n)."""
     slipping: Floats
     """Speed of each bearing divided by the speed of the input, shape (bearings, n)."""
     kinks: Floats
-    """Values whose signs change where the torques have kinks but no transmission function has one, shape (kinks, n)."""
+    """Values whose signs change where the torques, but no transmission function, have kinks, shape (kinks, n)."""
 
 
 class _State(NamedTuple):
     """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
 
-    Only the first of several equal planets has torques here.
+    Torques are given only for the first of several equal planets.
     """
 
     motion: LinkMotion
     contacts: Mapping[str, DriverState]
     forces: Mapping[str, Mapping[int, PairForce]]
     resting: Mapping[str, Bools]
-    """Mask of positions at which each link is at rest within the backlash of its pairs, by link."""
+    """Boolean mask of the positions at which each link is at rest within the backlash of its pairs, by link."""
     static: bool
     loaded: Mapping[str, Floats] = {}
-    """Friction torque of each bearing that depends on its load, by link."""
+    """Load-dependent friction torque of each bearing, by link."""
 
 
 @dataclass
 class TurnBalance:
-    """Train under load whose torques can be evaluated at any position."""
+    """Train under load, for which torques can be evaluated at any position."""
 
     setting: LoadCase
     motion: PositionMotion
     balance: TorqueBalance
-    """Balance of mean torques; its order of solution is valid at every position."""
+    """Balance of mean torques, whose order of solution is valid at every position."""
     contacts: Mapping[str, PairContact]
     """Contact of each pair, in the order of the circuits."""
     loads: Mapping[str, float]
-    """Load on each link about its own axis. `bearings` has friction and drag by link."""
+    """Load on each link about its own axis. `bearings` contains friction and drag by link."""
     bearings: Mapping[str, BearingTorques]
     bearing_loads: BearingLoads | None = None
-    """Loads of the bearings whose friction depends on them; None if there are none."""
+    """Loads of the bearings whose friction depends on the load; None if there are none."""
     complete: bool = True
-    """False if not all patterns of power flow were tried."""
+    """False if some patterns of power flow were not tried."""
     on_done: Callable[[int], object] | None = None
     """Progress function, called with the number of positions computed since the last call."""
 
@@ -338,7 +336,7 @@ class TurnBalance:
 
     @cached_property
     def shared(self) -> tuple[str, ...]:
-        """Pairs whose torque the balance does not determine."""
+        """Pairs whose torque is not determined by the balance."""
         open_ = [block for block in self.balance.parts if len(block.columns) > len(block.rows)]
         return tuple(mesh.id for block in open_ for at in block.columns for mesh in self.columns[at].meshes)
 
@@ -349,12 +347,12 @@ class TurnBalance:
 
     @cached_property
     def of_pair(self) -> Mapping[str, int]:
-        """Column index of each gear pair's unknown torque in the matrix of the torque balance."""
+        """Column of each gear pair's unknown torque in the matrix of the torque balance."""
         return {mesh.id: at for at, column in enumerate(self.columns) for mesh in column.meshes}
 
     @cached_property
     def starts_harder(self) -> bool:
-        """True if friction at rest differs from friction in motion in at least one pair or bearing."""
+        """True if static friction differs from sliding friction in at least one pair or bearing."""
         return any(each.losses.starts_harder for each in self.contacts.values()) or any(
             each.sliding != each.static or each.drag for each in self.bearings.values()
         )
@@ -362,7 +360,7 @@ class TurnBalance:
     # ----------------------------------------------------------------------------------------------------- positions
 
     def at(self, turns: Floats, static: bool = False) -> PositionTorques:
-        """Return torques and powers at positions of the input [revolutions].
+        """Return the torques and powers at positions of the input [revolutions].
 
         static   True to use static friction instead of sliding friction
         """
@@ -381,7 +379,7 @@ class TurnBalance:
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Return the torques at some positions; the flanks in contact are determined iteratively, starting with the
+        """Return the torques at some positions. The flanks in contact are determined iteratively, beginning with the
         drive flanks.
 
         If a link would turn backwards on its drive flanks and forwards on its coast flanks, it is at rest in the
@@ -413,7 +411,7 @@ class TurnBalance:
         return some(joined([part for _, part in converged]), order)
 
     def _coasting(self, best: BalanceLayer) -> Bools:
-        """Return a mask of positions at which the torque of each pair presses on its coast flanks, shape (pairs, n)."""
+        """Return a mask of the positions at which each pair presses on its coast flanks, shape (pairs, n)."""
         pressed = best.values[[self.of_pair[name] for name in self.flanked]]
         faint = FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
         found: Bools = best.valid & (pressed < -faint)
@@ -434,8 +432,8 @@ class TurnBalance:
         return DriverState(motion.angles.get(contact.name, np.zeros(0)), turning)
 
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
-        """Return the speed of a link relative to `carrier`, about the reference direction of parallel axes; exactly 0
-        at rest.
+        """Return the speed of a link relative to `carrier`, about the reference direction of parallel axes; it is
+        exactly 0 at rest.
         """
         rows = self.motion.links
         found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
@@ -443,10 +441,10 @@ class TurnBalance:
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def outside_speeds(self, speeds: Floats) -> Floats:
-        """Return the speed of each link with an external torque, relative to the link that takes the reaction, shape
+        """Return the speed of each link with an external torque relative to the link on which the reaction acts, shape
         (links with external torques, positions).
 
-        They are measured about the links' own axes.
+        The speeds are about the links' own axes.
         """
         setting, row = self.setting, self.motion.links
         bases = [setting.reacts_on(link) if link in self.requested else setting.train.frame for link in self.outside]
@@ -457,10 +455,10 @@ class TurnBalance:
     # -------------------------------------------------------------------------------------------------- the balance
 
     def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
-        """Return the state with the friction of loaded bearings, all solutions, and the one with minimum loss.
+        """Return the state with the friction of loaded bearings, all solutions, and the solution with minimum loss.
 
-        The friction follows from the solution by fixed-point iteration, which is damped if it converges slowly, because
-        friction may relieve a bearing. Where it diverges, no torques balance.
+        The friction is found by fixed-point iteration, which is damped if it converges slowly, because friction may
+        relieve a bearing. If the iteration diverges at a position, no torques balance there.
         """
         pieces = [self._pieces(column, state) for column in self.columns]
         for round_ in range(_MOST_LOADED):
@@ -505,7 +503,7 @@ class TurnBalance:
         return bearings.friction(bearings.loads(reactions, angles, leans), self.balance)
 
     def _member_torques(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """Return the torques of a pair on its first and second link, about the reference direction."""
+        """Return the torques of a pair on its first and second link, about the reference direction of parallel axes."""
         column = self.columns[self.of_pair[name]]
         pressed, forces = best.values[self.of_pair[name]], state.forces[column.meshes[0].id]
         ahead, back = (self._for_planet(name, forces.get(side, forces[1])) for side in (1, -1))
@@ -526,7 +524,7 @@ class TurnBalance:
         return layers
 
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
-        """Return the friction torques of a bearing on its link and on its carrier, each about the link's own axis."""
+        """Return the friction torques of a bearing on its link and on its carrier, each about its own axis."""
         carrier, setting = self.setting.tree.borne_by(link), self.setting
         speed = self._speed(state.motion, link, carrier)
         torque = np.sign(speed) * self._rubbing(state, link, speed)
@@ -536,17 +534,15 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Return the magnitude of the friction torque of a bearing; drag is 0 for static friction and for a link at
-        rest.
-        """
+        """Return the magnitude of a bearing's friction torque; drag is 0 for static friction and at rest."""
         own, loaded = self.bearings[link], state.loaded.get(link, np.zeros(len(speed)))
         if state.static:
             return own.static + loaded
         return np.where(state.resting[link], 0.0, own.sliding + loaded + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """Return the coefficients of one unknown torque in each row; equal planets have the coefficients of the first
-        one.
+        """Return the coefficients of one unknown torque in each row. For equal planets, those of the first planet are
+        returned.
         """
         if not column.meshes:
             size = len(state.motion.turns)
@@ -572,8 +568,8 @@ class TurnBalance:
     def relation_to_first(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
         """Relation of each pair to the first pair with the same unknown torque.
 
-        The relation is a flag, True if both pairs have their links in the same order, and the signs of the two torques
-        relative to the first pair.
+        The relation consists of a flag, which is True if both pairs have their links in the same order, and the signs
+        of the two torques relative to the first pair.
         """
         found = {}
         for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
@@ -582,7 +578,7 @@ class TurnBalance:
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the torques on both links of an equal planet from the torques of the first planet; its axis may be
+        """Return the torques on both links of an equal planet, given the torques of the first planet; its axis may be
         reversed.
         """
         alike, signs = self.relation_to_first[name]
@@ -645,7 +641,7 @@ class TurnBalance:
         )
 
     def _flow(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """Return the lost power of a pair, and the power input of its driving side, relative to the carrier."""
+        """Return the power lost in a pair, and the power input of its driving side relative to the carrier."""
         circuit = self.contacts[name].circuit
         powers = [
             torque * self._speed(state.motion, link, base)

@@ -1,9 +1,10 @@
-"""Run over several revolutions: positions at which torques are computed, chosen so that integrals are accurate.
+"""Run over several revolutions: positions at which torques are computed, and which are chosen so that integrals are
+accurate.
 
-The run is divided into cells at even steps and at both sides of every kink. Each cell has three more positions inside.
-Torques are smooth within a cell, and Boole's rule integrates them. A cell ends where a transmission function has a
-kink, a motion reverses or the flank in contact changes; both one-sided limits are computed there. A cell is bisected
-until this no longer changes the result of Simpson's rule.
+The run is divided into cells at equally spaced positions and on both sides of every kink. Each cell has three further
+positions inside. Torques are smooth within a cell and are integrated by Boole's rule. Where a transmission function has
+a kink, a motion reverses or the flank in contact changes, a cell ends and both one-sided limits are computed. A cell is
+bisected until this no longer changes the result of Simpson's rule.
 """
 
 from __future__ import annotations
@@ -23,12 +24,12 @@ if TYPE_CHECKING:
 
 
 NODES = 5
-"""Positions per cell: its ends, its middle, and the middles of its halves."""
+"""Number of positions per cell: its ends, its middle, and the middles of its halves."""
 
 _BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90  # Boole's rule over a cell of unit width
 # error estimate: Simpson's rule on both halves less that on the whole, over 15 (Richardson extrapolation)
 _HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180
-_ASIDE = 1e-10  # of the shortest period: distance from a kink at which its one-sided limits are taken
+_ASIDE = 1e-10  # [shortest period] distance from a kink at which its one-sided limits are taken
 _LAST_PLACES = 16  # units in the last place of the run's end: closer positions are not distinct
 _PARTS = 16  # subdivisions per round of the search for a sign change in a cell
 _MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4  # rounds of 16 subdivisions: 16^11 resolves a cell to rounding
@@ -47,16 +48,16 @@ FAINT = 1e-9
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run from `low` to `high` [revolutions of the input], shape (cells,); torques are smooth in a cell."""
+    """Cells of a run from `low` to `high` [revolutions], shape (cells,). Torques are smooth in each cell."""
 
     low: Floats
     high: Floats
     aside: float
-    """Distance from the ends of a cell at which its one-sided limits are taken [revolutions]."""
+    """Distance from the ends of a cell at which the one-sided limits are evaluated [revolutions]."""
 
     @property
     def turns(self) -> Floats:
-        """Reported positions [revolutions], shape (cells times `NODES`,)."""
+        """Positions of the cells as reported [revolutions], shape (cells times `NODES`,)."""
         share = np.arange(NODES) / (NODES - 1)
         found = self.low[:, None] + (self.high - self.low)[:, None] * share
         found[:, -1] = self.high
@@ -64,12 +65,12 @@ class RunCells:
 
     @property
     def requested(self) -> Floats:
-        """Positions at which torques are computed [revolutions]: the ends are moved a small distance into the cell."""
+        """Positions at which torques are computed [revolutions]; cell ends are moved slightly into the cell."""
         return (self.turns.reshape(-1, NODES) + self.aside * np.array([1.0, 0.0, 0.0, 0.0, -1.0])).ravel()
 
     @property
     def weights(self) -> Floats:
-        """Weights of an integral over the revolutions of the input, shape (cells times `NODES`,)."""
+        """Weights of the positions in an integral over the revolutions of the input, shape (cells times `NODES`,)."""
         found: Floats = ((self.high - self.low)[:, None] * _BOOLE).ravel()
         return found
 
@@ -87,7 +88,7 @@ class RunCells:
         return np.asarray((self.low + self.high) / 2)
 
     def divided(self, cell: Indices, at: Floats) -> RunCells:
-        """Return the parts of the cells that are divided at the given positions.
+        """Return the parts that result from dividing cells at the given positions.
 
         cell   index of the cell that contains each position
         """
@@ -106,7 +107,7 @@ class RunCells:
 def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunCells:
     """Return cells whose ends are equally spaced positions from 0 to `span` [revolutions] and the positions `breaks`.
 
-    narrowest   shortest wave of all transmission functions [revolutions of the input]
+    narrowest   period of the fastest transmission function [revolutions of the input]
     """
     aside = max(_ASIDE * narrowest, _LAST_PLACES * float(np.spacing(span)))
     inner = np.unique(breaks[(breaks > 2 * aside) & (breaks < span - 2 * aside)])
@@ -121,9 +122,9 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
 
 
 def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> tuple[Indices, Floats]:
-    """Return cell index and position of all sign changes within cells, located simultaneously by repeated subdivision.
+    """Return the cell index and position of all sign changes within cells, which are located by repeated subdivision.
 
-    signs_at   function that returns the signs of the tracked quantities at positions, shape (signs, n)
+    signs_at   function that returns the signs of the tracked quantities at given positions, shape (signs, n)
     signs      signs at the positions of the cells
     """
     turns = cells.requested
@@ -152,7 +153,7 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
 
 @dataclass
 class TurnRun:
-    """Run of `train` over `span` revolutions of the input, at `samples` positions or more."""
+    """Run of `train` over `span` revolutions of the input, with at least `samples` positions."""
 
     train: TurnBalance
     span: float
@@ -160,8 +161,8 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks of transmission functions [revolutions], for the most frequent sets of coast flanks in
-        contact.
+        """Positions of kinks of transmission functions [revolutions], for the most frequent combinations of coast
+        flanks in contact.
         """
         train = self.train
         # flanks in contact at a few positions: their functions' kinks are searched exactly
@@ -185,7 +186,7 @@ class TurnRun:
 
     @cached_property
     def _refined(self) -> tuple[RunCells, PositionTorques]:
-        """Refined cells of the run in order, with kinks at their ends, and the torques at all their positions."""
+        """Refined cells of the run in order, with kinks at their ends, and the torques at their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
         # signs and tolerances refer to the scales of the initial cells, so that refinement does not change them
@@ -210,8 +211,8 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return the positions at which cells are to be divided, with cell indices: kinks, and middles of cells that
-        are too wide.
+        """Return the positions at which cells are to be divided, with cell indices. They are kinks, and middles of
+        cells that are too wide.
         """
         if depth == _DEPTH:
             return _NONE
@@ -226,7 +227,7 @@ class TurnRun:
         return np.concatenate([kinks, wide]), np.concatenate([places, cells.middles[wide]])
 
     def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
-        """Return a mask of the cells that are too wide for accurate integrals of input power or losses."""
+        """Return a boolean mask of the cells that are too wide for accurate integrals of input power or losses."""
         integrands = found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)
         rough = np.max([cells.roughness(np.nan_to_num(each)) for each in integrands], axis=0)
         found_coarse: Bools = rough > total * (_ACCURACY * (cells.high - cells.low) / self.span + _ROUNDING)
@@ -260,18 +261,18 @@ class TurnRun:
         ).astype(np.int64)
 
     def share(self, where: Bools) -> float:
-        """Return the fraction of the run that is represented by the selected positions."""
+        """Return the fraction of the run that the selected positions represent."""
         return float(self.cells.weights @ where) / self.span
 
     @cached_property
     def standing(self) -> PositionTorques:
-        """Torques at the positions of the run with static friction."""
+        """Torques at the positions of the run if static friction acts."""
         return self.train.at(self.cells.requested, static=True) if self.train.starts_harder else self.found
 
 
 @dataclass(frozen=True)
 class RunScales:
-    """Torque scale (maximum torque through any pair) and power scale (maximum power) of a run."""
+    """Torque scale (maximum torque of any pair) and power scale (maximum power) of a run."""
 
     pressed: float
     power: float
@@ -284,6 +285,6 @@ class RunScales:
 
 
 def sign_beyond(values: Floats, scale: float) -> Floats:
-    """Return the signs of values, 0 for values below `FAINT` times the scale."""
+    """Return the signs of values; the sign is 0 for values whose magnitude is below `FAINT` times the scale."""
     with np.errstate(invalid="ignore"):
         return np.where(np.abs(values) > FAINT * scale, np.sign(values), 0.0)

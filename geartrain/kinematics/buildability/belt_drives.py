@@ -1,4 +1,4 @@
-"""Axis distances of the pulleys of a belt, from declared positions, and the length of a belt around two pulleys."""
+"""Distances between the axes of a belt's pulleys, from declared positions, and the length of a belt."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class PulleyPair(NamedTuple):
     belt: Belt
     pulleys: tuple[str, str]
     diameters: tuple[Fraction, Fraction]
-    """Pitch diameters [mm]."""
+    """Pitch diameters of the two pulleys [mm]."""
     distance: Fraction
-    """Distance of the axes [mm]."""
+    """Distance between the axes of the two pulleys [mm]."""
 
     @property
     def fits(self) -> bool:
@@ -41,7 +41,7 @@ class PulleyPair(NamedTuple):
 
 
 def pulley_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[PulleyPair]:
-    """Yield each two pulleys of each belt whose diameters and axis positions are declared."""
+    """Yield all pairs of pulleys of each belt for which diameters and axis positions are declared."""
     carriers = {circuit.id: circuit.carrier for circuit in circuits if circuit.kind == "belt"}
     for belt in train.couplings if carriers else ():
         if not isinstance(belt, Belt) or belt.by_teeth:
@@ -56,7 +56,7 @@ def pulley_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Itera
 
 
 def check_belts(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-    """Yield findings of rule B1: pulleys of one belt that overlap."""
+    """Yield findings of rule B1: pulleys of one belt overlap."""
     for pair in pulley_pairs(train, tree, circuits):
         if not pair.fits:
             (first, second), apart = pair.pulleys, float(pair.distance)

@@ -1,8 +1,8 @@
-"""Rules of buildability that need only a few lines each (docs/buildability.md).
+"""Rules of buildability whose implementations are short (docs/buildability.md).
 
-They find wheels without a gear pair, incompatible kinds of wheels, three axes whose distances violate the triangle
+They detect wheels without a gear pair, incompatible kinds of wheels, three axes whose distances violate the triangle
 inequality, brakes and clutches between links on different axes, wheels with two coaxial mates at different centre
-distances, and skew axes at a wrong distance. The other modules of this folder hold the longer rules.
+distances, and skew axes at a wrong distance. The other modules of this folder contain the longer rules.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ _NEEDS = {
 def check_kinds(
     train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rules K1, K2 and K5: wheels whose kind does not suit their axes or their mates, and bevel
-    wheels that mesh with a third bevel wheel from the same side.
+    """Yield findings of rules K1, K2 and K5: the kind of a wheel does not suit its axis or its mate, or two bevel
+    wheels mesh with a third one from the same side.
     """
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
@@ -134,7 +134,7 @@ _EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because t
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
     """Yield findings of rule P3: three axes whose distances violate the triangle inequality.
 
-    The distances are multiples of one length, which may be unknown.
+    Only distances that are known multiples of a common length are compared; this length may be unknown.
     """
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
@@ -187,8 +187,8 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes. A clutch or brake that
-    occurs in several states is reported once.
+    """Yield findings of rules G1 (clutches) and G2 (brakes): the links are on different axes. A clutch or brake that is
+    engaged in several states is reported once.
     """
     reported = set()
     for case in train.cases:
@@ -221,8 +221,8 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
 def check_mates(train: Train) -> Iterator[BuildFinding]:
     """Yield findings of rule W1: wheels without a gear pair.
 
-    A wheel is exempt if a belt goes around it, if its link is in another coupling, if it is the escape wheel, or if it
-    has a note.
+    A wheel is exempt if it is a pulley of a belt, if its link is in another coupling, if it is the escape wheel, or if
+    it has a declared note.
     """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
     named = {(kind, name) for coupling in train.couplings for kind, name, _ in coupling.references()}
@@ -287,8 +287,8 @@ _EQUAL_SKEW = 1e-6  # relative tolerance of distances: written positions are rou
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: the distance between skew axes differs from the sum of the pitch radii m z/(2
-    cos(helix)).
+    """Yield findings of rule K4: the distance between skew axes differs from the sum of the pitch radii m z/(2 cos(b)),
+    where m is the normal module, z the tooth count and b the helix angle.
     """
     axes = Axes(train, tree)
     for pair in pairs:
@@ -321,14 +321,14 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
 
 Outlines = Callable[[], Mapping[str, PairOutline]]
 """Function that returns the outlines of the pairs with declared teeth, by name. It is called only if equal planets, or
-two pairs that share a wheel, are compared.
+two pairs that share a wheel, are to be compared.
 """
 
 
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """Yield the findings of all rules that need only the declaration (docs/buildability.md), one rule after another."""
+    """Yield the findings of all rules that require only the declaration (docs/buildability.md), rule by rule."""
     yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)
@@ -349,7 +349,7 @@ def check_build(
 def _planets(
     train: Train, tree: Tree, circuits: Sequence[Circuit], sizes: PitchDistances, outlines: Outlines
 ) -> Iterator[BuildFinding]:
-    """Yield findings on equal planets; planets declared by `copies` are expanded to separate links first."""
+    """Yield findings on equal planets; planets declared by `copies` are first expanded to separate links."""
     if has_copies(train):
         train = with_copies(train, tree)
         tree = find_tree(train)

@@ -10,8 +10,8 @@ from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result
 
 BuildLevel = Literal["error", "note"]
-"""Severity: `error` if the train cannot be built, `note` if it can be built but is inadvisable, or if the declaration
-does not determine whether the rule is violated.
+"""Severity of a finding: `error` if the train cannot be built, `note` if it can be built but is inadvisable, or if the
+declaration does not determine whether the rule is violated.
 """
 
 
@@ -51,7 +51,7 @@ class BuildFinding(Result):
 
     @property
     def is_error(self) -> bool:
-        """True if the train cannot be built as declared."""
+        """True if the level is `error`, so that the train cannot be built as declared."""
         return self.level == "error"
 
     @property

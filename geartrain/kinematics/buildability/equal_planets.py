@@ -1,4 +1,4 @@
-"""Assembly and clearance of sets of equal planets on a carrier."""
+"""Assembly conditions and clearances of sets of equal planets on a carrier."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of an assembly rule: the id of a wheel with a variable count, or a fixed count."""
+"""Tooth count as a term of an assembly rule: name of a wheel with a variable count, or an integer for a fixed count."""
 
 Measure = Literal["", "plain", "m"]
-"""Unit of a declared module: "" if no module is declared, "plain" for a number without unit, "m" for a length."""
+"""Unit of a declared module: "" if no module is declared, "plain" for a number without a unit, "m" for a length."""
 
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMesh:
-    """Gear pair in the frame of its carrier, with the data that the assembly rules need. Fields with two elements
-    refer to the first and the second wheel.
+    """Gear pair relative to its carrier, with the data that the assembly rules require. Fields with two elements refer
+    to the first and the second wheel.
     """
 
     name: str
     """Name of the pair."""
     carrier: str
-    """Link that carries both axes of the pair, and so keeps their centre distance."""
+    """Link that carries both axes of the pair."""
     wheels: tuple[str, str]
-    """Ids of the two wheels in mesh."""
+    """Names of the two wheels."""
     links: tuple[str, str]
     """Names of the links to which the two wheels belong."""
     axes: tuple[str, str]
@@ -48,17 +48,17 @@ class AssemblyMesh:
     parts: tuple[CountRef, CountRef]
     """Tooth counts of the wheels: the id of a wheel with a variable count, or a fixed count."""
     sense: int
-    """1 if the wheels turn in opposite senses relative to the carrier, else -1."""
+    """1 if the wheels turn in opposite senses relative to the carrier, -1 if they turn in the same sense."""
     ring: int | None
-    """Index of the wheel that is a ring; None for an external pair."""
+    """Index (0 or 1) of the wheel that is a ring; None for an external pair."""
     spur: bool
     """True if both wheels are spur wheels."""
     worm: bool
     """True if one wheel is a worm."""
     measure: Measure
-    """Unit of the common module; empty if no module is declared."""
+    """Unit of the common module of the two wheels; empty if no module is declared."""
     module: Fraction | None
-    """Common module in the unit `measure`; 1 if none is declared, None if different modules are declared."""
+    """Common module of the two wheels [`measure`]; 1 if none is declared, None if the declared modules differ."""
 
     @property
     def is_free(self) -> bool:
@@ -67,14 +67,16 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Terms (sign, tooth count) of twice the centre distance [modules]: z1 + z2, or z_ring - z_mate."""
+        """Two terms (sign, tooth count) with twice the centre distance [modules] as sum: z1 + z2, or z_ring -
+        z_mate.
+        """
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
 
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet and its meshes: a node in the tree of planets that mesh with each other. The first planet is the root."""
+    """Planet and its meshes: a node in the tree of planets in mesh with each other. The first planet is the root."""
 
     link: str
     inward: AssemblyMesh | None
@@ -82,7 +84,7 @@ class Planet:
     central: tuple[AssemblyMesh, ...]
     """Meshes with wheels on the carrier's axis, sorted by the names of those wheels."""
     outward: tuple[tuple[AssemblyMesh, Planet], ...]
-    """Meshes with the child planets in the tree; isomorphic sets have the same order."""
+    """Meshes with the child planets in the tree, in an order that is the same for isomorphic sets."""
 
     def walk(self) -> Iterator[Planet]:
         """Yield this planet and all its descendants in the tree."""
@@ -91,26 +93,26 @@ class Planet:
             yield from planet.walk()
 
     def side(self, mesh: AssemblyMesh) -> int:
-        """Return the index (0 or 1) of this planet's wheel in a given mesh."""
+        """Return the index (0 or 1) of this planet's wheel in one of its meshes."""
         return mesh.links.index(self.link)
 
     def own(self, mesh: AssemblyMesh) -> str:
-        """Return the id of this planet's wheel in a given mesh."""
+        """Return the name of this planet's wheel in one of its meshes."""
         return mesh.wheels[self.side(mesh)]
 
     def mate(self, mesh: AssemblyMesh) -> str:
-        """Return the id of the wheel that meshes with this planet in a given mesh."""
+        """Return the name of the wheel with which this planet is in mesh in one of its meshes."""
         return mesh.wheels[1 - self.side(mesh)]
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Ids of the planet's wheels that mesh in the set; isomorphic sets have the same order."""
+        """Names of the planet's wheels that mesh in the set, in an order that is the same for isomorphic sets."""
         return tuple(self.mesh_of)
 
     @property
     def mesh_of(self) -> dict[str, AssemblyMesh]:
-        """One mesh for each wheel of the planet that meshes in the set: the last of its inward, central and outward
-        meshes.
+        """One mesh of each wheel of the planet that meshes in the set. If a wheel has several, an outward mesh is
+        preferred to a central one, and a central one to an inward one.
         """
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
@@ -118,9 +120,7 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Canonical form of the meshes; it is equal for planets that mesh with the same central wheels in the same
-        way.
-        """
+        """Canonical form of the meshes, which is equal for planets with equal meshes with the same central wheels."""
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -133,12 +133,12 @@ class PlanetSet:
 
     carrier: str
     planets: Planet | None
-    """Root of the tree of planets; None if they mesh in a loop."""
+    """Root of the tree of planets; None if the planets mesh in a loop."""
     links: tuple[str, ...]
     """Names of the links of all planets in the set."""
     copies: tuple[PlanetSet, ...] = ()
-    """Other sets of the carrier that mesh with the same central wheels in the same way: equal planets declared one by
-    one.
+    """Other sets on the carrier that mesh in the same way with the same central wheels, if equal planets are declared
+    separately.
     """
 
     @property
@@ -152,8 +152,8 @@ _Central = tuple[str, AssemblyMesh]  # central wheel, and its mesh with a planet
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """Train with the data that the assembly rules of planets need: fixed and variable tooth counts, meshes, sets of
-    planets.
+    """Train with the data that the assembly rules of planets require: fixed and variable tooth counts, meshes, and sets
+    of planets.
     """
 
     train: Train
@@ -165,20 +165,20 @@ class TrainAssembly:
 
     @classmethod
     def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
-        """Return the assembly data of a train whose wheels `free` have variable tooth counts."""
+        """Return the assembly data of a train in which the wheels `free` have variable tooth counts."""
         tree = find_tree(train)
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of an assembly rule: its id if the count is variable, else the
-        count.
+        """Return the tooth count of a wheel as a term of an assembly rule: the wheel's name if the count is variable,
+        else the count.
         """
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
     @cached_property
     def meshes(self) -> tuple[AssemblyMesh, ...]:
-        """All gear pairs relative to their carriers, in the order of the declaration."""
+        """All gear pairs relative to their carriers, in the order of declaration."""
         return tuple(self._mesh(circuit) for circuit in self.circuits if circuit.kind == "gear")
 
     def _mesh(self, circuit: Circuit) -> AssemblyMesh:
@@ -204,10 +204,10 @@ class TrainAssembly:
         )
 
     def module(self, *wheels: str) -> tuple[Measure, Fraction | None]:
-        """Return the unit and value of the common module of some wheels, declared for these wheels or for wheels that
-        must have the same module.
+        """Return the unit and value of the common module of the given wheels. It is declared for these wheels or for
+        wheels that must have the same module.
 
-        Without a declared module the value is 1. If different modules are declared it is None.
+        The value is 1 if no module is declared, and None if different modules are declared.
         """
         found = {one for wheel in wheels for one in self._modules.get(self.kin[wheel], ())}
         if len(found) > 1:
@@ -219,7 +219,7 @@ class TrainAssembly:
 
     @cached_property
     def _modules(self) -> Mapping[int, frozenset[tuple[Measure, Fraction]]]:
-        """Declared modules (unit, value) of each group of wheels that must share a module, by group number."""
+        """Declared modules (unit and value) in each group of wheels that must have the same module, by group number."""
         found: dict[int, frozenset[tuple[Measure, Fraction]]] = {}
         for wheel, number in self.kin.items():
             found[number] = found.get(number, frozenset()) | self._declared(wheel)
@@ -233,8 +233,8 @@ class TrainAssembly:
 
     @cached_property
     def kin(self) -> Mapping[str, int]:
-        """Group number of each wheel. Wheels that are connected by meshes, except meshes of worms, are in one group and
-        must share a module.
+        """Group number of each wheel. Wheels that are connected by meshes, except meshes of worms, are in the same
+        group and must have the same module.
         """
         worms = {wheel for wheel, (_, kind) in self.train.wheels.items() if kind.kind == "worm"}
         pairs = [circuit.wheels for circuit in self.circuits if circuit.kind == "gear"]
@@ -292,7 +292,7 @@ class TrainAssembly:
 
 
 def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
-    """Return the wheel of a copied set for each wheel of the original set."""
+    """Return the wheel of the set `other` that corresponds to each wheel of the equal set `first`, by name."""
     assert first.planets is not None
     assert other.planets is not None
     found: dict[str, str] = {}
@@ -302,12 +302,12 @@ def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
 
 
 def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None) -> tuple[CountRef, CountRef]:
-    """Return the tooth counts of a planet and of its mate in one of its meshes, in the form of the assembly rule.
+    """Return the tooth counts of a planet and of its mate in one of its meshes, as terms of the assembly rule.
 
-    The assembly rule contains only the product z phi for a planet with one wheel, so its tooth count z is replaced by
-    1.
+    The assembly rule contains the tooth count z of a planet with one wheel only in the product z phi with the angle phi
+    of the planet, so this z is replaced by 1.
 
-    other   the child planet, if it is the mate
+    other   the mate, if it is a child planet in the tree
     """
     side = planet.side(mesh)
     own = mesh.parts[side] if len(planet.wheels) > 1 else 1
@@ -316,12 +316,12 @@ def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None)
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each candidate
+    """Integer arithmetic for the assembly rule, on numbers, or on integer arrays with one element for each candidate
     set of tooth counts.
     """
 
     count: Callable[[CountRef], Any]
-    """Function that returns the value of a tooth count: a number or an array."""
+    """Function that returns the value of a tooth count term, as a number or an array."""
     gcd: Callable[[Any, Any], Any]
     """Function gcd(a, b) that returns the greatest common divisor."""
     bezout: Callable[[Any, Any], tuple[Any, Any, Any]]
@@ -331,26 +331,25 @@ class PhaseArithmetic:
 
 
 def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
-    """Return integers E of the assembly rule: a set of planets, rotated by t turns, also meshes if every E t is an
-    integer.
+    """Return the integers E of the assembly rule: if a set of planets is rotated by t turns about the carrier's axis,
+    it also meshes if E t is an integer for every E.
 
-    The rotation is about the carrier's axis. A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo a
-    pitch (angles in turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the
-    position of another set, and rotates the central wheels by t too; they must return to their positions, because they
-    are shared. So the planets must have angles phi with
+    A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo 1, where z are tooth counts and theta are
+    angles relative to the carrier [turn]; the sign is negative if one wheel is a ring. Rotation of a set in mesh by t
+    gives the position of another set, but it also rotates the central wheels by t. They must return to their positions,
+    because the sets share them. So the planets must be turned by angles phi such that
 
-        z_p phi_p + z_c t integer for every central wheel c (minus for a ring),
-        z_p phi_p + z_q phi_q integer for planets that mesh.
+        z_p phi_p + z_c t is an integer for every central wheel c (minus for a ring),
+        z_p phi_p + z_q phi_q is an integer for planets p and q in mesh.
 
     Planets are processed from the leaves of their tree to its root. The remaining angles of a planet satisfy
     D phi = b t (mod 1) for integers D and b. A central wheel c gives D = z_p, b = -z_c. Two such conditions are
     compatible if gcd(D1, D2) divides (D1 b2 - D2 b1) t; they combine to one condition with D = gcd(D1, D2) and b = u b1
     + v b2, where u D1 + v D2 = D.
 
-    A planet with one wheel gives the textbook rule: E = z_s + z_r, and n planets can be evenly spaced (t = 1/n) if n
-    divides it. A planet with two wheels gives (z_s z_q + z_r z_p)/gcd(z_p, z_q), and two planets in series give z_r -
-    z_s. A second derivation is phase closure (`geartrain.kinematics.phasing`): loops through neighbouring planets must
-    close.
+    A planet with one wheel gives the textbook rule: E = z_s + z_r for a sun s and a ring r, and n planets can be evenly
+    spaced (t = 1/n) if n divides E. A planet with two wheels gives (z_s z_q + z_r z_p)/gcd(z_p, z_q), and two planets
+    in series give z_r - z_s. Phase closure (`geartrain.kinematics.phasing`) is an independent derivation.
     """
     found: list[Any] = []
     left = _angle_conditions(root, kind, found)
@@ -396,9 +395,9 @@ def _compatibility_number(one: tuple[Any, Any], other: tuple[Any, Any], common: 
 
 
 def bezout(a: int, b: int) -> tuple[int, int, int]:
-    """Return the common divisor g = gcd(a, b) of two non-negative integers, and u, v with u a + v b = g.
+    """Return the greatest common divisor g of two non-negative integers, and u, v with u a + v b = g.
 
-    Extended Euclidean algorithm.
+    They are found by the extended Euclidean algorithm.
 
     >>> bezout(24, 18)
     (6, 1, -1)
@@ -413,14 +412,15 @@ def bezout(a: int, b: int) -> tuple[int, int, int]:
 def assembly_number(planet: Planet) -> int:
     """Return G: equal sets of planets mesh with the same central wheels at angles that are multiples of 1/G turn.
 
-    G is 0 if they mesh at any angle.
+    G is the largest such integer, or 0 if the sets mesh at any angle.
     """
     exact = PhaseArithmetic(int, gcd, bezout, lambda number: number)
     return gcd(*phase_numbers(planet, exact))
 
 
 def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
-    """Return the terms of the tip clearance of n evenly spaced equal planets, 2 a sin(pi/n) - `tips` [unit of `reach`].
+    """Return two terms whose sum is the tip clearance of n equally spaced planets, 2 a sin(pi/n) - tips [unit of
+    `reach`].
 
     reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p)
     tips    m (z_p + 2 h) plus the required clearance
@@ -430,13 +430,13 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
 
 
 def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    """Return the terms of (2 distance)^2 - tips^2, where the distance is between the axes of a planet and of its
-    neighbour's mate; it is positive if these two planets clear each other.
+    """Return the terms whose sum is (2 distance)^2 - tips^2, where the distance is between the axes of a planet and of
+    its neighbour's mate. The sum is positive if these two planets clear each other.
 
     A, B   twice the distances of the two planets' axes from the central axis
     D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
     tips   sum of the tip diameters, and twice the required clearance
-    c, s   cosine and sine of the angle psi to the neighbour; the distance is taken at the angle psi - delta,
+    c, s   cosine and sine of the angle psi to the neighbour; the angle between the two axes is psi - delta,
            (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
     """
     Q = A * A + B * B - D * D
@@ -447,7 +447,7 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
 
 _MISS, _NEGLIGIBLE = 0.1, 0.01  # phase errors (pitches): more than any backlash absorbs; less than any backlash
 ON_ECCENTRIC = 0.25
-"""Maximum distance between the axes of a wheel and its carrier for a wheel on an eccentric [radius of the wheel]."""
+"""Maximum distance between the axes of a wheel on an eccentric and of its carrier [radii of the wheel]."""
 _CLEAR = 0.2  # recommended clearance of neighbours (modules)
 _FULL = 1.0  # addendum (modules) of undeclared teeth
 _STUB = _FULL - float(SHIFT)  # smallest addendum of undeclared teeth
@@ -460,7 +460,7 @@ def check_planets(
     sizes: PitchDistances,
     outlines: Callable[[], Mapping[str, PairOutline]],
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rules A1 to A3 on two or more equal sets of planets that mesh with the same central wheels."""
+    """Yield findings of rules A1 to A3 for each group of equal planet sets that mesh with the same wheels."""
     if len(train.gears) < 2:
         return
     teeth = {wheel: each.count for wheel, (_, each) in train.wheels.items()}
@@ -474,9 +474,7 @@ def check_planets(
 
 
 class _EqualPlanets:
-    """Equal sets of planets on one carrier. They are evenly spaced unless the positions of all their axes are
-    declared.
-    """
+    """Equal sets of planets on one carrier, evenly spaced unless the positions of all their axes are declared."""
 
     def __init__(
         self,
@@ -503,8 +501,8 @@ class _EqualPlanets:
     # -------------------------------------------------------------------------------------------------------- assembly
 
     def assembly(self) -> Iterator[BuildFinding]:
-        """Yield findings of the assembly rules: A1 for planets with one wheel that mesh only with central wheels, A2
-        for others.
+        """Yield findings of the assembly rules: A1 for planets with one wheel that meshes only with central wheels, A2
+        for all others.
         """
         if not self.step:
             return
@@ -541,7 +539,7 @@ class _EqualPlanets:
         yield BuildFinding(rule, "error" if worst > _MISS and rule == "A1" else "note", problem)
 
     def _uneven_spacing(self, rule: str) -> BuildFinding:
-        """Return the finding on planets that cannot be evenly spaced: an error if no uneven spacing avoids collisions,
+        """Return the finding that planets cannot be evenly spaced: an error if every uneven spacing causes collisions,
         else a note.
         """
         minimum = max((self._minimum_angle(planet, _STUB) for planet in self.planet.walk()), default=0.0)
@@ -616,7 +614,7 @@ class _EqualPlanets:
 
     def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
         """Return a finding on tip clearance `gap` [modules]: an error if the tips overlap even with the smallest
-        addendum that is assumed for undeclared teeth, else a note.
+        addendum assumed for undeclared teeth, else a note.
         """
         free = sum(wheel not in self.tips for wheel in wheels)
         # addendum at which the tips just touch if all undeclared teeth are shortened equally
@@ -633,9 +631,7 @@ class _EqualPlanets:
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if it is
-        unknown.
-        """
+        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if unknown."""
         tips = self._tip_diameter(planet, mesh)
         # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
@@ -650,15 +646,15 @@ class _EqualPlanets:
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """Return True if a wheel is on an eccentric: the distance of its axis from the carrier's axis is less than
-        `ON_ECCENTRIC` pitch radii, but not 0.
+        """Return True if a wheel is on an eccentric: the distance between its axis and the carrier's axis is not 0, but
+        less than `ON_ECCENTRIC` pitch radii.
         """
         wheel = planet.own(mesh)
         reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
 
     def _tip_diameter(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
-        """Return the tip diameter of a planet's wheel [modules], with `addendum` [modules] for undeclared teeth."""
+        """Return the tip diameter of a planet's wheel [modules]; undeclared teeth have the given addendum [modules]."""
         wheel = planet.own(mesh)
         declared = self.tips.get(wheel)
         return (self.train.wheels[wheel][1].count or 0) + 2 * addendum if declared is None else 2 * declared
@@ -669,9 +665,7 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if it is
-        unknown.
-        """
+        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if unknown."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -701,8 +695,8 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle between neighbouring planets at which their tips do not overlap [turn]; see
-        `_tip_diameter`.
+        """Return the smallest angle between neighbouring planets at which their tips do not overlap [turn]; `addendum`
+        is as in `_tip_diameter`.
         """
         found = 0.0
         for mesh in planet.mesh_of.values():
@@ -712,7 +706,7 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared number if their
+        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared number if
         distances are unknown.
         """
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
@@ -721,7 +715,7 @@ class _EqualPlanets:
 
 
 def _planet_positions(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
-    """Return the positions of planets relative to their carrier's axis [mm], x and y; None unless all are declared."""
+    """Return the x and y of planets relative to the axis of their carrier [mm]; None unless all are declared."""
     places = [train.axes[label].point if label in train.axes else None for label in (centre or "", *map(str, axes))]
     spots = [place for place in places if place is not None]
     if len(spots) < len(places):

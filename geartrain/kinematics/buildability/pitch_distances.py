@@ -1,9 +1,9 @@
 """Checks of modules and centre distances: wheels in mesh have the same module, and two axes have one centre distance.
 
-Modules and distances are stored as multiples of each other. Wheels in mesh share a module (1). The distance between two
-axes is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions
-and offsets give some of them in mm. These statements are stored in a weighted union-find structure with exact
-fractions; a statement on a quantity that is already known is compared with it.
+Modules and distances are stored as multiples of each other. Wheels in mesh have the same module (1). The distance
+between two axes is k times the module of each pair between them, with k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared
+modules, positions and offsets give values in mm. These relations are stored in a weighted union-find structure with
+exact fractions. A relation between quantities that are already related is compared with the known relation.
 """
 
 from __future__ import annotations
@@ -35,20 +35,21 @@ PRESSURE = radians(20)
 def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     """Return the angle about the ring's axis between the tip corners of a planet's tooth and a ring's tooth [rad].
 
-    z1, z2     teeth of the planet and the ring; z2 > z1
+    z1, z2     tooth counts of the planet and the ring; z2 > z1
     pressure   pressure angle [rad]
     h1, h2     addenda [modules]
 
     Teeth have no backlash. The angle is negative if the corners collide: trochoid interference (Elements of Metric Gear
-    Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at theta1 about
-    its own axis and theta2 about the ring's (both from the line of centres), the planet has turned from the position in
-    which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth is thinner at
-    its tip, and the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 + inv(alpha) -
-    inv(alpha_a2).
+    Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at the angle
+    theta1 about its own axis and theta2 about the ring's axis (both from the line of centres), the planet has turned
+    from the position in which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the
+    tooth is thinner at its tip, and the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 +
+    inv(alpha) - inv(alpha_a2).
 
     The result is inf if the planet's tips never reach the ring's tip circle, and -inf if the ring's tip circle lies
-    within its base circle or within the planet's tip circle, or z2 <= z1. At 20 degrees and full depth a ring of 34 to
-    77 teeth needs 9 teeth more than the planet, a larger ring 8; the source gives "larger than 9".
+    within its base circle or within the planet's tip circle, or z2 <= z1. For full-depth teeth with a pressure angle of
+    20 degrees, a ring with 34 to 77 teeth requires 9 teeth more than the planet, and a larger ring 8; the source states
+    "larger than 9".
     """
     r1, r2, a = z1 / 2 + h1, z2 / 2 - h2, (z2 - z1) / 2
     if a <= 0:
@@ -71,8 +72,8 @@ def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> fl
     """Return the angle about the planet's axis by which its teeth clear the ring's teeth during radial assembly [rad].
 
     The parameters are as in `tip_margin`. The angle is negative if tips collide during assembly (trimming interference,
-    SDP/SI equations 5-9 to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, a ring of 80
-    or 100 teeth 16.
+    SDP/SI equations 5-9 to 5-11). For full-depth teeth with a pressure angle of 20 degrees, a ring requires 17 teeth
+    more than the planet, or 16 if it has 80 or 100 teeth.
     """
     # a tip circle of the ring within its base circle is treated as the base circle
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
@@ -88,8 +89,8 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the tooth count of the smallest ring without trochoid interference with a planet, both with standard
-    teeth; at least 34.
+    """Return the tooth count, at least 34, of the smallest ring without trochoid interference with a planet; both have
+    standard teeth.
     """
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
@@ -97,7 +98,7 @@ def minimum_ring(planet: int) -> int:
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Yield findings of rules R1 to R3: a ring smaller than its mate, trochoid interference, trimming interference."""
+    """Yield findings of rules R1 to R3: ring smaller than its mate, trochoid interference, trimming interference."""
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
@@ -137,12 +138,12 @@ def _radial_ring(planet: int) -> int:
 
 
 SLACK = Fraction(1, 50)
-"""Maximum difference between declared and required centre distance of any mesh [modules]; less than the backlash of cut
-teeth.
+"""Maximum accepted difference between declared and required centre distance of a mesh [modules]; it is less than the
+backlash of cut teeth.
 """
 
 SHIFT = Fraction(1, 2)
-"""Change of centre distance that profile shift of two involute wheels can compensate [modules]."""
+"""Maximum change of centre distance that is accepted because profile shift can compensate it [modules]."""
 
 _FREE = Fraction(
     1, 40
@@ -151,8 +152,8 @@ _LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their 
 
 
 class PairOutline(NamedTuple):
-    """Actual dimensions of a pair with declared teeth: centre distance, and tip radius of each wheel [transverse
-    modules].
+    """Actual dimensions of a pair with declared teeth: its centre distance, and the tip radius of each wheel
+    [transverse modules].
     """
 
     distance: float
@@ -168,13 +169,13 @@ class PitchPair:
     wheels: tuple[str, str]
     declared: tuple[Wheel, Wheel]
     axes: tuple[str, str]
-    """Labels of the axes of the two wheels relative to the carrier."""
+    """Labels of the axes of the two wheels, as seen from the carrier."""
     parallel: bool
-    """True if the axes are parallel."""
+    """True if the two axes are parallel."""
     ring: int | None
-    """Index of the wheel that is a ring; None for an external pair."""
+    """Index (0 or 1) of the wheel that is a ring; None for an external pair."""
     form: ToothForm | None
-    """Tooth form, by default the train's; None if none is declared or the form is ideal."""
+    """Tooth form of the pair, by default of the train; None if none is declared or the form is ideal."""
 
     @property
     def counts(self) -> tuple[int, int]:
@@ -193,19 +194,19 @@ class PitchPair:
 
     @property
     def modules(self) -> tuple[Fraction | None, Fraction | None]:
-        """Declared modules of the two wheels [mm]; None if undeclared."""
+        """Declared module of each wheel [mm]; None if it is not declared."""
         first, second = (None if wheel.module is None else millimetres(wheel.module) for wheel in self.declared)
         return first, second
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axis labels in alphabetical order, equal for all pairs between the same axes."""
+        """Labels of the two axes in alphabetical order, which are equal for all pairs between the same axes."""
         return min(self.axes), max(self.axes)
 
     @property
     def has_distance(self) -> bool:
         """True if the centre distance follows from module and tooth counts: the axes are parallel, both wheels are spur
-        wheels, and a ring is larger than its mate.
+        wheels, and a ring has more teeth than its mate.
         """
         return self.parallel and self.kinds == ("spur", "spur") and self.touching > 0
 
@@ -213,7 +214,7 @@ class PitchPair:
     def touching(self) -> Fraction:
         """Centre distance at which the pitch circles touch [modules]: (z1 + z2)/2, or (z_ring - z)/2.
 
-        It is divided by the cosine of the helix angle for helical teeth.
+        For helical teeth, this value is divided by the cosine of the helix angle.
         """
         first, second = (Fraction(wheel.count or 0, 2) for wheel in self.declared)
         if self.declared[0].is_helical:  # the declared module of helical wheels is the normal module
@@ -224,8 +225,8 @@ class PitchPair:
 
     @property
     def distance(self) -> Fraction:
-        """Design centre distance [modules]: declared by the tooth form, else the distance at which the pitch circles
-        touch.
+        """Design centre distance [modules]: the distance declared by the tooth form, else the distance at which the
+        pitch circles touch.
         """
         form = self.form
         own = getattr(form, "centre_distance", None) if form is not None and form.conjugate else None
@@ -236,11 +237,12 @@ class PitchPair:
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum centre distance at which these teeth can run [modules]; the backlash at the maximum may
+        """Minimum and maximum centre distance at which these teeth can mesh [modules]; the backlash at the maximum may
         be larger than at `distance`.
 
-        Profiles may be shifted if no tooth form is declared. If no size is declared either, the two wheels may have
-        been cut with slightly different pitches. Declared involutes can run at distances with more backlash.
+        If no tooth form is declared, the profiles may be shifted; if no size is declared either, the wheels may have
+        been cut with slightly different pitches. Declared involute teeth also mesh at larger distances, with more
+        backlash.
         """
         wanted, form = self.distance, self.form
         low = high = SLACK
@@ -256,8 +258,8 @@ class PitchPair:
 
 
 def _distance_without_backlash(pair: PitchPair, form: ToothForm) -> Fraction:
-    """Return the centre distance without backlash [modules]: the pitch circles touch, except for profile-shifted
-    involutes.
+    """Return the centre distance without backlash [modules]. The pitch circles touch at this distance, except for
+    profile-shifted involutes.
     """
     from geartrain.teeth.involute import Involute
 
@@ -276,7 +278,7 @@ def _distance_without_backlash(pair: PitchPair, form: ToothForm) -> Fraction:
 
 
 def pitch_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> tuple[PitchPair, ...]:
-    """Return all gear pairs with their sizes, in the order of the declaration."""
+    """Return all gear pairs with their dimensions, in the order of declaration."""
     axes = Axes(train, tree)
     gears = {gear.name: (at, gear) for at, gear in enumerate(train.gears)}
     found = []
@@ -308,7 +310,7 @@ Node = tuple[str, ...]
 
 
 def axis_distance(train: Train, axes: tuple[str, str]) -> Fraction | None:
-    """Return the distance of two parallel axes [mm]; None unless the positions of both are declared."""
+    """Return the distance between two parallel axes [mm]; None unless the positions of both are declared."""
     declared = [train.axes[label] for label in axes if label in train.axes]
     if len(declared) < 2 or declared[0].position is None or declared[1].position is None:
         return None
@@ -331,18 +333,18 @@ class PitchDistances:
         self.findings = [*self._modules(), *self._offsets(tree, circuits), *self._distances()]
 
     def module(self, wheel: str) -> Fraction | None:
-        """Return the module of a wheel [mm], declared or required by its mates and axes; None if it is undetermined."""
+        """Return the module of a wheel [mm], declared or implied by its mates and axes; None if it is undetermined."""
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return the distance between two axes as a factor of a root quantity (a module or a distance), and this
-        quantity; distances with the same root quantity can be compared.
+        """Return a root quantity (a module or a distance), and the distance between two axes as a multiple of it.
+        Distances with the same root quantity can be compared.
         """
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats a multiple of the root quantity to which a pair's distance is related: in mm
-        if the quantity is known in mm, else in modules.
+        """Return a function that formats a multiple of the root quantity of a pair's distance: in mm if the root
+        quantity is known in mm, else in modules.
         """
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
@@ -381,7 +383,7 @@ class PitchDistances:
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Record axis distances from declared positions, then from offsets of pins in slots; yield findings on
+        """Record axis distances from declared positions, then from the offsets of pins in slots; yield findings for
         contradictions.
         """
         offsets = {each.name: each.offset for each in self.train.pin_couplings if each.offset is not None}
@@ -432,8 +434,8 @@ class PitchDistances:
             self.between.setdefault(node, []).append(pair)
 
     def _misplaced(self, pair: PitchPair, found: Fraction, by: str) -> Iterator[BuildFinding]:
-        """Yield the finding on a pair whose required centre distance differs from the declared distance `found`
-        [modules].
+        """Yield a finding if the required centre distance of a pair differs from the declared distance `found`
+        [modules]; `by` names the declaration.
         """
         wanted, off = pair.distance, found - pair.distance
         if abs(off) <= _EQUAL * sum(pair.counts) / 2:
@@ -467,9 +469,10 @@ class PitchDistances:
         yield BuildFinding(rule, "error", Problem(what, why, fix + shift, pair.place))
 
     def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
-        """Yield the finding on a pair whose required centre distance differs from another pair's on the same two axes.
+        """Yield a finding if the required centre distance of a pair differs from that of another pair on the same two
+        axes.
 
-        The pair between these axes whose required distance differs most is chosen.
+        The finding names the pair on these axes whose required distance differs most.
         """
         wheel = ("wheel", pair.wheels[0])
         best: tuple[Fraction, PitchPair, Fraction] | None = None
@@ -520,11 +523,12 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """Return the profile shifts that give involutes no backlash at a distance [modules], as the text of a fix; "" if
-    the sum of the shifts would be outside `_SHIFTS`, or no involute pair has this distance.
+    """Return the text of a fix with the profile shifts for which involute teeth have no backlash at a distance
+    [modules]; "" if the sum of the shifts would be outside `_SHIFTS`, or if no involute pair has this distance.
 
     inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
-    cos(helix). With a ring, z and x of its mate are negative. The rack angle is the tooth form's, else 20 degrees.
+    cos(helix). In a pair with a ring, z and x of the mate are negative. The rack angle a_n is that of the tooth form,
+    by default 20 degrees.
     """
     from geartrain.teeth.conjugate.involute_geometry import inv
 
@@ -553,8 +557,8 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
 
 
 def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """Describe how a deviation `off` of the centre distance [modules] changes the backlash: 2 da tan(alpha) for
-    involutes.
+    """Describe the change of backlash caused by a deviation `off` of the centre distance [modules]; for involutes it is
+    2 off tan(alpha) with the pressure angle alpha.
     """
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:

@@ -1,4 +1,4 @@
-"""Tree of turning pairs, and one fundamental circuit for each gear pair and coupling."""
+"""Tree of turning pairs, and the fundamental circuits of the gear pairs and couplings."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """Fundamental circuits of gear pairs and couplings with carrier and signed exact ratio; angles between shafts.
 
 The turning pairs form a tree. A gear pair (i, j) closes one circuit through it, and its carrier k is the link on the
-tree path where the axis label changes (the transfer vertex). Attaching every link of an axis to the link of that axis
-nearest the frame gives the same result for every equivalent tree of coaxial joints, in constant time for each pair.
+tree path where the axis label changes (the transfer vertex). Every link of an axis is attached to the link of that axis
+that is nearest to the frame. The result is then the same for every equivalent tree of coaxial joints, and each pair
+takes constant time.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from geartrain.train import Train
 
 
 class Circuit(NamedTuple):
-    """Fundamental circuit with its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
+    """Fundamental circuit with its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, equation (4) of docs/theory.md.
 
     For an external gear pair a = z_i and b = z_j; for an internal gear pair b = -z_j. For a coupling, j is the driving
     link, i the driven link, and b = -m a with the mean ratio m. For a pin and slot, m is the winding number, equations
@@ -40,33 +41,33 @@ class Circuit(NamedTuple):
     id: str
     """Name of the pair or coupling."""
     kind: str
-    """Kind of the pair or coupling: gear, or a key of `geartrain.teeth.coupling.COUPLINGS`."""
+    """Kind of the circuit: "gear", or a key of `geartrain.teeth.coupling.COUPLINGS`."""
     i: str
     """Link of the first wheel, or driven link of a coupling, such as the slot."""
     j: str
     """Link of the second wheel, or driving link of a coupling, such as the pin."""
     carrier: str
-    """Carrier k: the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
+    """Carrier k, which is the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
-    """Coefficient a of the speed of link i relative to the carrier in the Willis equation, above 0."""
+    """Coefficient a of the speed of link i relative to the carrier in the Willis equation; it is positive."""
     b: int
     """Coefficient b of the speed of link j relative to the carrier in the Willis equation."""
     wheels: tuple[str, str]
-    """Ids of the two wheels; for a coupling without teeth, links i and j."""
+    """Names of the two wheels; for a coupling without teeth, names of links i and j."""
     note: str = ""
-    """Remark: the sense of rotation is only a convention, or the links turn as one body; empty without a remark."""
+    """Remark: the sense of rotation is only a convention, or the links turn as one body; empty if there is none."""
     by_teeth: bool = True
-    """True if a and b are the tooth counts of `wheels`, apart from the sign; False for couplings without teeth."""
+    """True if a and b are, up to their signs, the tooth counts of `wheels`; False for couplings without teeth."""
     bases: tuple[str, ...] = ()
     """Links whose speeds are subtracted from the speeds of i and j; empty if the carrier is subtracted from both.
 
-    A sliding carrier does not turn: for a link that turns, the base is the nearest link at or above the carrier that
-    turns, and for a link that slides, the nearest one that slides in the same direction (or the frame).
+    The motion of a link is compared with that of the carrier, or with the nearest link above it that has the same kind
+    of motion: turning, or sliding in the same direction.
     """
 
     @property
     def travels(self) -> bool:
-        """True if link j turns and link i slides."""
+        """True if link j turns and link i slides, so that the ratio is a travel per turn."""
         return self.kind != "gear" and COUPLINGS[self.kind].travels
 
     @property
@@ -76,7 +77,7 @@ class Circuit(NamedTuple):
 
     @property
     def swings(self) -> bool:
-        """True for a coupling whose instantaneous ratio varies about `ratio`, its mean value."""
+        """True for a coupling whose instantaneous ratio varies about its mean value `ratio`."""
         return self.kind != "gear" and COUPLINGS[self.kind].varies
 
     @property
@@ -86,12 +87,12 @@ class Circuit(NamedTuple):
 
     @property
     def gain(self) -> Fraction:
-        """Signed exact inverse ratio 1 / tau = (w_j - w_k) / (w_i - w_k); undefined for b = 0."""
+        """Signed exact inverse ratio 1 / tau = (w_j - w_k) / (w_i - w_k); undefined if b = 0."""
         return Fraction(-self.a, self.b)
 
     @property
     def terms(self) -> tuple[tuple[str, int], ...]:
-        """Links with non-zero coefficients of the Willis equation a w_i + b w_j - (a + b) w_k = 0.
+        """Links and their non-zero coefficients in the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
         pair without losses, and the row modulo 1 gives the phases of its teeth. If a sliding carrier is involved, the
@@ -125,7 +126,7 @@ _SOLID = "with a ratio of 1, these coaxial links turn as one body, whatever the 
 
 
 class WillisEquation(NamedTuple):
-    """Equation of a Willis system: the sum of coefficient times speed over `terms` is equal to `right`.
+    """Equation of a Willis system: the sum of the products of coefficient and speed in `terms` equals `right`.
 
     See Also
     --------
@@ -144,7 +145,7 @@ class WillisEquation(NamedTuple):
 
 @collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
-    """Return the circuits of all gear pairs, then of all couplings, in the order of the declaration."""
+    """Return the circuits of all gear pairs, followed by those of all couplings, in the order of declaration."""
     problems: list[Problem] = []
     axes = Axes(train, tree)
     circuits = []
@@ -186,7 +187,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
 
 
 class _DeclaredCoupling(NamedTuple):
-    """Coupling as declared in a train, at its position in the list of couplings."""
+    """Coupling of a train and its position in the declared list of couplings."""
 
     train: Train
     axes: Axes
@@ -194,7 +195,7 @@ class _DeclaredCoupling(NamedTuple):
     at: int
 
     def circuits(self) -> Sequence[Circuit | Problem]:
-        """Return the circuits of the coupling, which have one carrier, or the problems that prevent them."""
+        """Return the circuits of the coupling, which have a common carrier, or the problems that prevent them."""
         train, tree, name = self.train, self.axes.tree, self.coupling.name
         wheels = [name for kind, name, _ in self.coupling.references() if kind == "wheel"]
         if missing := _no_count(train, wheels):
@@ -223,8 +224,8 @@ class _DeclaredCoupling(NamedTuple):
         coaxial = _shared_axis(tree, *ends) is not None
         if carrier is None and row.carrier is not None and coaxial:
             what = f"'{row.carrier}' is not coaxial with '{row.driver}' and '{row.driven}'"
-            why = "the carrier of a coaxial pair turns on the axis of the pair, or bears this axis"
-            fix = "name a link on this axis as `carrier`, or omit it for the link that bears the axis"
+            why = "the carrier of a coaxial pair turns on the axis of the pair, or carries this axis"
+            fix = "name a link on this axis as `carrier`, or omit it to use the link that carries the axis"
             return self._problem(what, why, fix, "carrier")
         if carrier is None:
             return _no_carrier(self.train, tree, row.id, *ends, ("couplings", self.at))
@@ -233,7 +234,7 @@ class _DeclaredCoupling(NamedTuple):
         return self._travelling(circuit) if circuit.travels else self._rotating(circuit)
 
     def _rotating(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of two links that turn, with the sign of its ratio about the directions of the axes."""
+        """Return the circuit of two turning links; the directions of their axes determine the sign of its ratio."""
         axes, coupling = self.axes, self.coupling
         labels = _labels(axes.tree, circuit.carrier, circuit.i, circuit.j)
         sign = 1
@@ -255,8 +256,8 @@ class _DeclaredCoupling(NamedTuple):
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
     def _travelling(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of a link j that turns and a link i that slides, each relative to the carrier's motion of
-        its kind.
+        """Return the circuit of a turning link j and a sliding link i; each is relative to the carrier's motion of the
+        same kind.
         """
         axes, coupling, carrier, tree = self.axes, self.coupling, circuit.carrier, self.axes.tree
         along, about = _labels(tree, carrier, circuit.i, circuit.j)
@@ -281,7 +282,7 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return the problem of a joint whose axes do not have its angle, or are perpendicular; None if they fit."""
+        """Return the problem of axes that are perpendicular or not at the coupling's angle; None if they are valid."""
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "
         if between is not None and between > pi / 2 - _SAME_ANGLE:
@@ -307,7 +308,7 @@ class _DeclaredCoupling(NamedTuple):
 
 
 def _turning(tree: Tree, circuit: Circuit) -> Circuit:
-    """Return the circuit of two links that turn, without the sliding links among its members."""
+    """Return a circuit in which each sliding link is replaced by the nearest turning link that carries it."""
     if not tree.lines:
         return circuit
     i, j, base = (tree.moving(link, None) for link in (circuit.i, circuit.j, circuit.carrier))
@@ -317,9 +318,9 @@ def _turning(tree: Tree, circuit: Circuit) -> Circuit:
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
-    """Return the label of the axis about which links i and j turn relative to each other; None if they have two axes.
+    """Return the label of the common axis about which links i and j turn; None if they have different axes.
 
-    The link that bears an axis belongs to it.
+    The link that carries the axis also belongs to it.
     """
     for link, other in ((i, j), (j, i)):
         axis = tree.axis(link)
@@ -329,8 +330,8 @@ def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
 
 
 def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | None:
-    """Return the carrier of a coaxial pair: the declared one, or the link that bears the axis. None if the pair is not
-    coaxial, or if the carrier is not a third link on its axis.
+    """Return the carrier of a coaxial pair: the declared one, or else the link that carries the axis. None if the pair
+    is not coaxial, or if the carrier is not a third link on its axis.
     """
     axis = _shared_axis(tree, i, j)
     if axis is None:
@@ -341,7 +342,7 @@ def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | 
 
 
 def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
-    """Return the couplings of a train, with the angle between their axes filled in where it follows from `axes`."""
+    """Return the couplings of a train; the angles between their axes are filled in if they follow from `axes`."""
     if not any(coupling.OBLIQUE for coupling in train.couplings):
         return tuple(train.couplings)
     axes, found = Axes(train, tree), []
@@ -360,11 +361,10 @@ def _labels(tree: Tree, carrier: str, i: str, j: str) -> tuple[str, str]:
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
-    """Return the carrier of the pair i, j: the link of the tree path at which the axis changes, if it changes once;
-    else None.
+    """Return the carrier of the pair i, j: the link of the tree path at which the axis label changes; None if the label
+    does not change exactly once.
 
-    With every link attached to the top of its axis, the path changes axis once in three cases: both tops are the
-    carrier, or the carrier is one link's top and shares the other's axis, or it is attached to the other link.
+    All links of an axis are treated as attached to the link that carries the axis.
     """
     parent, top = tree.parent, tree.top
     axis_i = parent[i][1] if i in parent else None
@@ -401,7 +401,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
 
 
 def _no_count(train: Train, wheels: Sequence[str]) -> list[Problem]:
-    """Return the problem of the first wheel without a tooth count; empty if all have one."""
+    """Return the problem of the first wheel without a tooth count, as a list; empty if all wheels have one."""
     what, why = "wheel '{}' has no tooth count yet", "only `search` is declared, and speeds need a definite count"
     missing = [name for name in wheels if train.wheels[name][1].count is None][:1]
     places = (train.place("links", train.wheels[name][0], "wheels", name) for name in missing)
@@ -413,10 +413,10 @@ _MEET = 1e-3  # relative to the distance between two declared points: closer axe
 
 
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
-    """Return the shaft angle of a gear pair [rad], between 0 and pi; None if its axes are parallel.
+    """Return the shaft angle of a gear pair, in (0, pi) [rad]; None if its axes are parallel.
 
     It is the sum of both pitch cone angles: the angle between the directions from the apex to the two wheels, which
-    follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
+    follow from the axes and `facing`. Raises `RangeError` if axes with declared positions do not intersect.
     """
     axes, labels = Axes(train, tree), _labels(tree, circuit.carrier, circuit.i, circuit.j)
     if axes.are_parallel(labels):
@@ -432,11 +432,11 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
 def bevels_on_one_side(
     train: Train, circuits: Iterable[Circuit], is_rotation: Callable[[str, str], bool]
 ) -> Iterator[tuple[str, str, str]]:
-    """Yield two bevel wheels on one axis that mesh with a third bevel wheel from the same side, as names (one, other,
-    third).
+    """Yield the names (one, other, third) if two bevel wheels on one axis mesh with a third bevel wheel from the same
+    side.
 
-    Their pitch cones share the apex of the third, so the two bevels would be in the same place. The sides follow from
-    `facing` and from the senses of rotation of the two circuits.
+    Their pitch cones have the same apex as the third, so the two wheels would occupy the same space. The sides follow
+    from `facing` and from the senses of rotation of the two circuits.
 
     is_rotation   function that returns whether all axes between two links are parallel
     """
@@ -456,7 +456,7 @@ def bevels_on_one_side(
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
-    """Return the distance between two non-parallel axes [m], 0 if they intersect; None if a position is not
+    """Return the distance between two non-parallel axes [m], which is 0 if they intersect; None if a position is not
     declared.
     """
     here, there = (axes.positions.get(label) for label in labels)

@@ -1,11 +1,11 @@
 """Turning and sliding pairs as a tree rooted at the frame; directions and positions of axes, and signs of meshes.
 
-Helical wheels in mesh are checked for compatible teeth, and their senses of rotation are determined.
+The module also checks that helical wheels in mesh have compatible teeth, and determines their senses of rotation.
 
-Rigid bodies: two links are one body if the relative twist vanishes. The twist is the sum of joint rates times screws of
-the axes between the links. Screws of two or three different lines are independent, so every joint on the path is
-closed, and not only the sum of their rates (docs/theory.md, section 4). Four or more axes may form a linkage, whose
-ratio varies; such a lock is refused unless declared positions show that the linkage cannot move.
+Two links form a rigid body if their relative twist vanishes. The twist is the sum of the joint rates times the screws
+of the axes between the links. Screws of two or three different lines are independent, so every joint on the path is
+locked, not only the sum of their rates (docs/theory.md, section 4). Four or more axes may form a linkage with a
+variable ratio. Such a lock is rejected unless declared positions show that the linkage cannot move.
 """
 
 from __future__ import annotations
@@ -37,18 +37,18 @@ class Tree(FrozenFields):
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
-    """Parent of each link (its neighbour towards the frame), and the label of the axis between them, as declared."""
+    """Parent of each link (its neighbour towards the frame), and the declared label of the axis between them."""
     top: Mapping[str, str]
-    """Link that carries the axis of each link: the first link on the path to the frame that is not on the same axis."""
+    """Link that carries the axis of each link: the first link on the path to the frame that is not on that axis."""
     lines: Mapping[str, str] = field(default_factory=dict)
-    """Direction of travel of each link that slides, by name: its axis label, or the first label of a parallel axis."""
+    """Direction of travel of each sliding link: its axis label, or the first label of a parallel axis."""
 
     def reference(self, link: str, base: str) -> str:
-        """Return the link at or above `base` whose motion is comparable with the motion of `link`; the frame if there
-        is none.
+        """Return the nearest link at or above `base` whose motion is comparable with the motion of `link`; the frame if
+        there is none.
 
-        For a link that turns it is the nearest one that turns, because a sliding link does not turn relative to its
-        bearer. For a link that slides it is the nearest one that slides in the same direction.
+        For a turning link, it is the nearest link that turns, because a sliding link does not turn relative to the link
+        that carries it. For a sliding link, it is the nearest link that slides in the same direction.
         """
         return self.moving(base, self.lines.get(link)) if self.lines else base
 
@@ -61,14 +61,14 @@ class Tree(FrozenFields):
         return link
 
     def borne_by(self, link: str) -> str:
-        """Return the link relative to which the motion in the joint of `link` is measured: its parent, or if the parent
-        has a motion of the other kind, the nearest link above with a comparable motion.
+        """Return the link relative to which the motion in the joint of `link` is measured: its parent, or the nearest
+        link above the parent whose motion is comparable.
         """
         return self.reference(link, self.parent[link][0])
 
     def bearer(self, link: str) -> str:
-        """Return the link relative to which `link` moves on its axis: the link that carries the axis, or if that has a
-        motion of the other kind, the nearest link above with a comparable motion.
+        """Return the link relative to which `link` moves on its axis: the link that carries the axis, or the nearest
+        link above that link whose motion is comparable.
         """
         return self.reference(link, self.top[link])
 
@@ -77,7 +77,7 @@ class Tree(FrozenFields):
         return self.parent[link][1] if link in self.parent else None
 
     def above(self, link: str) -> str | None:
-        """Return the parent of a link, its neighbour towards the frame; None for the frame."""
+        """Return the parent of a link, which is its neighbour towards the frame; None for the frame."""
         return self.parent[link][0] if link in self.parent else None
 
     def bears(self, carrier: str, link: str) -> bool:
@@ -93,7 +93,7 @@ class Tree(FrozenFields):
         return self.parent[link if self.bears(carrier, link) else carrier][1]
 
     def path(self, i: str, j: str) -> tuple[list[str], list[str]]:
-        """Return the links of the tree path from i to j, and the axis labels between them."""
+        """Return the links of the tree path from i to j, including both, and the axis labels between them."""
         up, down = ways_to_common_ancestor(i, j, self.above)
         labels = [self.parent[link][1] for link in [*up[:-1], *down[-2::-1]]]
         return up + down[-2::-1], labels
@@ -105,7 +105,7 @@ def pallet_link(escapement: Escapement, tree: Tree) -> str:
 
 
 def check_pallets(train: Train, tree: Tree) -> None:
-    """Raise `DeclarationError` if the pallets of the escapement do not stay beside the escape wheel."""
+    """Raise `DeclarationError` if the pallets of the escapement can move away from the escape wheel."""
     escapement = train.escapement
     if escapement is None or escapement.on is None:
         return
@@ -121,7 +121,7 @@ def check_pallets(train: Train, tree: Tree) -> None:
 
 @collector_paused()
 def find_tree(train: Train) -> Tree:
-    """Build the tree of joints with the frame as root. Raises `DeclarationError` if they do not form a tree."""
+    """Build the tree of joints with the frame as root. Raises `DeclarationError` if the joints do not form a tree."""
     declared: list[tuple[Revolute | Slide, Loc]] = [
         *((joint, ("revolutes", at)) for at, joint in enumerate(train.revolutes)),
         *((joint, ("slides", at)) for at, joint in enumerate(train.slides)),
@@ -167,10 +167,10 @@ def find_tree(train: Train) -> Tree:
 
 
 def _lines(train: Train, parent: Mapping[str, tuple[str, str]], sliding: Mapping[str, str]) -> dict[str, str]:
-    """Return the direction of travel of each sliding link by the first label with that direction.
+    """Return the direction of travel of each sliding link, as the first axis label with that direction.
 
-    Slides with different labels have the same direction if declared directions are parallel, and if all turning links
-    between them turn about this direction, so that it does not change.
+    Slides with different labels have the same direction if their declared directions are parallel, and if all turning
+    links between them turn about this direction, so that it is constant.
     """
     labels = dict.fromkeys(sliding.values())
     lines = {label: label for label in labels}
@@ -194,7 +194,7 @@ def _has_direction(train: Train, label: str) -> bool:
 
 
 def _labels_of_both(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each axis label of both turning and sliding pairs."""
+    """Yield a problem for each axis label that is used for both turning and sliding pairs."""
     turning = {joint.axis for joint in train.revolutes}
     for at, joint in enumerate(train.slides):
         if joint.axis in turning:
@@ -261,8 +261,8 @@ _SAME = 1e-6  # rad: tolerance of angles, because written angles are rounded
 def check_parallel(first: Wheel, second: Wheel) -> None:
     """Raise `GearTrainError` for wheels on parallel axes whose helix angles or hands do not match.
 
-    Teeth in contact have the same direction, so the hands of an external pair are opposite, and the hands of a ring and
-    its mate are equal. An undeclared hand is assumed to match.
+    Teeth in contact have the same direction, so the wheels of an external pair have opposite hands, and a ring and its
+    mate have the same hand. An undeclared hand is assumed to match.
     """
     angles = tuple(0.0 if wheel.helix_angle is None else wheel.helix_angle.si for wheel in (first, second))
     if abs(angles[0] - angles[1]) > _SAME:
@@ -283,9 +283,9 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note,
     which is empty unless the sense is only a convention.
 
-    With the helix angles b of both wheels (positive for right-hand helices) and the angle S from the first axis to the
-    second, about the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn.
-    Then z1 w1 = -z2 w2, or z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
+    Let b1 and b2 be the helix angles (positive for right-hand helices), and S the angle from the first axis to the
+    second, about the direction from the second to the first. Teeth are aligned if b1 + b2 = S, and then z1 w1 = -z2 w2;
+    or if b1 + b2 = S plus half a turn, and then z1 w1 = z2 w2 (equations (12a) and (12b) of docs/theory.md).
 
     angle   angle between the directions of the axes [rad], 0 to pi
     side    1 if it is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown
@@ -316,9 +316,10 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
     """Return the helix angles of two wheels on skew axes [rad], positive for right-hand helices; None if none is
     declared.
 
-    The helix angle of a worm and the shaft angle determine the helix angle of its wheel by (12a); it may also be
-    declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`. Raises
-    `GearTrainError` if the wheel of a worm declares another helix angle or hand than the worm requires.
+    The helix angle of a worm and the shaft angle determine the helix angle of its wheel by equation (12a); it may also
+    be declared. If the helix angle of a worm is not declared, both are unknown. The parameters are as in
+    `crossed_sense`. Raises `GearTrainError` if the wheel of a worm declares another helix angle or hand than the worm
+    requires.
     """
     kinds = [wheel.kind for wheel in wheels]
     if "worm" not in kinds:
@@ -358,8 +359,8 @@ _Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
 class Axes:
     """Directions of the axes of a train, and the signs of speeds and meshes that follow from them.
 
-    Speeds of parallel axes are added with their signs. Speeds of non-parallel joints are also added, as the scalar
-    equation requires (Freudenstein, Longman and Chen 1984).
+    Speeds about parallel axes are added with their signs. Speeds about non-parallel axes are also added, because the
+    equation is scalar (Freudenstein, Longman and Chen 1984).
     """
 
     def __init__(self, train: Train, tree: Tree) -> None:
@@ -382,8 +383,8 @@ class Axes:
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
-        """Return -1 if an axis is opposite to the reference direction of the axes parallel to it, else 1. The reference
-        is z, or for other directions the first declared axis.
+        """Return -1 if an axis points against the reference direction of the axes parallel to it, else 1. The reference
+        direction is z, or for other directions the direction of the first declared axis.
         """
         return self._senses.get(label or "", 1)
 
@@ -398,8 +399,8 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links separated from the frame by non-parallel joints. Their "speed" is a sum of joint speeds, not the speed
-        of a rotation.
+        """Links that are separated from the frame by non-parallel joints. Their speed is a sum of joint speeds, not the
+        speed of a rotation.
         """
         if self.plain:
             return frozenset()
@@ -414,31 +415,25 @@ class Axes:
         return frozenset(sums)
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return True if all joint axes between two links are parallel, so that their relative speed is the speed of a
-        rotation.
-        """
+        """Return True if all joint axes between two links are parallel, so that their relative motion is a rotation."""
         if self.plain or of in self.tree.lines:
             return True
         slides = {self.tree.axis(link) for link in self.tree.lines}
         return self.are_parallel(label for label in self.tree.path(of, base)[1] if label not in slides)
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """Return True if all axes in `labels` have the same or opposite directions in the pose in which all angles are
-        0.
-        """
+        """Return True if all axes in `labels` are parallel in the pose in which all angles are 0."""
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def angle(self, labels: tuple[str, str]) -> float | None:
-        """Return the angle between two axes as lines [rad], 0 to pi/2; None if neither direction is declared."""
+        """Return the angle between two axes as lines, 0 to pi/2 [rad]; None if neither direction is declared."""
         if self.directions.keys().isdisjoint(labels):
             return None
         angle, _ = self.crossing(*labels)
         return min(angle, pi - angle)
 
     def sense(self, labels: tuple[str, str]) -> int:
-        """Return 1 if speeds of the same sign about the reference directions of two axes have directions less than 90
-        degrees apart, else -1.
-        """
+        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, else -1."""
         first, second = (self.direction(label) for label in labels)
         return self.sign(labels[0]) * self.sign(labels[1]) * (-1 if dot(first, second) < 0 else 1)
 
@@ -450,8 +445,8 @@ class Axes:
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the non-zero components of the screw of an axis (direction, and velocity of the origin); None if no
-        position is declared.
+        """Return the non-zero components of the screw of an axis, which are its direction and the velocity of the
+        origin; None if no position is declared.
         """
         here = self.positions.get(label)
         if here is None:
@@ -463,7 +458,7 @@ class Axes:
         return {at: part for at, part in enumerate(parts) if part}
 
     def crossing(self, one: str, other: str) -> tuple[float, int]:
-        """Return the angle between two axes [rad], 0 to pi, and its sign about the direction from `other` to `one`.
+        """Return the angle between two axes, 0 to pi [rad], and its sign about the direction from `other` to `one`.
 
         The sign is 0 if the positions do not determine it.
         """
@@ -479,7 +474,7 @@ class Axes:
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self.crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return a and b of the Willis equation, and a note if the sense of rotation is a convention.
+        """Return a and b of the Willis equation, and a note (or "") if the sense of rotation is a convention.
 
         Raises `GearTrainError` for wheels that cannot mesh on their axes.
         """
@@ -509,7 +504,7 @@ class Axes:
         return z_i, z_j * side_i * side_j, ""
 
     def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return a, b and the note for a worm drive, whose sense of rotation follows from hand and positions."""
+        """Return a, b and the note for a worm drive. Its sense of rotation follows from the hand and the positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
         # a worm without a declared hand is right-handed
@@ -535,7 +530,7 @@ class Axes:
 
 
 def _vector(figures: Iterable[Any]) -> ExactVector:
-    """Return three numbers as a vector, or three lengths as a vector in metres."""
+    """Return three numbers as a vector, or three lengths as a vector [m]."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
     return x, y, z
 
@@ -548,7 +543,7 @@ def _line(direction: ExactVector) -> ExactVector:
 
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
-"""Joint between two links with the labels of its axis; several labels if axes are collinear."""
+"""Joint: the names of its two links, and the labels of its axis (several labels if axes are collinear)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -556,7 +551,7 @@ class Rigid:
     """Brake or lock that makes two links one rigid body, with the joints on the path between them."""
 
     links: tuple[str, ...]
-    """One fixed link, or two links that are locked together."""
+    """Name of one fixed link, or names of two links that are locked together."""
     joints: tuple[JointOnLine, ...]
 
     @property
@@ -566,12 +561,12 @@ class Rigid:
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """Return the prescriptions of each state with brakes and locks expressed joint by joint: brakes on links that turn
-    on the frame, and locks between coaxial links.
+    """Return the prescriptions of each state, with every brake and lock expressed as brakes on links that turn on the
+    frame, and locks between coaxial links.
 
-    A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. A case gets
-    `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`
-    if every case has problems.
+    A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. The
+    `problems` of a case are set if a lock forms a linkage, or if an input link has no fixed axis in the frame. Raises
+    `DeclarationError` if every case has problems.
     """
     axes = Axes(train, tree)
     sums = axes.joint_sums
@@ -595,8 +590,8 @@ def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase
 
 
 def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
-    """Return the prescriptions with each lock of a link to its bearer as a lock to the nearest link with a comparable
-    motion; a lock to the frame is a brake.
+    """Return the prescriptions in which each lock of a link to the link that carries it refers to the nearest link with
+    a comparable motion; a lock to the frame becomes a brake.
     """
     fixed, locks, causes = list(case.fixed), [], dict(case.causes)
     for a, b in case.locks:
@@ -613,18 +608,17 @@ def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """Yield the brakes and locks that cannot be realised by a device on one axis, because they close two or more
-    joints.
+    """Yield the brakes and locks that no device on one axis can realise, because they lock two or more joints.
 
-    Joints that are closed by other brakes and locks are not counted.
+    Joints that are locked by other brakes and locks are not counted.
     """
     bodies = _Bodies(Axes(train, tree), case)
     return (rigid for rigid in bodies.connections if len(bodies.open(rigid)) > 1)
 
 
 class _Bodies:
-    """Rigid bodies of a train in one state, as disjoint sets of links, with its brakes and locks; closing a joint
-    merges two bodies. Axes of the joints are lines: collinear axes are one.
+    """Rigid bodies of a train in one state, as disjoint sets of links, with its brakes and locks. Locking a joint
+    merges two bodies. Collinear axes are treated as one axis.
     """
 
     def __init__(self, axes: Axes, case: StateCase) -> None:
@@ -638,8 +632,8 @@ class _Bodies:
                 self._bodies.join(*rigid.joints[0][:2])
 
     def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
-        """Close joints of brakes and locks across several axes; return them with their causes, and the brakes and locks
-        that form linkages.
+        """Lock the joints of brakes and locks across several axes; return these joints with their causes, and the
+        brakes and locks that form linkages.
         """
         closed: list[tuple[Rigid, JointOnLine]] = []
         waiting = list(across)
@@ -652,11 +646,11 @@ class _Bodies:
         return closed, waiting
 
     def open(self, rigid: Rigid) -> list[JointOnLine]:
-        """Return the joints on the path of a brake or lock that are not closed yet."""
+        """Return the joints on the path of a brake or lock that are not yet locked."""
         return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
     def _joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """Return the joints on the path between two links, one for each line; collinear axes are merged."""
+        """Return the joints on the path between two links, one for each line; joints on collinear axes are merged."""
         parent, top = self._tree.parent, self._tree.top
         up, down = ways_to_common_ancestor(a, b, top.get)
         steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
@@ -675,7 +669,7 @@ class _Bodies:
         return one == other or self._axes.are_one_line(one, other)
 
     def _is_immobile(self, joints: Sequence[JointOnLine]) -> bool:
-        """Return True if a closed chain of the given joints has no mobility, False if it may move."""
+        """Return True if a closed chain with the given joints certainly has no mobility, False if it may move."""
         labels = [labels[0] for _, _, labels in joints]
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
@@ -687,8 +681,8 @@ class _Bodies:
 def _joint_by_joint(
     frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
 ) -> StateCase:
-    """Return the prescriptions of a state with brakes and locks across several axes replaced by the joints that they
-    close.
+    """Return the prescriptions of a state in which brakes and locks across several axes are replaced by the joints that
+    they lock.
     """
     spread = {rigid.links for rigid in across}
     fixed = [link for link in case.fixed if (link,) not in spread]
@@ -707,7 +701,7 @@ def _joint_by_joint(
 
 
 def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterator[Problem]:
-    """Yield problems of inputs whose speed is a sum of joint speeds over non-parallel axes."""
+    """Yield a problem for each input whose speed is a sum of joint speeds over non-parallel axes."""
     for link in sums.intersection(case.inputs):
         yield Problem(
             f"the input '{link}' does not turn about a single axis",
@@ -720,7 +714,7 @@ def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterato
 def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
     links = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     return Problem(
-        f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which makes a linkage",
+        f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which would form a linkage",
         f"a closed chain of {len(rigid.joints)} turning pairs may move with a varying ratio, which a gear train "
         "cannot have",
         f"fix or lock a link in between ({', '.join(links)}), or lock coaxial links",
@@ -729,7 +723,7 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
 
 
 def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
-    """Return the path of the declaration keys that declare a brake or lock."""
+    """Return the path of the declaration keys at which a brake or lock is declared."""
     if links in case.clutches:
         return ("clutches", case.clutches[links])
     key = "fixed" if len(links) == 1 else "locks"

@@ -1,9 +1,10 @@
 """Rational functions of tooth counts in textbook notation: in factors, as text, LaTeX or a SymPy expression.
 
 Polynomials in tooth counts are written as products in which no two factors have a wheel in common.
-Two variables i and j belong to different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for values a and
-b with P(a, b) not 0, because P is then, up to a constant, the product of a polynomial without i and one without j. For
-gear trains this is almost always the complete factorisation, because carriers in series have separate wheels.
+Two variables i and j belong to different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for fixed values
+a and b with P(a, b) not 0, because P is then, up to a constant, the product of a polynomial without i and one without
+j. For gear trains this is almost always the complete factorisation, because epicyclic sets in series have different
+wheels.
 """
 
 from __future__ import annotations
@@ -34,21 +35,19 @@ _VALUES = (2, 3, 5, 7, 11, 13)  # primes: sums of their products rarely vanish
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """Factored polynomial: an integer times powers of variables times sums, no two of which have a variable in
-    common.
-    """
+    """Factored polynomial: an integer times powers of variables times sums without common variables."""
 
     content: int
     """Integer factor; 0 for the zero polynomial."""
     powers: Exponents
     """Exponent of each variable, by index."""
     sums: tuple[tuple[Term, ...], ...]
-    """Factors with two or more terms each; terms are sorted by falling exponents."""
+    """Factors that have two or more terms; the terms are sorted by descending exponents."""
 
     @classmethod
     def of(cls, terms: Sequence[Term], point: Sequence[int], known: Sequence[Laurent] = ()) -> FactoredPolynomial:
-        """Factor a polynomial with non-negative exponents; each sum that is not 0 at `point` is given the sign that
-        makes it positive there.
+        """Factor a polynomial with non-negative exponents. The sign of each sum is chosen so that it is positive at
+        `point`, unless it is 0 there.
 
         known   candidates for factors, which are tried first
         """
@@ -82,7 +81,7 @@ def _positive_at_point(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
 
 
 def _separate_factors(p: Laurent) -> Iterator[Laurent]:
-    """Yield the factors of a polynomial that have no variable in common, each up to a constant."""
+    """Yield the factors of a polynomial, no two of which have a variable in common, each up to a constant factor."""
     used = [at for at in range(p.width) if any(exponents[at] for exponents in p.terms)]
     groups = [{at} for at in used]
     for i, j in combinations(used, 2):
@@ -106,7 +105,7 @@ def _are_separable(p: Laurent, i: int, j: int) -> bool:
 
 
 def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
-    """Return a polynomial in which the variables `others` are replaced by primes at which it does not vanish."""
+    """Return a polynomial whose variables `others` are replaced by primes at which it does not vanish."""
     for at in others:
         p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
     return p
@@ -125,12 +124,12 @@ def _substitute(p: Laurent, at: int, value: int) -> Laurent:
 
 _PLAIN = re.compile(r"\w+")
 _MOST_SPLIT = 3
-"""Maximum number of terms of a sum that is divided term by term, as in 1 + z_r/z_s."""
+"""Maximum number of terms of a sum that is divided term by term, as in 1 + z_r/z_s = (z_s + z_r)/z_s."""
 
 
 @dataclass(frozen=True)
 class _Style:
-    """Notation of symbols, powers, quotients and brackets, as text or as LaTeX."""
+    """Notation of symbols, powers, quotients and brackets in text or in LaTeX."""
 
     symbol: Callable[[str], str]
     power: Callable[[str, int], str]
@@ -157,7 +156,7 @@ _LATEX = _Style(
 
 @dataclass(frozen=True)
 class ClosedForm(Result):
-    """Rational function of tooth counts in lowest terms, with its value at the declared counts.
+    """Rational function of tooth counts in lowest terms, and its value at the declared counts.
 
     See Also
     --------
@@ -171,8 +170,8 @@ class ClosedForm(Result):
     counts: Mapping[str, int] = field(repr=False)
     """Declared tooth counts by wheel, at least for all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
-    """Candidates for factors, which are tried first: each is a list of wheels, and terms whose exponents refer to these
-    wheels.
+    """Candidates for factors, which are tried first: each consists of a list of wheels, and of terms whose exponents
+    refer to these wheels.
     """
 
     def __str__(self) -> str:
@@ -200,8 +199,8 @@ class ClosedForm(Result):
         return self._format(_LATEX)
 
     def sympy(self) -> Expr:
-        """Return a SymPy expression: factored numerator divided by factored denominator; symbols are named `z_` plus
-        the wheel.
+        """Return the formula as a SymPy expression, the factored numerator divided by the factored denominator. Symbols
+        are named `z_` plus the name of the wheel.
 
         Raises
         ------
@@ -227,7 +226,7 @@ class ClosedForm(Result):
 
     @property
     def inverse(self) -> ClosedForm:
-        """Reciprocal of the formula; its denominator is 0 where the formula is 0."""
+        """Reciprocal of the formula, whose denominator is 0 if the formula is 0."""
         width, wheels = len(self.formula.wheels), self.formula.wheels
         top, bottom = (Laurent.of(terms, width) for terms in (self.formula.denominator, self.formula.numerator))
         return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)
@@ -239,7 +238,7 @@ class ClosedForm(Result):
         Parameters
         ----------
         wheel : str
-            Name of a wheel; the elasticity is 0 for a wheel that is not in the formula.
+            Name of a wheel. The elasticity is 0 if the wheel is not in the formula.
         """
         width, wheels = len(self.formula.wheels), self.formula.wheels
         top, bottom = (Laurent.of(terms, width) for terms in (self.formula.numerator, self.formula.denominator))
@@ -256,16 +255,16 @@ class ClosedForm(Result):
 
     @property
     def poles(self) -> tuple[str, ...]:
-        """Conditions for a zero denominator, as equations between products of tooth counts; empty if the denominator
-        cannot be 0.
+        """Conditions under which the denominator is 0, as equations between products of tooth counts; empty if the
+        denominator cannot be 0.
         """
         sums = self._factored(self.formula.denominator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
     @property
     def zeros(self) -> tuple[str, ...]:
-        """Conditions for a zero numerator, as equations between products of tooth counts; empty if the numerator
-        cannot be 0.
+        """Conditions under which the numerator is 0, as equations between products of tooth counts; empty if the
+        numerator cannot be 0.
         """
         sums = self._factored(self.formula.numerator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
@@ -294,8 +293,8 @@ class ClosedForm(Result):
         return sign + (above if below == "1" else style.over(above, below))
 
     def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
-        """Return a short sum divided by one of its terms as 1 plus quotients, such as 1 + z_r/z_s; "" for other
-        formulas.
+        """Return a quotient with a short sum as numerator and one of its terms as denominator in the form 1 + z_r/z_s;
+        "" for other formulas.
         """
         # only a short sum over a monomial that is one of its terms
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
@@ -346,7 +345,7 @@ def _has_both_signs(terms: Sequence[Term]) -> bool:
 
 
 def _equation(terms: Sequence[Term], wheels: Sequence[str]) -> str:
-    """Return the equation p = 0 as text: sum of positive terms = sum of negative terms."""
+    """Return the equation p = 0 of a polynomial p as text: sum of positive terms = sum of negated negative terms."""
     added = [term for term in terms if term.coefficient > 0]
     taken = [Term(-term.coefficient, term.exponents) for term in terms if term.coefficient < 0]
     return f"{_sum(added, wheels, _TEXT)} = {_sum(taken, wheels, _TEXT)}"

@@ -1,7 +1,8 @@
 """Laurent polynomials in tooth counts (sums of monomials with integer exponents of either sign), and their divisors.
 
-Tooth counts are positive, so every monomial is a unit: division by it is exact, and it never vanishes. Common divisors
-are computed from pseudo-remainders in one variable after another. Formulas of trains are short once wheels are grouped.
+Tooth counts are positive, so every monomial is a unit: it never vanishes, and division by it is exact. Common divisors
+are computed from pseudo-remainders in one variable after another. Formulas of trains become short if wheels are
+grouped.
 """
 
 from __future__ import annotations
@@ -18,15 +19,11 @@ from geartrain.kinematics.formulas import laurent
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one step, a computation of some seconds; longer polynomials are of no
-practical use.
-"""
+"""Maximum number of products of terms in one step, which takes seconds; longer polynomials are of no practical use."""
 
 
 class Term(NamedTuple):
-    """Integer coefficient times a product of powers. Exponents are in the order of the wheels, or of the monomial
-    groups.
-    """
+    """Integer coefficient times a product of powers; exponents are in the order of the wheels or their groups."""
 
     coefficient: int
     exponents: Exponents
@@ -38,9 +35,7 @@ class TooLongError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Laurent:
-    """Laurent polynomial: rational coefficients times monomials in `width` variables. Equal polynomials compare
-    equal.
-    """
+    """Laurent polynomial in `width` variables with rational coefficients. Equal polynomials compare equal."""
 
     width: int
     terms: Mapping[Exponents, Fraction]
@@ -48,7 +43,7 @@ class Laurent:
 
     @classmethod
     def constant(cls, value: Fraction | int, width: int) -> Laurent:
-        """Return a constant as a polynomial in `width` variables."""
+        """Return a constant as a Laurent polynomial in `width` variables."""
         return cls(width, {(0,) * width: Fraction(value)} if value else {})
 
     @classmethod
@@ -58,7 +53,7 @@ class Laurent:
 
     @classmethod
     def of(cls, terms: Iterable[Term], width: int) -> Laurent:
-        """Return the polynomial that is the sum of the given terms; equal exponents may be repeated."""
+        """Return the polynomial that is the sum of the given terms; several terms may have the same exponents."""
         total: dict[Exponents, Fraction] = {}
         for coefficient, exponents in terms:
             total[exponents] = total.get(exponents, Fraction(0)) + coefficient
@@ -100,7 +95,7 @@ class Laurent:
 
     @property
     def is_definite(self) -> bool:
-        """True if all coefficients have the same sign, so the polynomial cannot vanish for positive tooth counts."""
+        """True if all coefficients have the same sign; the polynomial cannot vanish for positive tooth counts."""
         return len({value > 0 for value in self.terms.values()}) == 1
 
     def inverse(self) -> Laurent:
@@ -109,7 +104,7 @@ class Laurent:
         return Laurent(self.width, {tuple(-power for power in exponents): 1 / value})
 
     def modulo(self, point: Sequence[int], prime: int) -> int:
-        """Return the value at `point` modulo a prime; all elements of `point` are non-zero residues."""
+        """Return the value at `point` modulo a prime; the elements of `point` are residues other than 0."""
         total = 0
         for exponents, value in self.terms.items():
             product = value.numerator * pow(value.denominator, -1, prime)
@@ -120,8 +115,8 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the minimum exponent of every variable: the exponents of the largest monomial that divides all
-        terms.
+        """Return the minimum exponent of every variable, which are the exponents of the largest monomial that divides
+        all terms.
         """
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
@@ -136,29 +131,29 @@ class Laurent:
         return Laurent(self.width, {exponents: value * factor for exponents, value in self.terms.items()})
 
     def content(self, *others: Laurent) -> Fraction:
-        """Return the content: division by this positive rational makes all coefficients, also in `others`, coprime
-        integers.
+        """Return the content: the positive rational number by which all coefficients, also those of `others`, are
+        divided to become coprime integers.
         """
         values = [value for each in (self, *others) for value in each.terms.values()]
         return Fraction(math.gcd(*(v.numerator for v in values)), math.lcm(*(v.denominator for v in values)))
 
     def primitive(self) -> Laurent:
-        """Return the primitive part: a multiple by a unit whose minimum exponents are 0 and whose coefficients are
-        coprime integers.
+        """Return the primitive part: the product with a unit for which the minimum exponents are 0 and the coefficients
+        are coprime integers.
         """
         if not self.terms:
             return self
         return self.shifted(tuple(-power for power in self.lowest())).scaled(1 / self.content())
 
     def sorted_terms(self) -> tuple[Term, ...]:
-        """Return the terms of a polynomial with integer coefficients, sorted by falling exponents."""
+        """Return the terms of a polynomial with integer coefficients, sorted by descending exponents."""
         return tuple(Term(int(self.terms[exponents]), exponents) for exponents in sorted(self.terms, reverse=True))
 
 
 def _sum(
     total: dict[Exponents, Fraction], terms: Iterable[tuple[Exponents, Fraction]], factor: Fraction | int
 ) -> dict[Exponents, Fraction]:
-    """Add factor * terms to `total` in place, and remove terms that cancel."""
+    """Add `factor` times the terms to `total` in place and return it; terms that cancel are removed."""
     for exponents, value in terms:
         known = total.get(exponents)
         new = factor * value if known is None else known + factor * value
@@ -170,15 +165,15 @@ def _sum(
 
 
 def product(factors: Iterable[Laurent], width: int) -> Laurent:
-    """Return the product of polynomials in `width` variables; 1 for an empty sequence."""
+    """Return the product of polynomials in `width` variables; the product of none is 1."""
     return reduce(Laurent.__mul__, factors, Laurent.constant(1, width))
 
 
 def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
-    """Return the n + 1 determinants of n rows and n + 1 columns, each with one column omitted.
+    """Return the n + 1 determinants that are obtained from n rows with n + 1 columns by omitting one column at a time.
 
-    Dynamic programming over rows with one partial sum for each set of used columns (a bit mask). It needs no division,
-    and sparse rows reach few of the 2^n sets. Raises `TooLongError` beyond `MOST_PRODUCTS`.
+    Dynamic programming over rows with one partial sum for each set of used columns (a bit mask). No division is
+    required, and sparse rows reach few of the 2^n sets. Raises `TooLongError` if `MOST_PRODUCTS` is exceeded.
     """
     partial = {0: Laurent.constant(1, width)}
     work = 0
@@ -230,7 +225,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime.
 
-    Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
+    It is found by Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:
@@ -247,8 +242,8 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
 
 
 def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Apply Euclid's algorithm in the variable `at`; the contents, polynomials in the other variables, are handled
-    separately.
+    """Apply Euclid's algorithm in the variable `at` and return the greatest common divisor. The contents, which are
+    polynomials in the other variables, are handled separately.
     """
     content_p, content_q = _content(p, at), _content(q, at)
     content = common_divisor(content_p, content_q)
@@ -266,7 +261,7 @@ def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
 
 
 def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Return the pseudo-remainder of p divided by q, as polynomials in the variable `at`."""
+    """Return the pseudo-remainder of p divided by q, both regarded as polynomials in the variable `at`."""
     degree = _degree(q, at)
     lead = _coefficient(q, at, degree)
     while p and _degree(p, at) >= degree:
@@ -277,7 +272,7 @@ def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
 
 
 def _content(p: Laurent, at: int) -> Laurent:
-    """Return the content of p: the common divisor of its coefficients as a polynomial in the variable `at`."""
+    """Return the content of p as a polynomial in the variable `at`: the common divisor of its coefficients."""
     found = Laurent.constant(0, p.width)
     for power in {exponents[at] for exponents in p.terms}:
         found = common_divisor(found, _coefficient(p, at, power))

@@ -1,6 +1,6 @@
 """Outputs of a declared train as exact rational functions of variable tooth counts.
 
-Relative to one carrier, the speeds of links that mesh are monomial multiples of one unknown. The equations that couple
+Relative to one carrier, the speeds of connected wheels are monomial multiples of one unknown. The equations that couple
 these components, and the equations of brakes, locks and inputs, are rows of Laurent polynomials. They are eliminated by
 Markowitz pivoting on monomials, and the remaining core is solved by Cramer's rule.
 """
@@ -27,8 +27,8 @@ from geartrain.train import StateCase, Teeth, Train, Wheel
 from geartrain.train.fields import MOST_TEETH
 
 Row = dict[int, Laurent]
-"""Linear form as a mapping from column to coefficient. Columns >= 0 are unknowns; column -1 is the constant term from
-prescribed speeds.
+"""Linear form, as a mapping from columns to coefficients. Columns >= 0 are unknowns; column -1 is the constant term,
+which comes from prescribed speeds.
 """
 
 GIVEN = -1  # column of prescribed speeds; unknowns have columns from 0
@@ -36,7 +36,7 @@ _Residues = dict[int, int]
 
 
 class SymbolicValue(NamedTuple):
-    """Value of a linear form as a rational function of tooth counts, not reduced to lowest terms."""
+    """Value of a linear form as a rational function of tooth counts, not necessarily in lowest terms."""
 
     numerator: Laurent
     denominator: Laurent
@@ -49,15 +49,15 @@ class SymbolicSolution:
     width: int
     point: Sequence[int]
     pivots: Sequence[tuple[int, Row]]
-    """Pairs (column, rest), which mean: unknown = -rest. `rest` contains no column of an earlier pair."""
+    """Pairs (column, rest): the unknown of the column is -rest. `rest` contains no column of an earlier pair."""
     values: Mapping[int, Laurent]
     """Numerators of the unknowns of the core, by column; undetermined unknowns are set to 0."""
     determinant: Laurent
     """Determinant of the core, the denominator of `values`."""
     span: Mapping[int, _Residues]
-    """Rows of the core at a random point, in echelon form, by leading column."""
+    """Rows of the core at a random point, reduced to echelon form, by leading column."""
     conditions: Sequence[tuple[int, Laurent]]
-    """Pairs of a row's index and the function that remains after elimination; it must be 0 for a consistent system."""
+    """Pairs of a row index and the function left by elimination, which is 0 if the system is consistent."""
 
     def value(self, form: Mapping[int, Laurent]) -> SymbolicValue | None:
         """Return the value of a linear form of the unknowns; None if the system does not determine it."""
@@ -74,10 +74,11 @@ class SymbolicSolution:
 
 
 def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None = None) -> SymbolicSolution:
-    """Solve the linear system in which every row must be 0. A random point decides which rows determine the unknowns.
+    """Solve the linear system in which every row must be 0. The rows that determine the unknowns are selected at a
+    random point.
 
     preferred   intended tooth counts. If there are more coupled rows than unknowns, rows that are independent at these
-                counts are used; by default rows with prescribed values come first
+                counts are selected; by default, rows with prescribed values are preferred
 
     Raises `TooLongError` if too many unknowns depend on each other for their functions to be useful.
     """
@@ -102,7 +103,7 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
 
 
 class _LaurentRing:
-    """Ring of Laurent polynomials for `eliminate_units`; its units are the monomials."""
+    """Ring of Laurent polynomials, whose units are the monomials, for `eliminate_units`."""
 
     modulus = 0
 
@@ -116,7 +117,7 @@ class _LaurentRing:
 def _eliminate_monomials(
     rows: Sequence[Row],
 ) -> tuple[list[tuple[int, Row]], list[tuple[int, Row]], list[tuple[int, Laurent]]]:
-    """Eliminate unknowns with monomials as pivots; return the pivots, the remaining core, and the consistency
+    """Eliminate unknowns that have monomials as pivots; return the pivots, the remaining core, and the consistency
     conditions.
     """
     pivots, left = eliminate_units(rows, _LaurentRing())
@@ -127,7 +128,7 @@ def _eliminate_monomials(
 
 
 def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple[list[int], dict[int, _Residues]]:
-    """Return the indices of the first rows that are independent at a point modulo the prime, and their echelon form."""
+    """Return the indices of the first independent rows at a point modulo the prime, and their echelon form."""
     chosen: list[int] = []
     span: dict[int, _Residues] = {}
     for at, (_, row) in enumerate(rows):
@@ -142,7 +143,7 @@ def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple
 
 
 def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Residues:
-    """Return a row reduced by the rows of an echelon form, without zeros."""
+    """Return a row after reduction by the rows of an echelon form, without zero entries."""
     rest = {column: value for column, value in row.items() if value}
     while True:
         lead = next((column for column in sorted(rest) if column in span), None)
@@ -174,7 +175,7 @@ def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tupl
 
 
 def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determinant: Laurent) -> SymbolicValue:
-    """Evaluate a linear form in the unknowns of the core, as a fraction.
+    """Return the value of a linear form in the unknowns of the core, as a fraction of polynomials.
 
     values        numerators of the unknowns
     determinant   common denominator of the unknowns
@@ -193,7 +194,7 @@ def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determ
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """Circuit that closes a loop, with the product of the loop's speed ratios and the component of the loop."""
+    """Circuit that closes a loop, with the ratio product of the loop and the component that contains it."""
 
     circuit: int
     product: Laurent
@@ -201,13 +202,13 @@ class Chord:
 
 
 class SymbolicEquations:
-    """Equations of a train in one state, as rows that must be 0, with the unknowns of `reduce_components`.
+    """Equations of a train in one state, as rows that must be 0. The unknowns are those of `reduce_components`.
 
-    circuits   fundamental circuits, with different tooth counts for all wheels in `free`
+    circuits   fundamental circuits, in which all wheels in `free` have different tooth counts
     free       wheel -> index of its variable
 
     rows, origin   the equations, and the cause of each of them
-    chords         circuits whose loops have the ratio product 1 for some values of the variable counts only
+    chords         circuits whose loops have the ratio product 1 only for some values of the variable counts
     """
 
     def __init__(
@@ -235,9 +236,7 @@ class SymbolicEquations:
         self.origin = [words for _, words in stated]
 
     def relative(self, link: str, base: str) -> Row:
-        """Return the speed of a link relative to another as a linear form; it is measured about the axis of the first
-        link.
-        """
+        """Return the speed of `link` relative to `base` as a linear form; it is measured about the axis of `link`."""
         row = self._form(self.parts.index[link])
         add_into(row, self._form(self.parts.index[base]), self._constant(-1))
         sign = self._constant(self._signs.get(link, 1))
@@ -264,16 +263,14 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of link `to` of a circuit divided by the speed of its other link, both relative to their
-        carrier.
-        """
+        """Return the speed of link `to` divided by that of the circuit's other link, both relative to the carrier."""
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())
 
     def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
-        """Return coefficient a (side 0) or b (side 1) of a circuit; for a variable count, its variable with the
-        sign of the coefficient.
+        """Return coefficient a (side 0) or b (side 1) of a circuit. A variable tooth count is represented by its
+        variable, with the sign of the coefficient.
         """
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.by_teeth else None
@@ -289,7 +286,7 @@ class SymbolicEquations:
         return Chord(at, around, parts.node_group[i])
 
     def _form(self, link: int) -> Row:
-        """Return the speed of a link as a linear form of the unknowns, before the sign of its axis is applied."""
+        """Return the speed of a link as a linear form in the unknowns, before the sign of its axis is applied."""
         reduced = self._reduced
         if link == self.parts.frame:
             return {}
@@ -297,7 +294,7 @@ class SymbolicEquations:
         return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
     def _relative_form(self, node: int) -> Row:
-        """Return the speed of a node's link as a linear form: speed of its carrier plus relative speed."""
+        """Return the speed of a node's link as a linear form: the speed of its carrier plus the relative speed."""
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
@@ -311,7 +308,7 @@ class SymbolicEquations:
             if kind == "share":
                 row = self._form(subject)
                 add_into(row, self._relative_form(node), self._constant(-1))
-                yield row, f"'{parts.links[subject]}' is driven in more than one way"
+                yield row, f"'{parts.links[subject]}' is driven by several causes"
             else:  # a component that is locked to its carrier for all counts
                 yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' locks its wheels"
 
@@ -343,29 +340,29 @@ Counts = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Formulas(Mapping[str, Formula], Result):
-    """Outputs of a train in one state as functions of its variable tooth counts. The object is also a mapping with
-    the items of `outputs`.
+    """Outputs of a train in one state as functions of its variable tooth counts. The object is also a mapping with the
+    items of `outputs`.
 
-    A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with variable counts are assumed to
-    turn. A train that moves although such a loop is locked therefore has no formulas. Loops without variable counts may
-    turn or be locked.
+    A loop can turn if its ratio product is 1; otherwise it locks its wheels. Loops with variable counts are assumed to
+    turn, so a train that moves although such a loop is locked has no formulas. Loops without variable counts may turn
+    or be locked.
     """
 
     outputs: Mapping[str, Formula]
-    """Exact speed of each output [unit of the train]; with `relative_to` a difference of speeds."""
+    """Exact speed of each output [unit of the train]; a difference of speeds if `relative_to` is declared."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that are driven or fixed by
-    several causes.
+    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that several parts drive or
+    fix.
 
-    The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where
-    all conditions are satisfied.
+    The `label` names the cause. If a function is a constant other than 0, the train never turns. The outputs are valid
+    where all conditions are satisfied.
     """
     exclusions: tuple[Formula, ...]
-    """Functions that must not be 0. If one is 0, the train is locked or free, although the outputs have values because
-    the factor cancels in them.
+    """Functions that must not be 0. If one of them is 0, the train is locked or free, although the outputs may still
+    have values because the factor cancels.
     """
     undetermined: tuple[str, ...]
-    """Names of outputs that the inputs do not determine for any tooth counts."""
+    """Names of outputs that the inputs do not determine, whatever the tooth counts are."""
 
     def __getitem__(self, name: str) -> Formula:
         return self.outputs[name]
@@ -377,7 +374,7 @@ class Formulas(Mapping[str, Formula], Result):
         return len(self.outputs)
 
     def turns(self, counts: Mapping[str, int]) -> bool:
-        """Return True if every condition is 0 and no exclusion is 0 at these tooth counts."""
+        """Return True if every condition is 0 and every exclusion differs from 0 at the given tooth counts."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 
@@ -385,14 +382,14 @@ class Formulas(Mapping[str, Formula], Result):
 def find_formulas(
     train: Train, state: str | None, free: Mapping[str, Counts], inputs: Mapping[str, int] | None = None
 ) -> Formulas:
-    """Return every output of one state as a function of the variable tooth counts.
+    """Return the speed of every output in one state as a function of the variable tooth counts.
 
     state    a declared state, or None for a train without states
     free     wheel -> allowed tooth counts; all other wheels keep their declared count
     inputs   speeds of the input links, instead of the declared speeds
 
     Raises `QuestionError` for wheels or states that the train does not have, and for trains whose coupled part is too
-    large; `DeclarationError` if a wheel that is not in `free` has no count.
+    large, and `DeclarationError` if a wheel that is not in `free` has no count.
     """
     _check(train, state, free)
     tree = find_tree(train)
@@ -415,8 +412,8 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
 
     counts   wheel -> tooth count, from 1 to 10^12
 
-    The cost is linear in the number of links. Raises `QuestionError` for wheels that the train does not have, and for
-    invalid tooth counts.
+    The computing time is linear in the number of links. Raises `QuestionError` for wheels that the train does not have,
+    and for invalid tooth counts.
     """
     _check_wheels(train, counts)
     _check_counts(train, counts)
@@ -431,7 +428,7 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
 
 
 def _with_value(wheel: Wheel, count: int) -> int | Teeth:
-    """Return the tooth count together with the wheel's declared range or choices if these allow it, else only the
+    """Return the tooth count together with the declared range or choices of the wheel if they include it, else only the
     count.
     """
     teeth = wheel.teeth
@@ -445,9 +442,7 @@ def _with_value(wheel: Wheel, count: int) -> int | Teeth:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations that affect the outputs; variable counts are represented by large, different random
-    counts.
-    """
+    """Return the equations that affect the outputs; large random numbers represent the variable counts."""
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
@@ -486,7 +481,7 @@ def _collect_formulas(
 
 
 def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """Yield the condition of each loop with variable counts: ratio product 1, or wheels of the loop at rest."""
+    """Yield the condition of each loop with variable counts: its ratio product is 1, or its wheels are at rest."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
@@ -502,7 +497,7 @@ def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -
 
 
 def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
-    """Return functions whose zeros are the conditions, each divided by one of its monomials, without duplicates."""
+    """Return functions that are 0 if the conditions are satisfied, without duplicates and monomial factors."""
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
@@ -514,7 +509,7 @@ def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str
 
 
 def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
-    """Return the declared counts of the wheels in `free`, or None if one is not declared."""
+    """Return the declared tooth counts of the wheels; None if one of them is not declared."""
     counts = [train.wheels[name][1].count for name in wheels]
     return [count for count in counts if count is not None] if all(counts) else None
 

@@ -17,17 +17,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MonomialGrouping:
-    """Polynomials rewritten with monomials of groups of variables as new variables, as few as possible, up to a common
-    monomial factor.
+    """Polynomials rewritten with monomials of groups of variables as new variables, up to a common monomial factor. The
+    number of groups is minimal.
     """
 
     members: tuple[Mapping[int, int], ...]
-    """Exponents of the variables in the monomial of each group, by variable index."""
+    """Exponents of the variables in the monomial of each group, by index of the variable."""
     rewritten: tuple[Laurent, ...]
-    """Polynomials with the monomials of the groups as variables; exponents are not negative."""
+    """Polynomials in the monomials of the groups; their exponents are not negative."""
 
     def back(self, p: Laurent, width: int) -> Laurent:
-        """Express a polynomial in the monomials of the groups as a polynomial in `width` original variables."""
+        """Return a polynomial in the monomials of the groups as a polynomial in the `width` original variables."""
 
         def spread(exponents: Exponents) -> Exponents:
             full = [0] * width
@@ -43,10 +43,10 @@ Member = TypeVar("Member")
 
 
 def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[Exponents, dict[Member, int]]:
-    """Group keys whose integer vectors are multiples of one vector; return this vector, and the factor of each key.
+    """Group keys whose integer vectors are multiples of one vector. Return for each such vector the factor of each key.
 
-    The vectors are primitive (their entries are coprime), and their first non-zero entry is positive. Keys with zero
-    vectors are omitted.
+    The vectors of the groups are primitive (their entries are coprime), and their first non-zero entry is positive.
+    Keys with zero vectors are omitted.
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
@@ -59,8 +59,8 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
 
 
 def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
-    """Find the coarsest groups of variables such that a quotient of the polynomials depends on each group through one
-    monomial.
+    """Find the coarsest groups of variables for which quotients of the polynomials depend on each group only through
+    one monomial.
 
     Division of all polynomials by one monomial changes no quotient, so only differences of exponents matter. The
     variables of a group occur in one monomial if and only if the vectors of their exponent differences, over all terms,
@@ -86,7 +86,7 @@ def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
 
 
 def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
-    """Return the integer value of a polynomial with non-negative exponents at an integer point."""
+    """Return the value of a polynomial with integer coefficients and non-negative exponents at an integer point."""
     total = 0
     for coefficient, exponents in terms:
         for count, power in zip(point, exponents, strict=True):
@@ -99,7 +99,7 @@ def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
 def substituted(
     terms: Iterable[Term], wheels: Sequence[str], left: Sequence[str], counts: Mapping[str, int]
 ) -> Laurent:
-    """Return a polynomial in the wheels `left` after substitution of tooth counts for the other wheels."""
+    """Return a polynomial in the wheels `left`, with the tooth counts of the other wheels substituted."""
     rest = [
         Term(
             whole(
@@ -131,32 +131,32 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
 class Formula:
     """Rational function of tooth counts in lowest terms: its numerator and denominator are coprime.
 
-    If the denominator has no terms, it is 0 and the function has no value anywhere; `fixed` may return such a function.
+    If the denominator has no terms, it is 0 and the function is undefined; `fixed` may return such a function.
     """
 
     label: str
-    """Name of the output whose speed is given by the function, or cause of a condition."""
+    """Name of the output whose speed the function gives, or cause of a condition."""
     wheels: tuple[str, ...]
     """Wheels on whose tooth counts the function depends, in the order of the declaration."""
     numerator: tuple[Term, ...]
-    """Terms of the numerator, with non-negative exponents in the order of `wheels`. Coefficients are integers, coprime
-    with the coefficients of the denominator.
+    """Terms of the numerator, with non-negative exponents in the order of `wheels`. The coefficients are integers;
+    those of numerator and denominator together are coprime.
     """
     denominator: tuple[Term, ...]
     """Terms of the denominator in the form of `numerator`; the first coefficient is positive."""
 
     @property
     def constant(self) -> Fraction | None:
-        """Value of a function that does not depend on any wheel; None if it depends on wheels or has no value."""
+        """Value of a function that does not depend on any wheel; None if it depends on a wheel or is undefined."""
         return None if self.wheels else self.value({})
 
     @property
     def has_poles(self) -> bool:
-        """True if the denominator has negative terms or is 0; otherwise it cannot vanish for positive tooth counts."""
+        """True if the denominator has a negative term or is 0; otherwise it cannot vanish for positive tooth counts."""
         return any(term.coefficient < 0 for term in self.denominator) or not self.denominator
 
     def value(self, counts: Mapping[str, int]) -> Fraction | None:
-        """Return the exact value of the function; None if the denominator is 0, so that the train is locked or free.
+        """Return the exact value; None if the denominator is 0, which means that the train is locked or free.
 
         counts   wheel -> tooth count, at least for all `wheels`
         """
@@ -165,8 +165,8 @@ class Formula:
         return Fraction(whole(self.numerator, point), bottom) if bottom else None
 
     def values(self, columns: Mapping[str, Ints]) -> Floats:
-        """Return the values of the function for many combinations of tooth counts in float64; NaN or infinite at poles.
-        `accuracy` bounds their error.
+        """Return the values of the function for many combinations of tooth counts in float64; they are NaN or infinite
+        at poles. `accuracy` returns a bound on their error.
 
         columns   wheel -> array of tooth counts; the arrays are broadcast
         """
@@ -176,7 +176,7 @@ class Formula:
         """Return a bound on the relative error of `values`, including cancellation: |value - exact| <= accuracy
         |exact|.
 
-        The bound is infinite if cancellation leaves no digit, at poles, and beyond the range of float64.
+        The bound is infinite if cancellation leaves no correct digit, at poles, and beyond the range of float64.
         """
         import numpy as np
 
@@ -187,8 +187,8 @@ class Formula:
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """Return the function of the remaining wheels after tooth counts are substituted; counts of wheels that do not
-        occur in the function are ignored.
+        """Return the function of the remaining wheels that results if the given tooth counts are substituted; counts of
+        wheels that do not occur in the function are ignored.
         """
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
@@ -233,7 +233,7 @@ class Formula:
 def make_formula(
     label: str, wheels: Sequence[str], numerator: Laurent, denominator: Laurent
 ) -> tuple[Formula, Laurent]:
-    """Return a rational function in lowest terms, and the cancelled common divisor (1 if only units were cancelled).
+    """Return a rational function in lowest terms, and its cancelled common divisor (1 if only units were cancelled).
 
     wheels   names of the variables of both polynomials, by index
     """
@@ -248,7 +248,7 @@ def make_formula(
 
 
 def _listed(terms: Sequence[Term]) -> list[list[Any]]:
-    """Return terms as lists for JSON; coefficients with too many digits for a JSON number are strings."""
+    """Return terms as lists for JSON. Coefficients with too many digits for a JSON number are converted to strings."""
     return [[c if is_short(c, 600) else fraction_text(c), list(exponents)] for c, exponents in terms]
 
 

@@ -22,19 +22,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InputShare(Result):
-    """Contribution of one input to the speed of an output: ratio times speed of the input."""
+    """Contribution of one input to the speed of an output: the ratio times the speed of the input."""
 
     input: str
-    """Name of the driven link."""
+    """Name of the input link."""
     speed: Fraction
     """Declared speed of the input [unit of the train]."""
     ratio: ClosedForm
-    """Speed of the output divided by speed of the input, with all other inputs at rest."""
+    """Speed of the output divided by the speed of the input while all other inputs are at rest."""
 
 
 @dataclass(frozen=True)
 class OutputFormula(Result):
-    """Speed of an output as a sum over all inputs: ratio times speed of the input.
+    """Speed of an output as a sum over all inputs of ratio times speed of the input.
 
     See Also
     --------
@@ -50,9 +50,9 @@ class OutputFormula(Result):
     shares: tuple[InputShare, ...]
     """Contribution of each input on which the output depends."""
     conditions: tuple[str, ...] = ()
-    """Equations between tooth counts that must be satisfied so that the loops of the train can turn."""
+    """Equations between tooth counts that must be satisfied for the loops of the train to be able to turn."""
     poles: tuple[str, ...] = ()
-    """Equations between tooth counts at which the output is locked or free."""
+    """Equations between tooth counts under which the output is locked or free."""
 
     def _summary(self) -> str:
         names = ", ".join(share.input for share in self.shares)
@@ -70,21 +70,19 @@ class OutputFormula(Result):
 
     @property
     def ratio(self) -> ClosedForm:
-        """Speed of the output divided by speed of the input, for an output that depends on exactly one input.
+        """Speed of the output divided by the speed of the input, for an output that depends on exactly one input.
 
         Raises
         ------
         ValueError
-            If there are several inputs, or the output does not depend on any.
+            If the output depends on several inputs, or on none.
         """
         (share,) = self.shares
         return share.ratio
 
     @property
     def value(self) -> Fraction | None:
-        """Speed at the declared tooth counts and input speeds [unit of the train]; None if it is not determined
-        there.
-        """
+        """Speed at the declared tooth counts and input speeds [unit of the train]; None if it is not determined."""
         values = [share.ratio.value for share in self.shares]
         if any(value is None for value in values):
             return None
@@ -101,7 +99,7 @@ class OutputFormula(Result):
         return f"{_speed_symbol(self.output)} = {self._sum('latex', _speed_symbol)}"
 
     def sympy(self) -> Expr:
-        """Return the speed as a SymPy expression with symbols `z_...` for counts and `w_...` for speeds of inputs.
+        """Return the speed as a SymPy expression with symbols `z_...` for counts and `w_...` for input speeds.
 
         Raises
         ------
@@ -136,10 +134,10 @@ def _times(ratio: str, speed: str, style: str) -> str:
 
 
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    """Yield the formulas of all outputs of a state, or of the named `outputs`, in the order of the declaration.
+    """Yield the formulas of all outputs of a state, or only of the given `outputs`, in the order of declaration.
 
-    Undetermined outputs are omitted. All wheels with a tooth count are variables. `find_formulas` describes the
-    treatment of other wheels and of couplings, and raises the errors.
+    Undetermined outputs are omitted. The tooth counts of all wheels are variables, unless they are not declared.
+    `find_formulas` raises the errors.
     """
     case = train.case(state)
     for name in outputs:

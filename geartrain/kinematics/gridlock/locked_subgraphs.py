@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 from math import ceil, comb
 from random import Random
@@ -11,16 +13,6 @@ from typing import Any, NamedTuple
 
 from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.components import Components, SolvedPart, relevant_circuits
-from geartrain.kinematics.gridlock.gain_graph import (
-    Gain,
-    GainGraph,
-    GainLoop,
-    inconsistent_loops,
-    is_balanced,
-    shortest_loop,
-    walk_gain_graph,
-)
-from geartrain.kinematics.gridlock.gain_graph import GainLoop as Steps
 from geartrain.kinematics.gridlock.removal import (
     Gridlock,
     LockedSubgraph,
@@ -31,18 +23,16 @@ from geartrain.kinematics.gridlock.removal import (
 )
 from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.graphs import DisjointSets
+from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 
 MOST_COUPLED = 2000
-"""Maximum number of meshes up to which a removal over several carriers is searched for, because each trial solves the
-train.
-"""
+"""Maximum number of meshes for which a removal over several carriers is searched; each trial solves the train."""
 _ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
 _TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
-    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each mesh."""
+    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each mesh in the graph."""
 
     carrier: str
     links: list[str]
@@ -52,9 +42,9 @@ class LockedNetwork(NamedTuple):
 
 @collector_paused()
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
-    """Find the parts of a train that are locked by its meshes, ignoring brakes, locks, inputs and followers.
+    """Find the parts of a train that are locked by its meshes. Brakes, locks, inputs and followers are ignored.
 
-    Followers are ignored because they only oscillate; their mean speed of 0 is not caused by meshes.
+    Followers only oscillate, and their mean speed of 0 is not caused by meshes.
     """
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
@@ -69,8 +59,8 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graph of each component with an inconsistent loop; most gains are 1 in the chosen units of
-    speed.
+    """Return the gain graph of each component with an inconsistent loop. The units of speed are chosen so that most
+    gains are 1.
     """
     size = len(parts.links)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
@@ -135,7 +125,7 @@ def _locked_subgraph(parts: Components, jammed: LockedNetwork) -> LockedSubgraph
     )
 
 
-def _loop(parts: Components, jammed: LockedNetwork, steps: Steps) -> Loop:
+def _loop(parts: Components, jammed: LockedNetwork, steps: GainLoop) -> Loop:
     return Loop(
         jammed.carrier,
         tuple(jammed.links[node] for node, _ in steps),
@@ -150,9 +140,9 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links that meshes lock for any tooth counts, after removal of the meshes `gone`.
+    """Return the links that are locked whatever the tooth counts are, after the meshes `gone` are removed.
 
-    Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links
+    For special tooth counts, a link and all links that it drives can be at rest while the train moves. So only links
     that are also at rest for other ratios are returned.
     """
     less = _without(part, gone)
@@ -171,7 +161,7 @@ def _stationary_links(part: SolvedPart) -> tuple[str, ...]:
 
 
 def _with_random_ratios(part: SolvedPart) -> SolvedPart:
-    """Return the train with a random ratio for every link and carrier; the ratio products of loops are unchanged."""
+    """Return the train with random ratios for every link and carrier; ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
         # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma)
@@ -191,16 +181,16 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
 
 
 def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
-    """Return True if removal of the meshes `gone` makes every loop consistent and every link movable."""
+    """Return True if every loop is consistent and every link can move after the meshes `gone` are removed."""
     less = _without(part, gone)
     return not less.reduced.components.breaking and not _locked_links(part, gone)
 
 
 def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return meshes of several carriers whose removal frees the train; None if no set exists, or if there are too many
-    meshes to try.
+    """Return a set of meshes, of any carriers, whose removal frees the train; None if no such set exists, or if there
+    are too many meshes to try.
 
-    The set is a smallest set if there are few meshes, else a minimal set.
+    If there are few meshes, it is a smallest set; else every mesh in it is necessary, but a smaller set may exist.
     """
     toothed = _without(part, ())
     bound = {
@@ -226,10 +216,10 @@ def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> 
 
 
 def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
-    """Return a minimal set of meshes whose removal frees the train; meshes early in the sequence are preferred.
+    """Return a minimal set of meshes whose removal frees the train; the first meshes in `gears` are preferred.
 
-    Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
-    Its last mesh is necessary, and the search continues among the meshes before it.
+    Removing more meshes never locks a train, so the shortest sufficient prefix of the list is found by bisection. Its
+    last mesh is necessary, and the search continues among the meshes before it.
     """
     needed: list[str] = []
     left = list(gears)
@@ -270,20 +260,20 @@ _STARTS = 300  # nodes from which the shortest loop is searched; in larger netwo
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes whose removal frees a locked network, with the loops that prove a lower bound on the number of meshes."""
+    """Meshes whose removal frees a locked network, and the loops that prove a lower bound on their number."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
     """Proved lower bound on the number of meshes; a set with this number of meshes is a smallest set."""
     choices: list[int]
-    """Meshes of which the removal of any one is enough, including the mesh in `meshes`; empty if there are none."""
+    """Meshes of which any one is sufficient, including the mesh in `meshes`; empty if several are required."""
     example: GainLoop
-    """Short inconsistent loop, which shows a reader the cause of the lock."""
+    """Short inconsistent loop, which is reported as the cause of the lock."""
     proof: list[GainLoop]
-    """Loops that prove the lower bound; empty if only the method proves it."""
+    """Loops that prove the lower bound; empty if it follows only from the method."""
     sharing: int = 1
-    """Maximum number of loops of the proof to which one mesh belongs."""
+    """Maximum number of loops in `proof` to which a single mesh belongs."""
 
 
 def choose_removal(network: GainGraph) -> RemovalChoice:
@@ -326,16 +316,16 @@ def choose_removal(network: GainGraph) -> RemovalChoice:
 
 
 def _packed(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> list[GainLoop]:
-    """Return as many of the loops as possible such that each mesh belongs to at most `sharing` of them."""
+    """Return a largest subset of the loops in which each mesh belongs to at most `sharing` loops."""
     found = _solve(network, loops, -sharing).x
     return [] if found is None else [loop for loop, part in zip(loops, found, strict=True) if part > 0.5]
 
 
 def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
-    """Solve one of two dual integer programs with variables 0 or 1, whose matrix has a row for each loop.
+    """Solve one of two dual binary integer programs, whose matrix has a row for each loop.
 
-    sharing   1: the smallest set with a mesh of every loop. -s: the largest set of loops such that every mesh is in at
-              most s of them
+    sharing   1 to find the smallest set that contains a mesh of every loop; -s to find the largest set of loops in
+              which every mesh belongs to at most s loops
     """
     import numpy as np
     from scipy.optimize import Bounds, LinearConstraint, milp
@@ -351,8 +341,8 @@ def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
 
 
 def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
-    """Return a minimal set of meshes that frees a connected network, most of them from `gone`: the meshes that
-    contradict the speeds of a spanning tree with as few meshes of `gone` and as many firm meshes as possible.
+    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`. They are the
+    meshes that contradict the speeds of a spanning tree that avoids `gone` and prefers firm meshes.
     """
     tree: DisjointSets[int] = DisjointSets()
     out = set(gone)
@@ -363,3 +353,139 @@ def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
         elif mesh not in network.firm:
             out.add(mesh)
     return walk_gain_graph(network, out).breaking
+
+
+Gain = Fraction | int
+GainLoop = list[tuple[int, int]]
+"""Closed walk in the graph, as pairs of the node at which a step begins and the mesh of the step."""
+
+
+@dataclass(frozen=True)
+class GainGraph:
+    """Graph with links as nodes 0 to size - 1, and meshes with gains as edges, addressed by index."""
+
+    size: int
+    ends: Sequence[tuple[int, int]]
+    """Two nodes of each mesh; several meshes may connect the same two nodes."""
+    gains: Mapping[int, Gain]
+    """Gain of each mesh whose gain is not 1: speed of its second node divided by speed of its first."""
+    firm: frozenset[int] = frozenset()
+    """Indices of the couplings, which cannot be disengaged."""
+
+    @cached_property
+    def at(self) -> list[list[int]]:
+        """Indices of the meshes at each node."""
+        meshes: list[list[int]] = [[] for _ in range(self.size)]
+        for mesh, (first, second) in enumerate(self.ends):
+            meshes[first].append(mesh)
+            meshes[second].append(mesh)
+        return meshes
+
+    def gain(self, mesh: int, start: int) -> Gain:
+        """Return the gain of a mesh in the direction away from `start`."""
+        gain = self.gains.get(mesh, 1)
+        # integers 1 and -1 are faster than Fractions; never a float, because products are compared with 1 exactly
+        return gain if start == self.ends[mesh][0] or gain in (1, -1) else 1 / Fraction(gain)
+
+    def other(self, mesh: int, start: int) -> int:
+        """Return the node of a mesh that is not `start`."""
+        first, second = self.ends[mesh]
+        return first + second - start
+
+    def product(self, loop: GainLoop) -> Gain:
+        """Return the product of the gains around a loop."""
+        total: Gain = 1
+        for node, mesh in loop:
+            total = total * self.gain(mesh, node)
+        return total
+
+
+class GainWalk(NamedTuple):
+    """Result of a search: the speed of each node, consistent with a spanning forest, and the meshes (`breaking`) that
+    contradict these speeds.
+    """
+
+    speed: list[Gain]
+    breaking: list[int]
+
+
+def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWalk:
+    """Search all nodes breadth first, using only meshes outside `without`. Meshes in `without` may be listed in
+    `breaking` of the result.
+    """
+    gone = bytearray(len(network.ends))
+    for mesh in without:
+        gone[mesh] = 1
+    at, ends, gains = network.at, network.ends, network.gains
+    speeds: list[Gain] = [0] * network.size  # 0 means not reached
+    for root in range(network.size):
+        if speeds[root]:
+            continue
+        speeds[root] = 1
+        queue = [root]
+        for here in queue:
+            for mesh in at[here]:
+                there = network.other(mesh, here)
+                if not speeds[there] and not gone[mesh]:
+                    speeds[there] = speeds[here] * network.gain(mesh, here) if mesh in gains else speeds[here]
+                    queue.append(there)
+    # compared after the search, so that meshes of `without` are tested too
+    breaking = [mesh for mesh, (i, j) in enumerate(ends) if speeds[i] * gains.get(mesh, 1) != speeds[j]]
+    return GainWalk(speeds, breaking)
+
+
+def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
+    """Return True if every loop has the gain product 1 after the meshes in `without` are removed."""
+    return set(without).issuperset(walk_gain_graph(network, without).breaking)
+
+
+def inconsistent_loops(network: GainGraph, without: Collection[int] = ()) -> list[GainLoop]:
+    """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates.
+
+    A shortest inconsistent loop of the whole network is among them, because every inconsistent loop contains one of
+    these meshes.
+    """
+    breaking = [mesh for mesh in walk_gain_graph(network, without).breaking if mesh not in without]
+    starts = dict.fromkeys(network.ends[mesh][0] for mesh in breaking)
+    found = (_loop_through(network, without, start, 2 * network.size + 1) for start in starts)
+    return list({frozenset(mesh for _, mesh in loop): loop for loop in found if loop}.values())
+
+
+def shortest_loop(network: GainGraph, starts: Iterable[int]) -> GainLoop:
+    """Return a shortest inconsistent loop through one of the nodes `starts`; empty if none exists."""
+    best: GainLoop = []
+    for start in starts:
+        best = _loop_through(network, (), start, len(best) or 2 * network.size + 1) or best
+        if len(best) == 2:  # the shortest possible loop
+            break
+    return best
+
+
+def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop:
+    """Return an inconsistent loop with fewer than `below` meshes, found by breadth-first search from `start`; empty if
+    there is none.
+    """
+    speed: dict[int, Gain] = {start: 1}
+    came: dict[int, tuple[int, int]] = {}
+    depth = {start: 0}
+    best: tuple[int, int, int] | None = None
+    queue = [start]
+    for here in queue:
+        if 2 * depth[here] + 1 >= below:  # loops found from here on are not shorter than the best
+            break
+        for mesh in network.at[here]:
+            # compare meshes, not nodes, because two meshes between the same nodes form a loop
+            if mesh in without or (here in came and mesh == came[here][1]):
+                continue
+            there = network.other(mesh, here)
+            gained = speed[here] * network.gain(mesh, here)
+            if there not in speed:
+                speed[there], came[there], depth[there] = gained, (here, mesh), depth[here] + 1
+                queue.append(there)
+            elif speed[there] != gained and depth[here] + depth[there] + 1 < below:
+                best, below = (here, mesh, there), depth[here] + depth[there] + 1
+    if best is None:
+        return []
+    here, mesh, there = best
+    up, down = ways_to_common_ancestor(here, there, lambda node: came[node][0] if node in came else None)
+    return [*(came[node] for node in up[-2::-1]), (here, mesh), *((node, came[node][1]) for node in down[:-1])]

@@ -1,4 +1,4 @@
-"""Result of a gridlock analysis: inconsistent loops, and meshes to disengage."""
+"""Result of a gridlock analysis: inconsistent loops, and the meshes to disengage."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class RemovalBound(Result):
     loops: tuple[Loop, ...]
     """Inconsistent loops (ratio product other than 1) that prove the bound."""
     sharing: int
-    """Maximum number of loops to which one mesh belongs."""
+    """Maximum number of loops to which a single mesh belongs."""
 
     @property
     def at_least(self) -> int:
@@ -43,25 +43,25 @@ class RemovalBound(Result):
 
 @dataclass(frozen=True, slots=True)
 class MeshRemoval(Result):
-    """Meshes to remove so that all locked links can move. The set is minimal: each mesh in it is necessary."""
+    """Meshes to remove so that all locked links can move. Each mesh in the set is necessary."""
 
     KEYS = ("meshes", "method", "minimum", "at_least", "choices", "proofs")
 
     meshes: tuple[str, ...]
-    """Ids of the pairs whose meshes are to be removed."""
+    """Names of the pairs whose meshes are to be removed."""
     method: RemovalMethod
     """Method by which the set of meshes was found.
 
-    "one": a single mesh is enough for each part. "loops": the set is the smallest, because an equal number of
-    inconsistent loops share no mesh. "search": the set is the smallest, found by exhaustive search or branch and bound.
-    "greedy": the set is not proved to be the smallest.
+    "one": the removal of a single mesh is sufficient for each component. "loops": the set is the smallest, because an
+    equal number of inconsistent loops share no mesh. "search": the set is the smallest, found by exhaustive search or
+    branch and bound. "greedy": the set is not proved to be the smallest.
     """
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """Pairs of which the removal of any one is sufficient, including the pair in `meshes`; empty if there are none."""
+    """Pairs of which any one is sufficient, including the pair in `meshes`; empty if several are required."""
     proofs: tuple[RemovalBound, ...] = ()
-    """Loops that prove the lower bound; empty if only the method proves it."""
+    """Loops that prove the lower bound; empty if it follows only from the method."""
 
     def _summary(self) -> str:
         return str(self)
@@ -100,13 +100,13 @@ class LockedSubgraph(Result):
     """Component that is locked to its carrier by its meshes, and the meshes whose removal frees it."""
 
     carrier: str
-    """Carrier of the component; all links of the component turn with it."""
+    """Carrier of the component, with which all its links turn as one body."""
     loop: Loop
     """One inconsistent loop of the component (ratio product other than 1)."""
     links: tuple[str, ...]
     """Names of all links of the component."""
     meshes: int
-    """Number of gear pairs in the component; couplings, which cannot be disengaged, are not counted."""
+    """Number of gear pairs in the component. Couplings are not counted, because they cannot be disengaged."""
     by: Literal["sign", "ratio"]
     """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, else "ratio"."""
     release: MeshRemoval
@@ -132,12 +132,12 @@ class Gridlock(Result):
 
     Notes
     -----
-    The size of the smallest set of meshes is the frustration index of a gain graph. The set is found by integer
+    The number of meshes in a smallest set is the frustration index of the gain graph. The set is found by integer
     programming (docs/theory.md, 7).
 
     Examples
     --------
-    Three wheels, each in mesh with both others:
+    Three wheels, each in mesh with the two others:
 
     >>> import geartrain
     >>> wheels = {name: {"wheels": {name.upper(): 20}} for name in "abc"}
@@ -156,26 +156,26 @@ class Gridlock(Result):
     held: tuple[str, ...] = ()
     """Links that are locked together by meshes on several carriers, although each loop by itself can turn."""
     release: MeshRemoval | None = None
-    """Meshes whose removal frees the whole train; None if the train moves, or if no such set was found."""
+    """Meshes whose removal frees the whole train; None if the train moves, or if no such set is known."""
 
     def _summary(self) -> str:
         return str(self)
 
     @property
     def moves(self) -> bool:
-        """True if no link is locked by meshes."""
+        """True if meshes do not lock any link."""
         return not self.jams and not self.held
 
     def __str__(self) -> str:
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """Yield one sentence on each locked part and its remedy; yield nothing if no link is locked.
+        """Yield a sentence on each locked part and its remedy. No sentence is yielded if no link is locked.
 
         Parameters
         ----------
         most : int
-            Maximum number of components that are described; only the number of further components is given.
+            Maximum number of components that are described; of the others only their number is given.
         """
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"
@@ -194,7 +194,7 @@ class Gridlock(Result):
 
 
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
-    """Combine the removals of components without common meshes."""
+    """Combine the removals of components that have no meshes in common."""
     parts = tuple(releases)
     # alternatives exist only for a single component
     if len(parts) == 1:
@@ -210,7 +210,7 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
 
 
 def merge_bounds(proofs: Iterable[RemovalBound]) -> Iterator[RemovalBound]:
-    """Merge lower bounds on disjoint sets of meshes; bounds by loops that share no mesh are added."""
+    """Merge lower bounds on disjoint sets of meshes. Bounds from loops that share no mesh are added."""
     every = list(proofs)
     apart = tuple(loop for proof in every if proof.sharing == 1 for loop in proof.loops)
     if apart:

@@ -1,4 +1,4 @@
-"""Phase closure: check whether the teeth of the last mesh of every loop fit, so that the train can be assembled."""
+"""Phase closure: check whether the teeth of the last mesh in every loop fit, so that the train can be assembled."""
 
 from __future__ import annotations
 

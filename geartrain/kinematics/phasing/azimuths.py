@@ -16,7 +16,6 @@ from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.components import Components
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.quantity import UNITS, Figure, Quantity
-from geartrain.numerics.rational_angles import rational_angle, recognised_angle
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.numerics.vectors import IntegerVector, across_whole, azimuth, cross, dot, frame, minus, parallel, unit
 from geartrain.train import Train
@@ -29,7 +28,7 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling that is excluded from the assembly conditions because its position is unknown, with the
+    """Gear pair or coupling that is excluded from the assembly conditions because its position is unknown, and the
     reason.
     """
 
@@ -46,30 +45,30 @@ class PitchPoints:
     """
 
     circuits: tuple[Circuit, ...]
-    """Circuits of the pairs. A wheel on the frame is treated as a separate link, because its mounting angle is free."""
+    """Circuits of the pairs. A wheel on the frame is a separate link, because it can be mounted at any angle."""
     azimuth: Floats
-    """Azimuth of the pitch point as seen from the wheel's axis [turn], counterclockwise about the positive sense of the
-    axis.
+    """Azimuth of the pitch point as seen from the wheel's axis, counterclockwise about the positive sense of the axis
+    [turn].
     """
     slack: Floats
     """Maximum error of the azimuth [turn]."""
     family: Sequence[tuple[int, int]]
-    """Family number of each contact. Contacts of one family are known rational fractions of a turn apart."""
+    """Family number of each contact. Contacts of one family are separated by known rational fractions of a turn."""
     part: Sequence[tuple[Fraction, Fraction]]
     """Exact angle of each contact from the first contact of its family [turn]."""
     guessed: frozenset[int] = frozenset()
-    """Families with an angle that was recognised as a fraction from rounded positions."""
+    """Families in which an angle was recognised as a fraction from rounded positions."""
     omitted: tuple[UnplacedPair, ...] = ()
     """Pairs and couplings that are omitted because their positions are unknown."""
 
     @cached_property
     def teeth(self) -> Floats:
-        """Coefficients a and b of the pairs, shape (pairs, 2): tooth counts, the second negative for internal pairs."""
+        """Coefficients a and b of the pairs, shape (pairs, 2): tooth counts; b is negative for internal pairs."""
         return np.array([(c.a, c.b) for c in self.circuits], float).reshape(-1, 2)
 
     @cached_property
     def constant(self) -> Floats:
-        """Constant c of equation (1) of docs/closure.md [pitch], 0 to 1: a theta_i + b theta_j = c (mod 1)."""
+        """Constant c of equation (1) of docs/closure.md, a theta_i + b theta_j = c (mod 1), in [0, 1) [pitch]."""
         # integer pitches are removed before the sum, to keep digits; 1/2 because a tooth meets a gap
         whole: Floats = np.mod(np.mod(self.teeth * self.azimuth, 1.0).sum(axis=1) + 0.5, 1.0)
         return whole
@@ -83,15 +82,15 @@ class PitchPoints:
 
     @cached_property
     def scale(self) -> int:
-        """Common denominator of one half and of all exact angles in `part`."""
+        """Common denominator of 1/2 and of all exact angles in `part`."""
         found = {part.denominator for parts in self.part for part in parts}
         # dtype object, because the common denominator may exceed 64 bits
         return int(np.lcm.reduce(np.array([2, *found], dtype=object)))
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """Constant c as an integer multiple of 1/`scale`, with azimuths measured from the first contact of each
-        family.
+        """Constant c of each pair as an integer multiple of 1/`scale`, with azimuths measured from the first contact of
+        each family.
         """
         scale, found = self.scale, []
         for circuit, (p, q) in zip(self.circuits, self.part, strict=True):
@@ -101,7 +100,7 @@ class PitchPoints:
 
 
 def mesh_nodes(parts: Components, circuits: Sequence[Circuit]) -> list[tuple[int, int]]:
-    """Return the two nodes of every pair: its two links relative to its carrier."""
+    """Return the two nodes of every pair, which are its two links relative to its carrier."""
     index = parts.index
     at = {key: node for node, key in enumerate(zip(parts.node_link, parts.node_carrier, strict=True))}
     return [(at[index[c.i], index[c.carrier]], at[index[c.j], index[c.carrier]]) for c in circuits]
@@ -127,18 +126,18 @@ _Z: IntegerVector = (0, 0, 1)
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """Axis in integer coordinates, with the errors of its declared numbers."""
+    """Axis in integer coordinates, with the maximum errors of its declared numbers."""
 
     way: IntegerVector
     """Declared direction as an integer vector."""
     unsure: float
     """Maximum error of the declared direction [rad]."""
     sense: IntegerVector
-    """Direction about which speeds are positive, common to all parallel axes."""
+    """Direction about which speeds are positive, which is common to all parallel axes."""
     place: IntegerVector | None
-    """Point on the axis, in a unit of length common to all axes; None if not declared."""
+    """Point on the axis, in a unit of length that is common to all axes; None if no position is declared."""
     error: Fraction
-    """Maximum error of the point, in the unit of `place`."""
+    """Maximum error of the point `place`, in the same unit."""
 
 
 @collector_paused()
@@ -169,7 +168,7 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
 
 
 def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
-    """Return the circuit with a wheel of the frame as a separate link, because its mounting angle is free."""
+    """Return the circuit with a wheel of the frame as a separate link, because its mounting angle is arbitrary."""
     i, j = circuit.i, circuit.j
     if frame not in (i, j):
         return circuit
@@ -236,14 +235,14 @@ def _half_digit(length: Quantity) -> float:
 
 
 class _Contact(NamedTuple):
-    """Pitch point of a pair as seen from both axes."""
+    """Pitch point of a pair as seen from the axes of both wheels."""
 
     ways: tuple[IntegerVector, IntegerVector]
-    """Vectors from both axes to the pitch point, normal to the axes."""
+    """Vectors from both axes to the pitch point, perpendicular to the axes."""
     error: float
-    """Maximum error of the azimuths from the rounding of declared numbers [turn]."""
+    """Maximum error of the azimuths that is due to the rounding of declared numbers [turn]."""
     rounding: float
-    """Maximum rounding error of the computed azimuths [turn]."""
+    """Maximum error of the azimuths that is due to rounding in their computation [turn]."""
 
 
 def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Contact | str:
@@ -262,8 +261,8 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
 
 
 def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
-    """Return the contact on parallel axes. The pitch point of a wheel is towards the other axis; for the mate of a
-    ring it is on the opposite side.
+    """Return the contact of a pair on parallel axes. The pitch point is on the side of each axis that faces the other
+    axis; for the mate of a ring it is on the opposite side.
     """
     if first.place is None or second.place is None:
         return "the positions of its axes are not declared"
@@ -279,8 +278,8 @@ def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> 
 
 
 def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
-    """Return the contact on intersecting axes. The pitch point of a wheel is on the side to which the mate's cone
-    opens.
+    """Return the contact of a pair on intersecting axes. The pitch point of a wheel is on the side to which the mate's
+    pitch cone opens.
     """
     if first.place is not None and second.place is not None:
         apart = dot(minus(second.place, first.place), cross(first.way, second.way))
@@ -297,8 +296,8 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
 
 
 def _norm(vector: IntegerVector) -> Fraction:
-    """Return the length of an integer vector as a Fraction, to at least 64 bits; its components may have hundreds of
-    digits.
+    """Return the length of an integer vector as a Fraction that is accurate to at least 64 bits. Its components may
+    have hundreds of digits.
     """
     # the root of an integer shifted by 128 bits has 64 bits after the binary point
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
@@ -311,8 +310,8 @@ def _turns(sine: float) -> float:
 
 
 def _azimuth(way: IntegerVector, sense: IntegerVector) -> float:
-    """Return the azimuth of a vector about an axis [turn], counterclockwise from the projection of x (of y for an axis
-    nearly parallel to x).
+    """Return the azimuth of a vector about an axis [turn], counterclockwise from the projection of x, or of y if the
+    axis is nearly parallel to x.
     """
     axis = unit(_floats(sense))
     turn = azimuth(_floats(way), axis, frame(axis)[0]) / math.tau % 1.0
@@ -320,7 +319,7 @@ def _azimuth(way: IntegerVector, sense: IntegerVector) -> float:
 
 
 def _floats(vector: IntegerVector) -> tuple[float, float, float]:
-    """Return a vector in floats, scaled if its components have hundreds of digits."""
+    """Return the vector as floats, scaled if its components have hundreds of digits."""
     x, y, z = vector
     top = max(abs(x), abs(y), abs(z))
     if top.bit_length() < 300:  # squares and products are within float64
@@ -334,8 +333,8 @@ def _floats(vector: IntegerVector) -> tuple[float, float, float]:
 def _families(
     circuits: Sequence[Circuit], contacts: Sequence[_Contact], turns: Sequence[tuple[float, float]]
 ) -> tuple[list[tuple[int, int]], list[tuple[Fraction, Fraction]], frozenset[int]]:
-    """Return the family of each contact, its angle from the first contact of the family [turn], and the families in
-    which angles were recognised as fractions from rounded positions.
+    """Return the families of the contacts of each pair, the angles of the contacts from the first contact of their
+    family [turn], and the families in which angles were recognised as fractions from rounded positions.
     """
     heads: dict[tuple[str, str], list[tuple[int, IntegerVector, float, int]]] = {}
     guessed: set[int] = set()
@@ -362,3 +361,49 @@ def _families(
                 count += 1
     family = [(i, j) for (i, _), (j, _) in found]
     return family, [(p, q) for (_, p), (_, q) in found], frozenset(guessed)
+
+
+_PROBABILITY = 1e-3  # maximum probability that a random angle is taken for a fraction
+_DENSITY = 3 / math.pi**2  # about this times q squared reduced fractions below 1 have a denominator up to q
+
+
+def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction | None:
+    """Return the angle from the integer vector u to v if it is a rational fraction of a turn, else None [turn].
+
+    The square of the cosine, (u.v)^2 / (u.u v.v), is rational. If the angle is a rational fraction of a turn, Niven's
+    theorem requires this square to be 0, 1/4, 1/2, 3/4 or 1. The angle is therefore a multiple of 1/24 turn or
+    irrational. `turn` is the angle in floats, with an error below 1/48.
+    """
+    along = dot(u, v)
+    square = dot(u, u) * dot(v, v)
+    if 4 * along * along % square:  # the square of the cosine is not a multiple of 1/4
+        return None
+    return Fraction(round(24 * turn) % 24, 24)
+
+
+def recognised_angle(turn: float, slack: float) -> Fraction | None:
+    """Return the fraction of a turn within `slack` of an angle [turn]; None if such a fraction could be a coincidence.
+
+    Fractions with denominators up to q match a random angle with the probability 0.6 q^2 slack, which limits q. At most
+    one such fraction exists, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
+
+    >>> recognised_angle(0.3333, 1e-4), recognised_angle(0.3679, 1e-4)
+    (Fraction(1, 3), None)
+    """
+    most = math.sqrt(_PROBABILITY / (2 * _DENSITY * slack))
+    before, last = (0, 1), (1, 0)
+    rest = turn
+    while True:
+        whole = math.floor(rest)
+        before, last = last, (whole * last[0] + before[0], whole * last[1] + before[1])
+        if last[1] > most:
+            return None
+        if abs(turn - last[0] / last[1]) <= slack:
+            return Fraction(last[0] % last[1], last[1])
+        # the remainder is not 0 here: the convergent would be the angle to rounding, and the loop has ended above
+        rest = 1 / (rest - whole)
+
+
+def centred_residue(value: Fraction) -> Fraction:
+    """Return the difference between a number and an integer that is in the interval (-1/2, 1/2]."""
+    return value - math.ceil(value - Fraction(1, 2))

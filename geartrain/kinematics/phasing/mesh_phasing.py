@@ -1,7 +1,7 @@
-"""Phase closure of the loops of a train: verdict, loops, wheel angles for assembly, and distributed errors.
+"""Phase closure of the loops of a train: verdict, loops, angles of the wheels for assembly, and distributed errors.
 
-The result for a loop has its gears in order, the divisibility rule of its tooth counts (a modulus that divides a count
-or a weighted sum of counts), and the error of its last mesh if all other meshes are exact.
+The result for a loop consists of its gears in order, the divisibility rule of its tooth counts (a modulus that divides
+a count or a weighted sum of counts), and the phase error of its last mesh if all other meshes have none.
 """
 
 from __future__ import annotations
@@ -39,22 +39,22 @@ Row = dict[str, int]
 
 
 class DivisibilityCondition(NamedTuple):
-    """One condition of a `DivisibilityRule`: `modulus` divides a weighted sum of tooth counts."""
+    """Condition of a `DivisibilityRule`: `modulus` divides a weighted sum of tooth counts."""
 
     modulus: int
     """Divisor of the weighted sum of the tooth counts."""
     factors: Mapping[str, int]
-    """Weight of the tooth count of each wheel or kind of wheel."""
+    """Weight of the tooth count of each wheel, or of each kind of wheel."""
 
 
 @dataclass(frozen=True)
 class DivisibilityRule(Result):
-    """Divisibility conditions on the tooth counts of a set of gears, under which the teeth mesh around all loops."""
+    """Divisibility conditions on the tooth counts of a set of gears under which the teeth mesh around all loops."""
 
     KEYS = ("text", "conditions")
 
     conditions: tuple[DivisibilityCondition, ...]
-    """Conditions on the tooth counts, all of which must be satisfied."""
+    """Conditions on the tooth counts, which must all be satisfied."""
 
     @property
     def text(self) -> str:
@@ -72,18 +72,18 @@ class DivisibilityRule(Result):
         Parameters
         ----------
         teeth : mapping of str to int
-            Tooth count of each kind.
+            Tooth count of each kind of wheel.
         """
         return not any(sum(f * teeth[kind] for kind, f in terms.items()) % m for m, terms in self.conditions)
 
 
 def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> DivisibilityRule:
-    """Find the condition on tooth counts z under which the sum of form[kind] z[kind] is an integer for each linear
-    form.
+    """Find the divisibility rule of the tooth counts z under which the sum of form[kind] z[kind] is an integer for each
+    linear form.
 
     Only the coefficients modulo 1 matter. The forms generate a finite abelian group, which is the direct sum of its
-    p-parts. In every p-part the rows modulo a power of p are reduced to triangular (Howell) form. Conditions on a
-    single kind are then combined.
+    p-parts. In every p-part, the rows modulo a power of p are reduced to Howell (triangular) form. Then the conditions
+    on a single kind of wheel are combined.
     """
     rows = list({tuple(sorted((k, f % 1) for k, f in form.items() if f % 1)): None for form in forms})
     kinds = sorted({kind for row in rows for kind, _ in row})
@@ -105,7 +105,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a divisibility condition; merge it with a condition on a coprime modulus if one sum expresses both."""
+    """Add a divisibility condition, merged with a condition on a coprime modulus if one sum expresses both."""
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -146,7 +146,7 @@ def _group_order(rows: Sequence[Sequence[int]], power: int) -> int:
 
 
 def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return the Howell (triangular) form of rows modulo a prime power; it generates the same group."""
+    """Return the Howell (triangular) form of the rows modulo a prime power, which generates the same group."""
     found = []
     active = [list(row) for row in rows]
     width = len(active[0]) if active else 0
@@ -171,9 +171,7 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the congruence row · x = 0 (mod power) in reduced form (modulus, weights), with the smallest equivalent
-    weights.
-    """
+    """Return the congruence row · x = 0 (mod power) in reduced form, as modulus and smallest equivalent weights."""
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
@@ -188,8 +186,8 @@ def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
 
 
 def _simplicity(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
-    """Return a key that sorts rows by simplicity: small factors first, then few minus signs, then a positive first
-    factor.
+    """Return a key that sorts rows by simplicity: rows with small factors precede others, then rows with few minus
+    signs, then rows whose first factor is positive.
     """
     first = next((value for value in row if value), 0)
     return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
@@ -214,35 +212,33 @@ class LoopPhase(Result):
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 
     gears: tuple[str, ...]
-    """Wheels in order around the loop; two wheels of one link are joined by `+` if the loop passes from one to the
-    other.
+    """Wheels in their order around the loop. Two wheels of one link are joined by `+` if the loop passes from one to
+    the other.
     """
     meshes: tuple[str, ...]
-    """Pairs in order around the loop; the last one closes it. If `together` is True, these are the pairs of several
-    loops, in any order.
+    """Pairs in their order around the loop; the last one closes it. If `together` is True, these are the pairs of
+    several loops, in any order.
     """
     weights: tuple[int, ...]
-    """Integer weight of each pair in the sum of the phase equations; 1 or -1 except for compound wheels."""
+    """Integer weight of each pair in the sum of the phase equations; 1 or -1 except in loops with compound wheels."""
     residue: Fraction | float
-    """Weighted sum of the phase constants of the pairs minus the nearest integer [pitch], -1/2 to 1/2; a Fraction if it
-    is exact.
+    """Weighted sum of the phase constants of the pairs minus the nearest integer, in [-1/2, 1/2] [pitch]; a Fraction if
+    it is exact.
     """
     slack: float
     """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is exact."""
     how: ResidueKnowledge
-    """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions), or
-    "numeric".
-    """
+    """Accuracy of the residue: "exact", "recognised" (exact, with inferred fractions), or "numeric"."""
     inside: Mapping[str, Fraction | float] | None
-    """Signed angle inside the loop at each wheel [turn], the coefficient of its tooth count in the sum of the phase
-    equations; None for compound wheels.
+    """Signed angle of the arc inside the loop at each wheel [turn], which is the coefficient of its tooth count in the
+    sum of the phase equations; None for loops with compound wheels.
     """
     retime: Mapping[str, float]
-    """Rotation of each wheel on its arbor that closes the loop, counterclockwise [pitch]; one of the listed rotations
-    is enough.
+    """Rotation of each wheel on its arbor that would close the loop, counterclockwise [pitch]; one of these rotations
+    is sufficient.
     """
     together: bool = False
-    """True for a condition on several loops that does not follow from the conditions of the single loops."""
+    """True for a condition on several loops together that does not follow from the conditions of the single loops."""
 
     @property
     def kind(self) -> PhaseKind:
@@ -251,8 +247,8 @@ class LoopPhase(Result):
 
     @property
     def miss(self) -> Fraction | float:
-        """Phase error of the last pair if all other pairs mesh exactly [pitch], for the choice of engaged teeth with
-        the minimum phase error.
+        """Phase error of the last pair if all other pairs mesh exactly [pitch]. The engaged teeth are chosen so that it
+        is minimal.
         """
         return self.residue / self.weights[-1]
 
@@ -314,15 +310,13 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of the sum of a loop's phase equations [pitch] if one wheel is rotated on its arbor by one
-    pitch.
-    """
+    """Return the change of a loop's sum of phase equations [pitch] if a wheel turns on its arbor by one pitch."""
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return, for each gear of a loop, the angle between its two contacts in the loop, signed and weighted [turn]."""
+    """Return for each gear of a loop the angle between its two contacts, with sign and weight [turn]."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -351,12 +345,13 @@ _SHOWN = 10  # maximum number of loops listed in a text
 class MeshPhasing(Result):
     """Assembly condition of a train: mesh phases around every loop, and angles at which the wheels are mounted.
 
-    See equations (1) to (4) of docs/closure.md. The result is true unless a loop does not close or is unclear.
+    See equations (1) to (4) of docs/closure.md. The truth value of the result is False if a loop does not close or is
+    unclear.
 
     Examples
     --------
-    Two planets with 18 teeth are placed opposite each other between a sun with 24 teeth and a ring with 60. They can be
-    assembled, because 2 divides 24 + 60.
+    Two planets with 18 teeth are placed opposite each other between a sun with 24 teeth and a ring with 60 teeth. They
+    can be assembled, because 2 divides 24 + 60.
 
     >>> import geartrain
     >>> found = geartrain.load("planets-in-place").closure
@@ -390,11 +385,11 @@ class MeshPhasing(Result):
     problem: PhaseSystem = field(repr=False)
     """Phase equations of all meshes."""
     backlashes: Mapping[str, float] = field(default_factory=dict)
-    """Circumferential backlash of each pair whose tooth form determines it [pitch]."""
+    """Circumferential backlash of each pair whose tooth form determines a backlash [pitch]."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
-    """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have the same name."""
+    """Function that returns the name in `rule` of each wheel's tooth count; equal wheels have the same name."""
     unjudged: int = 0
-    """Number of loops that cannot be checked because the position of a pair or pin in them is unknown."""
+    """Number of loops that cannot be checked because the position of one of their pairs or pins is unknown."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):
@@ -404,7 +399,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
-        """Phase conditions of a cycle basis of short loops, followed by conditions on several loops together."""
+        """Phase conditions of a cycle basis of short loops, followed by the conditions on several loops together."""
         return tuple(describe_loop(self.problem, condition) for condition in self.problem.conditions)
 
     @cached_property
@@ -423,12 +418,12 @@ class MeshPhasing(Result):
         return "unclear" if any(one.kind == "unclear" for one in self.problem.conditions) else "closes"
 
     def __bool__(self) -> bool:
-        """Return True unless a loop misses or is unclear."""
+        """Return False if a loop misses or is unclear, else True."""
         return self.kind in ("closes", "open")
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Accuracy of the residues, the lowest of all loops: "exact", "recognised" or "numeric"."""
+        """Lowest accuracy of the residues of all loops: "exact", "recognised" or "numeric"."""
         ways = {one.how for one in self.problem.conditions}
         return "numeric" if "numeric" in ways else "recognised" if "recognised" in ways else "exact"
 
@@ -439,24 +434,24 @@ class MeshPhasing(Result):
 
     @property
     def omitted(self) -> tuple[UnplacedPair, ...]:
-        """Pairs and couplings that are not checked because their positions are unknown."""
+        """Pairs and couplings that were not checked because their positions are unknown."""
         return self.problem.contacts.omitted
 
     @cached_property
     def worst(self) -> Fraction | float:
-        """Maximum magnitude of the phase error of a loop's last pair [pitch]."""
+        """Maximum magnitude of the phase error of the last pair in any loop [pitch]."""
         misses = [one.miss for one in self.problem.conditions]
         worst = max(misses, key=lambda miss: abs(float(miss)), default=Fraction(0))
         return -worst if worst < 0 else worst
 
     @cached_property
     def angles(self) -> Mapping[str, float]:
-        """Angle of the zero mark of every link in the pose in which all teeth mesh [rad], 0 to 2 pi.
+        """Angle of the zero mark of every link in the pose in which all teeth mesh, in [0, 2 pi) [rad].
 
-        Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is
-        nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at the zero mark
-        of the link. If loops do not close, their phase errors are distributed. A wheel on the frame is listed like a
-        link, by its own name.
+        Angles are measured counterclockwise about the positive sense of the axis from the projection of x (of y if the
+        axis is nearly parallel to x). Carriers are in their declared pose if possible. All wheels of a link have a
+        tooth at the zero mark of the link. If loops do not close, their phase errors are distributed. A wheel on the
+        frame is listed like a link, by its own name.
         """
         turns = self.problem.spread_angles if self.missing else self.problem.tree_angles
         parts = self.problem.parts
@@ -468,8 +463,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def wheels(self) -> Mapping[str, float]:
-        """Angle of the first tooth of every wheel from its reference direction [rad], 0 to the angular pitch of the
-        wheel.
+        """Angle of the first tooth of every wheel from its reference direction, from 0 to the angular pitch of the
+        wheel [rad].
         """
         angles, found = self.angles, {}
         for circuit in self.problem.circuits:
@@ -480,18 +475,18 @@ class MeshPhasing(Result):
 
     @cached_property
     def errors(self) -> Mapping[str, float]:
-        """Phase error of every pair if the phase errors of the loops are distributed by least squares [pitch]."""
+        """Phase error of every pair [pitch] if the phase errors of the loops are distributed by least squares."""
         return self._errors(self.problem.spread_angles)
 
     @property
     def spread_errors(self) -> Mapping[str, float]:
-        """Phase error of every pair by least squares [pitch], as in `errors`; empty if all loops close."""
+        """Phase error of every pair [pitch] as in `errors`; empty if all loops close."""
         return self.errors if self.missing else {}
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Phase error of every pair, if the pair assembled last in each loop takes up the entire phase error of the
-        loop [pitch].
+        """Phase error of every pair [pitch] if the pair assembled last in each loop takes up the entire phase error of
+        the loop.
         """
         return self._errors(self.problem.tree_angles)
 
@@ -507,9 +502,9 @@ class MeshPhasing(Result):
 
     @cached_property
     def fits(self) -> bool | None:
-        """True if all loops close, or the backlash of each pair absorbs its phase error in `errors`; False if a
-        backlash is too small. None if no loop misses but at least one is unclear, or if the backlash of a pair with a
-        phase error is unknown.
+        """True if all loops close, or if the backlash of each pair is sufficient for its phase error in `errors`; False
+        if the backlash of a pair is too small. None if a loop is unclear and none misses, or if a required backlash is
+        unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True
@@ -523,8 +518,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def rule(self) -> DivisibilityRule | None:
-        """Divisibility rule of the tooth counts; None if a residue is not exact, wheels are compound, or a loop has an
-        odd number of pairs.
+        """Divisibility rule of the tooth counts; None if a residue is not exact, if wheels are compound, or if a loop
+        has an odd number of pairs.
         """
         forms, kinds = [], self.alike()
         for loop in self.loops:
@@ -627,7 +622,7 @@ def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
 
 
 def _equal_wheels(train: Train) -> dict[str, str]:
-    """Return for each wheel the name of the first wheel that is equal and has equal mates."""
+    """Return for each wheel the name of the first wheel that equals it and has equal mates."""
     marks = {name: (wheel.count, wheel.internal) for name, (_, wheel) in train.wheels.items()}
     mates: dict[str, list[object]] = {name: [] for name in marks}
     for gear in train.gears:

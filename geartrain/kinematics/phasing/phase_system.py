@@ -1,4 +1,4 @@
-"""Phases of all meshes as one linear system modulo a pitch: residues of a cycle basis, link angles, distributed
+"""Phases of all meshes as one linear system modulo a pitch: residues of a cycle basis, angles of links, and distributed
 errors.
 """
 
@@ -15,12 +15,11 @@ import numpy as np
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, ReducedSystem, reduce_components
-from geartrain.kinematics.phasing.azimuths import PitchPoints, mesh_nodes
+from geartrain.kinematics.phasing.azimuths import PitchPoints, centred_residue, mesh_nodes
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.elimination import Echelon, LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.integer_lattice import saturated_lattice
-from geartrain.numerics.rational_angles import centred_residue
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
@@ -34,7 +33,7 @@ _DENSE = 250_000  # entries of a matrix up to which it counts as small
 
 @dataclass(frozen=True)
 class SparseRows:
-    """Matrix with a fixed small number of entries per row, given by their columns and coefficients."""
+    """Matrix with a small fixed number of entries in each row, given by their columns and coefficients."""
 
     columns: Indices
     factors: Floats
@@ -66,20 +65,20 @@ class SparseRows:
 
 
 Row = Mapping[int, int]
-"""Integer combination of the equations of meshes, as a mapping from mesh to weight."""
+"""Integer combination of the equations of meshes, as a mapping from the index of a mesh to its weight."""
 
 
 class PhaseCycle(NamedTuple):
-    """Loop of meshes. nodes[k] is between meshes[k - 1] and meshes[k], and nodes[0] follows the last mesh."""
+    """Loop of meshes. The node nodes[k] is between meshes[k - 1] and meshes[k], and nodes[0] is after the last mesh."""
 
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
-    """Coprime integer weight of each mesh; the weighted left sides of the meshes' equations add up to 0."""
+    """Coprime integer weight of each mesh; the weighted left-hand sides of the equations of the meshes add up to 0."""
 
     @property
     def row(self) -> dict[int, int]:
-        """Weight of the equation of each mesh of the loop."""
+        """Weight of the equation of each mesh in the loop."""
         return dict(zip(self.meshes, self.weights, strict=True))
 
 
@@ -90,8 +89,8 @@ _Edges = dict[int, list[tuple[int, int]]]
 
 
 def find_cycle_basis(parts: Components, ends: Sequence[tuple[int, int]]) -> Iterator[tuple[list[int], list[int]]]:
-    """Yield nodes and meshes of each loop of a cycle basis. A loop consists of one chord (a mesh outside the search
-    tree) and a shortest path between its ends through the search tree and the chords used before.
+    """Yield the nodes and the meshes of each loop of a cycle basis. A loop consists of one chord (a mesh outside the
+    search tree) and a shortest path between its ends through the search tree and the chords used before.
 
     Each loop contains its own chord and no later chord, so the loops are independent and generate all loops.
     """
@@ -141,7 +140,7 @@ def _join(edges: _Edges, mesh: int, i: int, j: int) -> None:
 
 
 def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[int], list[int]] | None:
-    """Return nodes and meshes of a shortest path by breadth-first search; None if it has more than `most` meshes."""
+    """Return nodes and meshes of a shortest path by breadth-first search; None if it exceeds `most` meshes."""
     came = {start: (-1, -1)}
     front, length = [start], 0
     while front and goal not in came:
@@ -180,8 +179,8 @@ _SAME = 1e-6  # pitch: tolerance at which no tooth changes its gap
 
 @dataclass(frozen=True)
 class PhaseCondition:
-    """Condition on meshes whose left sides add up to 0: the weighted sum of their constants must be an integer number
-    of pitches.
+    """Condition on meshes whose weighted left-hand sides add up to 0: the weighted sum of their constants must be an
+    integer [pitch].
     """
 
     cycle: PhaseCycle | None
@@ -202,9 +201,7 @@ class PhaseCondition:
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions) or
-        "numeric".
-        """
+        """Accuracy of the residue: "exact", "recognised" (exact, with inferred fractions), or "numeric"."""
         if not isinstance(self.residue, Fraction):
             return "numeric"
         return "recognised" if self.guessed else "exact"
@@ -216,7 +213,7 @@ class PhaseCondition:
 
 
 def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
-    """Return "misses" if the residue [pitch] exceeds its error `slack`, "unclear" if `slack` is too large, else
+    """Return "misses" if the residue [pitch] exceeds its maximum error `slack`, "unclear" if `slack` is too large, else
     "closes".
     """
     if abs(float(residue)) > slack:
@@ -226,9 +223,9 @@ def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
 
 @dataclass(frozen=True)
 class PhaseSystem:
-    """Phase equations of all meshes, a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md.
+    """Phase equations of all meshes, a theta_i + b theta_j - (a + b) theta_k = c (mod 1): (1) of docs/closure.md.
 
-    Angles theta are in turns, constants c in pitches.
+    Angles theta are in turns, and constants c in pitches.
     """
 
     parts: Components
@@ -241,7 +238,7 @@ class PhaseSystem:
 
     @cached_property
     def ends(self) -> list[tuple[int, int]]:
-        """Two nodes of every mesh."""
+        """Nodes of the two links of every mesh."""
         return mesh_nodes(self.parts, self.circuits)
 
     @cached_property
@@ -251,7 +248,7 @@ class PhaseSystem:
             return [self._cycle(*loop) for loop in find_cycle_basis(self.parts, self.ends)]
 
     def _cycle(self, nodes: Sequence[int], meshes: Sequence[int]) -> PhaseCycle:
-        """Return a loop with weights for which the coefficients cancel at every node; the weight of the last mesh is
+        """Return a loop with weights for which the coefficients cancel at every node. The weight of the last mesh is
         positive.
         """
         weights: list[Fraction | int] = [1]
@@ -279,7 +276,7 @@ class PhaseSystem:
     @cached_property
     def _echelon(self) -> tuple[Echelon, Mapping[int, LinearForm]] | None:
         """Reduced equations in echelon form, and the unknowns of the components as linear forms of the angles at which
-        the components meet (symbol -1 - equation); None if elimination exceeds its budget.
+        the components meet. The angle of equation n has the column -1 - n. None if elimination exceeds its budget.
         """
         equations = ({**row, -at - 1: Fraction(-1)} for at, row in enumerate(self._reduced.equations))
         try:
@@ -290,7 +287,7 @@ class PhaseSystem:
 
     @cached_property
     def coupled_rows(self) -> list[dict[int, int]]:
-        """Weights of meshes of several carriers, with which the left sides of their equations add up to 0."""
+        """Weights for meshes of several carriers, with which the left-hand sides of their equations cancel."""
         rows = []
         for condition in self._echelon[0].conditions if self._echelon else ():
             causes = {-column - 1: self._reduced.origin[-column - 1] for column in condition}
@@ -306,8 +303,8 @@ class PhaseSystem:
         return rows
 
     def _add_contributions(self, node: int, factor: Fraction, total: dict[int, Fraction]) -> None:
-        """Add to `total`, for each mesh on the path from the root to a node, the coefficient of the mesh constant in
-        the node's angle, multiplied by `factor`.
+        """Add to `total`, for each mesh on the path from the root to a node, the coefficient of the mesh's constant in
+        the angle of the node, multiplied by `factor`.
         """
         parts = self.parts
         speed = parts.relative(node) * factor
@@ -319,7 +316,7 @@ class PhaseSystem:
 
     @cached_property
     def carriers(self) -> frozenset[int]:
-        """Carriers of all meshes, except the frame."""
+        """Indices of the carriers of all meshes, except the frame."""
         return frozenset(self.parts.group_carrier) - {self.parts.frame}
 
     # ------------------------------------------------------------------------------------------------------ conditions
@@ -338,13 +335,13 @@ class PhaseSystem:
 
     @cached_property
     def complete(self) -> bool:
-        """False if loops were checked only one by one, without conditions on several loops together."""
+        """False if loops were only checked one by one, without the conditions on several loops together."""
         return self._echelon is not None and self._unequal_size <= _MOST
 
     @cached_property
     def _unequal_rows(self) -> list[dict[int, int]]:
-        """Rows whose integer combinations may have common factors: all rows of components in which weights differ from
-        1 and -1.
+        """Rows whose integer combinations may have common factors, which are all rows of components with weights other
+        than 1 and -1.
         """
         if not self.cycles:
             return self.coupled_rows
@@ -397,7 +394,7 @@ class PhaseSystem:
 
     def _families(self, row: Mapping[int, int]) -> list[int] | None:
         """Return the families of all contacts of a condition if their unknown angles cancel; None if the residue is
-        known only in floats.
+        only known as a float.
         """
         total: dict[int, int] = {}
         for mesh, weight in row.items():
@@ -410,7 +407,7 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integer pitches to add to the constants of meshes, which minimise the residues of loops with compound
+        """Integers to add to the constants of meshes [pitch], chosen to minimise the residues of loops with compound
         wheels.
         """
         basis, dual, _ = self._saturated
@@ -426,11 +423,10 @@ class PhaseSystem:
 
     @cached_property
     def _tree_nodes(self) -> list[Number]:
-        """Angles of nodes relative to their carriers that satisfy the equation of every mesh in the search tree
-        [turn].
+        """Angles of nodes relative to their carriers that satisfy the equation of every mesh in the search tree [turn].
 
-        With compound wheels, a full turn of one link changes the engagement of others; these angles are exact
-        fractions.
+        In components with compound wheels, a full turn of one link changes the engagement of others; their angles are
+        exact fractions.
         """
         parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
         found: list[Number] = list(nodes)
@@ -456,11 +452,11 @@ class PhaseSystem:
 
     @cached_property
     def tree_angles(self) -> list[float]:
-        """Angles of links that satisfy the equations of all meshes except the meshes that close loops [turn]."""
+        """Angles of links that satisfy the equations of all meshes except those that close loops [turn]."""
         return self._link_angles(self._tree_nodes)
 
     def _link_angles(self, nodes: Sequence[Number]) -> list[float]:
-        """Return angles of links from angles of nodes, which are relative to carriers [turn].
+        """Return the angles of links [turn], given the angles of nodes, which are relative to carriers [turn].
 
         Free unknowns are set to 0: carriers are in their declared pose.
         """
@@ -480,8 +476,8 @@ class PhaseSystem:
         return [float(angle % 1) for angle in found]
 
     def _angle_difference(self, kind: str, first: int, node: int, nodes: Sequence[Number]) -> Number:
-        """Return the difference of a link's angles relative to two carriers [turn]; for a loop that cannot turn, the
-        angle of its component that satisfies the equation of the closing mesh.
+        """Return the difference between a link's angles relative to two carriers [turn]; for a loop that cannot turn,
+        the angle of its component for which the equation of the closing mesh is satisfied.
         """
         parts = self.parts
         if kind == "share":
@@ -505,7 +501,7 @@ class PhaseSystem:
         return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
     def _without_rigid_loops(self, factors: Floats) -> Floats:
-        """Return the coefficients with rows of 0 for meshes whose loops cannot turn, because these have no phase
+        """Return the coefficients with zero rows for meshes whose loops cannot turn, because these have no phase
         condition.
         """
         found = factors.copy()
@@ -513,8 +509,8 @@ class PhaseSystem:
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """Return the error of every mesh [pitch] at given angles of links [turn]; 0 for meshes whose loops cannot
-        turn.
+        """Return the phase error of every mesh [pitch] at given angles of links [turn]; it is 0 for meshes whose loops
+        cannot turn.
         """
         return self._errors(self._link_rows, np.asarray(angles))
 
@@ -529,9 +525,10 @@ class PhaseSystem:
     def spread_angles(self) -> list[float]:
         """Angles of links with the smallest sum of squared errors that was found [turn].
 
-        Two initial assignments of teeth to gaps are tried: one with errors below half a pitch at the pairs that
-        close loops, one with residues of short loops below half a pitch. Then errors are distributed by least squares
-        and teeth are reassigned until nothing changes. Each step reduces the sum. The result is a local minimum.
+        Two initial assignments of teeth to gaps are tried: in one, the errors of the pairs that close loops are below
+        half a pitch; in the other, the residues of short loops are below half a pitch. Then errors are distributed by
+        least squares and teeth are reassigned until nothing changes. Each step reduces the sum. The result is a local
+        minimum.
         """
         start = self.errors(self.tree_angles)
         starts = [self._loop_errors(start), start][: 2 if self._node_rows.small(len(start)) else 1]
@@ -539,8 +536,8 @@ class PhaseSystem:
         return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
 
     def _loop_errors(self, errors: Floats) -> Floats:
-        """Return the errors of all meshes [pitch], with integers added to meshes that close loops so that short loops
-        have small residues.
+        """Return the errors of all meshes [pitch]. Integers are added to the errors of meshes that close loops so that
+        short loops have small residues.
         """
         found = errors.tolist()
         for condition in self.conditions:
@@ -551,7 +548,7 @@ class PhaseSystem:
         return np.array(found)
 
     def _distribute(self, errors: Floats) -> list[float]:
-        """Return angles of links with distributed errors [turn]; carriers keep their angles unless gears connect
+        """Return the angles of links with distributed errors [turn]. Carriers keep their angles unless gears connect
         them.
         """
         if self.coupled_rows:
@@ -562,8 +559,8 @@ class PhaseSystem:
         return self._link_angles([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
 
     def _iterate(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
-        """Return angles [turn] after least squares and reassignment of teeth to gaps, alternately until nothing
-        changes.
+        """Return the angles [turn] after least squares and reassignment of teeth to gaps, repeated alternately until
+        nothing changes.
         """
         for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
             step = rows.least_squares(errors)

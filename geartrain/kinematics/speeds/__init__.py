@@ -1,4 +1,4 @@
-"""Speeds from circuits, exact or in floats with error estimates; mobility and verdict, decided without tolerances."""
+"""Speeds from circuits, exact or in floats with error estimates, and exact mobility and verdict of a train."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Exact speeds by propagation or elimination, and the verdict.
 
 Propagation is tried first: if the speeds of two of a circuit's three links are known, the third follows. It solves
-ordinary trains, and every train whose links are driven one after another, in integers and in linear time. If it stops
-(a planetary set with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved
+ordinary trains, and every train whose links are driven one after another, in integers and in linear time. If it stops,
+as for a planetary set with a fixed ring, whose two circuits are coupled, the system is reduced to components and solved
 by Gaussian elimination. If a solution does not exist or is not unique, the diagnosis names the loops, inputs, brakes
 and locks that cause this.
 """
@@ -39,8 +39,8 @@ _ZERO = Fraction(0)
 
 
 class PrescriptionStatement(NamedTuple):
-    """Input, brake or lock of a state: its kind (input, fixed or lock), a sentence that describes it, a sentence on the
-    declaration that causes it, and its speed.
+    """Input, brake or lock of a state: its kind (input, fixed or lock), a sentence that describes it, a sentence that
+    describes the declaration that causes it, and its speed.
     """
 
     kind: str
@@ -50,11 +50,11 @@ class PrescriptionStatement(NamedTuple):
 
 
 def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], budget: int | None = None) -> Verdict:
-    """Return the verdict on a state without a solution, locked or contradictory, with its certificate.
+    """Return the verdict on a state without a solution, either locked or contradictory, with its certificate.
 
     An input is locked if its link cannot move whatever the other inputs are. Inputs that can move separately but not
-    together are contradictory. The certificate needs much memory for a long coupled train; beyond `budget` operations
-    the verdict is returned without it.
+    together are contradictory. The certificate requires much memory for a long coupled train; if it takes more than
+    `budget` operations, the verdict is returned without it.
     """
     rows, statements = _tagged(reduced, case, signs)
     structural, held = len(reduced.equations), len(rows) - len(case.inputs)
@@ -79,17 +79,18 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return the factor of each equation by its number, from a row whose column -1 - number is the symbol of the
-    equation.
-    """
+    """Return the factor of each equation n, from a row in which column -1 - n is the symbol of the equation."""
     return {-1 - column: value for column, value in row.items()}
 
 
 def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm:
-    """Return a linear form with its solved unknowns replaced by their values."""
+    """Return a linear form in which the solved unknowns are replaced by their values."""
     resolved: LinearForm = {}
     for column, coefficient in row.items():
-        add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
+        if column in forms:
+            add_into(resolved, forms[column], coefficient)
+        else:
+            add_into(resolved, {column: coefficient}, 1)
     return resolved
 
 
@@ -105,8 +106,8 @@ def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
 
 
 def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Return the verdict on a state without a solution, without a certificate: locked if an input cannot move, else
-    contradictory.
+    """Return the verdict on a state without a solution, without a certificate: "locked" if an input cannot move, else
+    "contradictory".
     """
     given = tuple(map(case.given, case.inputs))
     stuck = _locked_inputs(reduced, case)
@@ -118,7 +119,8 @@ def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
     """Return the non-zero inputs that cannot move whatever the other inputs are, by elimination modulo a prime.
 
-    With a symbol for each input, elimination leaves the relations between the inputs that the circuits imply.
+    Each input is represented by a symbol, and elimination leaves the relations between the inputs that the circuits
+    imply.
     """
     rows = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
     rows += [
@@ -138,8 +140,8 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations, each with its own symbol -1 - t, where t counts the structural equations first, then
-    brakes, locks and inputs; and the statements of the brakes, locks and inputs.
+    """Return all equations, each with its own symbol in column -1 - t, and the statements of the brakes, locks and
+    inputs. The index t counts the structural equations first, then brakes, locks and inputs.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -161,8 +163,8 @@ def _tagged(
 def _describe_contradiction(
     reduced: ReducedSystem, case: StateCase, given: Mapping[int, Fraction], statements: Sequence[PrescriptionStatement]
 ) -> Verdict:
-    """Return the verdict on one contradiction; `given` contains the factor of each equation in the linear combination
-    that is contradictory.
+    """Return the verdict on a contradiction; `given` is the factor of each equation in the contradictory linear
+    combination.
     """
     parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
@@ -201,7 +203,7 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the names of the gear pairs in a contradiction: the pairs on the paths between the shared links of its
+    """Return the names of the gear pairs in a contradiction, which are on the paths between the shared links of its
     equations.
     """
     parts = reduced.components
@@ -235,7 +237,7 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """Return the verdict with all undetermined links, and a smallest set of links (at most 12) whose speeds would
+    """Return the verdict with all undetermined links, and a smallest set of at most 12 links whose speeds would
     determine the other links.
     """
     index = reduced.components.index
@@ -267,14 +269,14 @@ def free_verdict(
 
 
 Terms = tuple[tuple[int, int], ...]
-"""Equation as pairs of link index and integer coefficient; the sum of coefficient times speed is 0."""
+"""Equation as pairs of the index of a link and an integer coefficient; the sum of coefficient times speed is 0."""
 
 
 @collector_paused()
 def propagate(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: StateCase, signs: Mapping[str, int]
 ) -> Mapping[str, Fraction] | None:
-    """Return every link's exact speed; None if propagation does not reach all links, or finds a contradiction.
+    """Return the exact speed of every link; None if propagation does not reach all links, or finds a contradiction.
 
     signs   -1 for links whose axis is opposite to the reference direction of its parallel axes
     """
@@ -335,7 +337,7 @@ def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], cas
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:
-    """Solve an equation for its only unknown speed and return the index of its link; -1 if no speed is unknown."""
+    """Solve an equation for its single unknown speed and return the index of its link; -1 if all speeds are known."""
     target, lead = -1, 0
     moving = []
     for link, coefficient in row:
@@ -361,13 +363,13 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 _GIVEN = -1  # column of prescribed speeds
 
 EXACT_BUDGET = 400_000
-"""Maximum number of coefficient operations of exact elimination, about one second; beyond it, floats are used."""
+"""Maximum number of coefficient operations of exact elimination, which take about 1 s; beyond it, floats are used."""
 
 _PREDICTED = 40_000
-"""Maximum number of operations of the elimination modulo a prime for which exact elimination is tried.
+"""Maximum number of operations in the elimination modulo a prime for which exact elimination is tried.
 
-Fill-in increases the number of digits: in grids and random networks of differentials, this number of operations with
-short numbers corresponds to the 400,000 operations of `EXACT_BUDGET`.
+Fill-in increases the number of digits: in grids and random networks of differentials, 40,000 operations with short
+numbers correspond to the 400,000 operations of `EXACT_BUDGET`.
 """
 
 _FEW = 100  # for fewer equations the prediction costs as much as it saves
@@ -381,21 +383,21 @@ class Solution:
     speeds: Mapping[str, Fraction]
     """Speeds of the determined links, by link, in the order of the declaration."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Speed of each link per unit speed of each input, with the other inputs at rest, as `ratios[link][input]`."""
+    """Speed of each link divided by the speed of one input while the others rest, as `ratios[link][input]`."""
     signs: Mapping[str, int]
     """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
     Links with the sign 1 are omitted.
     """
     difference: Callable[[str, str], Fraction | None] | None = None
-    """Function that returns the difference of two links' speeds before axis signs are applied, or None if it depends on
-    free unknowns; given only if the train is free.
+    """Function that returns the difference of two links' speeds before axis signs are applied, or None if it is
+    undetermined; only given if the train is free.
     """
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
 
-        The relative speed can be determined although both links are free, if the difference of the speeds is in the row
-        space of the system.
+        The relative speed can be determined even if both links are free, namely if the difference of their speeds is in
+        the row space of the system.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.difference is None:
@@ -437,7 +439,8 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
     """Solve the train in one state exactly, by propagation if it reaches every link, else by reduction and elimination.
 
     signs    -1 for links whose axis is opposite to the reference direction; results refer to the declared directions
-    budget   maximum number of operations beyond linear work; `TooDenseError` if exceeded, None for no limit
+    budget   maximum number of operations in addition to linear work, beyond which `TooDenseError` is raised; None for
+             no limit
     """
     ratios = _speed_ratios(part, case, signs)
     # if all inputs are 0, only the rank shows whether a link can move
@@ -463,17 +466,17 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """Return the operation budget for one system: `budget` plus 30 operations for each equation, the cost of an
-    equation that is not coupled to others. None stays None.
+    """Return the maximum number of operations for one system: `budget` plus 30 for each equation, the cost of an
+    uncoupled equation; None if `budget` is None.
     """
     return None if budget is None else budget + 30 * len(reduced.equations)
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Eliminate exactly within a budget of operations. Raises `TooDenseError` immediately if the predicted fill-in
-    exceeds it.
+    """Eliminate exactly with at most `budget` operations. Raises `TooDenseError` immediately if the predicted fill-in
+    exceeds this number.
 
-    The prediction is the same elimination modulo a prime, with short numbers and its own limit.
+    The fill-in is predicted by the same elimination modulo a prime, with short numbers and a separate limit.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)
@@ -481,7 +484,7 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """Return only the verdict, by elimination modulo a prime, for systems too dense for rational elimination."""
+    """Return the verdict without speeds, by elimination modulo a prime, for systems too dense for exact numbers."""
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
@@ -496,7 +499,7 @@ def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, i
 
 
 def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) -> Verdict:
-    """Return the verdict that all speeds are determined; its text mentions a loop that locks a part of the train."""
+    """Return the verdict that all speeds are determined; its text mentions any loop that locks a part of the train."""
     parts = reduced.components if reduced else None
     loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
     text = f"every speed follows from {', '.join(case.inputs)}"
@@ -535,7 +538,12 @@ def _determined_speeds(
     determined = [
         link for link in index if known.issuperset(reduced.unknowns_of(index[link])) or speed(link) is not None
     ]
-    speeds = ItemwiseMapping(determined, lambda link: (speed(link) or _ZERO) * signs.get(link, 1), keep=False)
+
+    def about_own_axis(link: str) -> Fraction:
+        found = speed(link) or _ZERO
+        return -found if signs.get(link, 1) < 0 else found
+
+    speeds = ItemwiseMapping(determined, about_own_axis, keep=False)
     return speeds, [link for link in index if link not in speeds]
 
 

@@ -1,10 +1,11 @@
-"""Float64 speeds by sparse LU and iterative refinement with extra-precise residuals, and their error bounds.
+"""Float64 speeds by sparse LU factorisation and iterative refinement with extra-precise residuals, and their error
+bounds.
 
 The coefficients are integers, so that the residual of a float solution can be computed in twice the working precision
-by error-free products and sums. Refinement with it reduces the error of every component to one or two roundings
-(docs/accuracy.md), as long as the factors have any correct digit of the inverse. Beyond that no bound from the same
-factors is valid, and the solution is refused (Demmel, Hida, Kahan, Li, Mukherjee and Riedy, Error bounds from
-extra-precise iterative refinement, 2006).
+by error-free products and sums. Refinement with this residual reduces the error of every component to one or two
+roundings (docs/accuracy.md), provided that the factors give the inverse to at least one correct digit. Otherwise no
+bound computed from the factors is valid, and the solution is rejected (Demmel, Hida, Kahan, Li, Mukherjee and Riedy,
+Error bounds from extra-precise iterative refinement, 2006).
 """
 
 from __future__ import annotations
@@ -46,16 +47,17 @@ _LARGEST_EXPONENT = 400  # of two, of a speed: the squares of errors stay within
 
 @dataclass(frozen=True, slots=True)
 class FloatSpeeds(FrozenFields, Shown):
-    """Float64 speeds by sparse LU and iterative refinement, with an estimate of their error (docs/theory.md, 11).
+    """Float64 speeds by sparse LU factorisation and iterative refinement, with error estimates (docs/theory.md, 11).
 
-    `floats[link]` returns the speed of a link in the first case. Magnitudes of speeds are 0, or 1e-120 to 1e120.
+    `floats[link]` returns the speed of a link in the first case. Each speed is 0, or its magnitude is between 1e-120
+    and 1e120.
 
     Notes
     -----
-    The refinement step is equation (23) with its residual in twice the precision; the error estimate is (24). Every
-    speed is accurate to one or two roundings (docs/accuracy.md). The relative error of a speed is at most its condition
-    number times the largest residual (Oettli and Prager 1964). Higham, Accuracy and Stability of Numerical Algorithms,
-    chapter 7.
+    The refinement step is equation (23), with the residual computed in twice the working precision; the error estimate
+    is equation (24). Every speed is accurate to one or two roundings (docs/accuracy.md). The relative error of a speed
+    is at most its condition number times the largest residual (Oettli and Prager 1964; Higham, Accuracy and Stability
+    of Numerical Algorithms, chapter 7).
 
     Examples
     --------
@@ -68,14 +70,15 @@ class FloatSpeeds(FrozenFields, Shown):
     speeds: LabelledArray
     """Speeds with axes (link, case) [unit of the train]; a case is one set of input speeds."""
     estimate: LabelledArray
-    """Estimated absolute error of each speed, with axes and unit of `speeds`."""
+    """Estimated absolute error of each speed, with the axes and the unit of `speeds`."""
     residual: LabelledArray
     """Relative residual |b - A x| / (|A| |x|) of each row of the matrix, axes (row, case), computed in twice the
     working precision [1].
     """
     condition: Mapping[str, float]
     """Component-wise condition number cond(A, x) of the speed of each link in the first case, equation (25). It is 1 or
-    more, and infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400 links.
+    more, and infinite for a link at rest, whose relative error is undefined. The mapping is empty for trains of more
+    than 400 links.
     """
 
     def _summary(self) -> str:
@@ -89,7 +92,7 @@ class FloatSpeeds(FrozenFields, Shown):
 def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None) -> FloatSpeeds:
     """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs   input link -> speeds, one for each case, for every input of the system; all cases share one factorisation
+    inputs   input link -> speeds, one for each case, for every input; all cases use the same factorisation
 
     Raises `RangeError` if the system is not square and regular, or if a speed is not between 1e-120 and 1e120.
     """
@@ -121,8 +124,8 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
 
 
 def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spread: Floats) -> dict[str, float]:
-    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link; `spread` is its numerator, exact if
-    the inverse was computed.
+    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link; `spread` is its numerator, which is
+    exact if the inverse was computed.
     """
     if len(x) > _INVERTED:
         return {}
@@ -131,8 +134,8 @@ def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spre
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Return the solution after iterative refinement (23), which ends when a step is not smaller than half the last
-    step.
+    """Return the solution after iterative refinement (23), which ends at convergence, or if a step is more than half as
+    large as the previous one.
     """
     last = 1.0
     for _ in range(_STEPS):
@@ -151,8 +154,8 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
 def _error_bound(lu: Any, error: Floats) -> Floats:
     """Return the maximum change of each speed if the equations have errors of any sign: |A^-1| error.
 
-    For a single set of signs the effects of several errors may cancel. The inverse is computed column by column for
-    up to 400 links. For more links four times the root mean square over random signs and sizes is used.
+    For up to 400 links, the inverse is computed column by column. For more links, four times the root mean square over
+    errors with random signs and magnitudes is returned, because for a single set of signs several errors may cancel.
     """
     found = np.zeros_like(error)
     size, cases = error.shape
@@ -171,7 +174,7 @@ def _error_bound(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """Return the matrix for factorisation and its rows: as many independent rows as there are moving links.
+    """Return the matrix for factorisation and its rows, which are as many independent rows as there are moving links.
 
     Raises `RangeError` if the system is not square.
     """
@@ -227,7 +230,7 @@ def _rounded_right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequenc
 
 
 def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[WillisEquation]) -> None:
-    """Raise `RangeError` for a solution with overflow or underflow.
+    """Raise `RangeError` if the solution overflows or underflows.
 
     One mesh changes a speed by a factor of at most 1e12, so a speed that underflows to 0 has neighbours that are too
     small.
@@ -244,13 +247,13 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
 
 
 def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -> None:
-    """Raise `RangeError` if the factors may have no correct digit: if the bound on the spectral radius of |A^-1| |A|
-    exceeds 1 / (4 eps).
+    """Raise `RangeError` if the factors may have no correct digit. This is assumed if a bound on the spectral radius of
+    |A^-1| |A| exceeds 1 / (4 eps).
 
-    The radius is the condition number of the system in the best units for each link (Bauer 1963). For any positive v it
-    is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and power iteration from |x| lowers that bound. A
-    link that is at rest, or slow because large terms cancel, costs one iteration. If the factors are wrong themselves,
-    the bound stays at the limit.
+    The spectral radius is the condition number of the system if the units of speed are chosen optimally for each link
+    (Bauer 1963). For any positive vector v, it is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt); power
+    iteration from |x| lowers this bound. A link that is at rest, or slow because large terms cancel, requires one
+    iteration. If the factors are wrong, the bound remains above the limit.
 
     speeds   |x|
     spread   |A^-1| |A| |x|, computed with the factors
@@ -265,8 +268,8 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
 
 
 def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
-    """Return |A^-1| |A| v / v for the first v of a power iteration whose maximum, a bound of the spectral radius, is
-    below `limit`.
+    """Return |A^-1| |A| v / v for the first vector v of a power iteration for which the maximum, which bounds the
+    spectral radius, is below `limit`.
     """
     for _ in range(_ITERATIONS):
         condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)

@@ -1,4 +1,4 @@
-"""Mobility of a train by count and by exact rank, and the loops that cause the difference."""
+"""Mobility of a train by counting and by exact rank, and the loops that cause the difference."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from geartrain.numerics.results import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Mobility(Result):
-    """Mobility of a train by count and by exact rank, and the reasons why the two differ; docs/theory.md, (16),
-    (17), (20).
+    """Mobility of a train by counting and by exact rank, and the reasons for a difference: equations (16), (17) and
+    (20) of docs/theory.md.
 
     Examples
     --------
-    A closed loop of four wheels; one of its meshes is redundant:
+    In a closed loop of four wheels, one mesh is redundant:
 
     >>> import geartrain
     >>> found = geartrain.load("four-gear-loop").mobility
@@ -45,19 +45,19 @@ class Mobility(Result):
     links: int
     """Number of links, including the frame."""
     turning_pairs: int
-    """Number of turning pairs j_R."""
+    """Number of turning pairs, j_R."""
     gear_pairs: int
     """Number of gear pairs."""
     couplings: int
     """Number of equations of couplings, such as pins in slots; j_G is the sum of `gear_pairs` and `couplings`."""
     by_rank: int
-    """Mobility by rank, links - 1 - rank of all circuits; it is correct for every train."""
+    """Mobility by rank, which is links - 1 - (rank of the equations of all circuits). It is correct for every train."""
     redundant: int
-    """Number of redundant circuits, whose equations follow from the equations of other circuits."""
+    """Number of redundant circuits, whose equations follow from those of other circuits."""
     loops: tuple[Loop, ...]
     """Loops with ratio product 1, each of which has one redundant pair; at most 1000 are listed."""
     shared: tuple[str, ...]
-    """Links whose speeds in two components are equated by a redundant equation."""
+    """Links that occur in two components, if the equation that equates their two speeds is redundant."""
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; at most 1000 are listed."""
     still: tuple[str, ...]
@@ -76,8 +76,8 @@ class Mobility(Result):
 
     @property
     def by_count(self) -> int:
-        """Mobility by count: number of turning and sliding pairs minus number of gear pairs and couplings, j_R - j_G.
-        It is correct only if no pair is redundant.
+        """Mobility by counting: number of turning and sliding pairs minus number of gear pairs and couplings, j_R -
+        j_G. It is only correct if no pair is redundant.
         """
         return self.turning_pairs + self.sliding_pairs - self.gear_pairs - self.couplings
 
@@ -88,7 +88,7 @@ class Mobility(Result):
 
 
 def _idle_circuits(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Return the names of pairs in components whose unknown speed is always 0."""
+    """Return the names of the pairs in components whose unknown speed is always 0."""
     parts = reduced.components
     null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
     if not null:
@@ -115,7 +115,7 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
 def find_mobility(
     reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET, sliding_pairs: int = 0
 ) -> Mobility:
-    """Compute the mobility of the train, ignoring prescribed speeds, from the exact rank of its equations; see (16) and
+    """Compute the mobility of the train from the exact rank of its equations, ignoring prescribed speeds; see (16) and
     (17) of docs/theory.md.
     """
     parts = reduced.components

@@ -1,7 +1,7 @@
 """Executor for a dask cluster, through the `concurrent.futures` interface of its client.
 
-When a worker dies, dask gives its tasks to another one. This module adds error messages in the form of this package,
-and an error when no worker is left.
+If a worker dies, dask assigns its tasks to another one. This module adds error messages in the form of this package,
+and an error if no worker is left.
 """
 
 from __future__ import annotations
@@ -72,7 +72,8 @@ class DaskPool(WorkerPool):
     def deaths(self, error: Exception) -> int:
         """Return the number of workers that died when a task failed with this error.
 
-        Exceptions of the work itself are returned as results, so any other error of a future is caused by the cluster.
+        Exceptions raised by the work itself are returned as results, so any other error of a future is caused by the
+        cluster.
         """
         return _DEATHS if isinstance(error, distributed.scheduler.KilledWorker) else 1
 

@@ -1,6 +1,6 @@
-"""Stored results of a long run, with which an interrupted run can be resumed with the same result.
+"""Journal of a long run: stored results, from which an interrupted run can be resumed with the same result.
 
-A journal is a file of JSON lines to which lines are only appended. The first line has plain data that identify the
+A journal is a file of JSON lines to which lines are only appended. The first line contains plain data that identify the
 run, under the key `question`. Each further line is one finished task, in the order of completion:
 
     {"geartrain journal":1,"question":{...}}
@@ -36,13 +36,13 @@ _SYNC_INTERVAL = 1.0  # s between flushes to disk: a power failure loses at most
 class Journal:
     """Results of the tasks of a run, stored by task number in a file until the run is complete.
 
-    A journal is a context manager, which closes the file but keeps it for a later run. `len()` returns the number of
-    stored results. A journal needs 8 bytes of memory per task.
+    A journal is a context manager, which closes the file but does not remove it. `len()` returns the number of stored
+    results. A journal needs 8 bytes of memory per task.
 
     Parameters
     ----------
     path : path or str
-        Path of the file; it is created, or resumed if it contains the same `question`.
+        Path of the file; the file is created, or resumed if it contains the same `question`.
     question : mapping
         Plain data that identify the run: all data on which the tasks and their results depend.
     resume : bool
@@ -99,7 +99,7 @@ class Journal:
             raise _trouble(self.path, error) from None
 
     def _resumable_length(self, question: Any, resume: bool) -> int:
-        """Return the number of bytes of the file that can be resumed (0 if none can), and index the tasks in them."""
+        """Return the number of bytes of the file that can be resumed (0 if none), and index the tasks in them."""
         first = self._reader.readline(_MOST_HEADER_BYTES)
         # an incomplete first line: the run was killed while it wrote the header
         torn = not first.endswith(b"\n")
@@ -143,7 +143,7 @@ class Journal:
         task : int
             Number of the task, from 0.
         mark : str
-            Identifier of the task; `QuestionError` if another task was stored under the number.
+            Identifier of the task; `QuestionError` is raised if another task is stored under this number.
         """
         if task >= len(self._at) or self._at[task] < 0:
             return None
@@ -170,7 +170,7 @@ class Journal:
         return found[5].decode()
 
     def keep(self, task: int, mark: str, text: str) -> None:
-        """Store a result in the journal; raises `GearTrainError` if that fails.
+        """Store a result in the journal; raise `GearTrainError` if that fails.
 
         Parameters
         ----------
@@ -187,7 +187,8 @@ class Journal:
     def _write(self, line: bytes) -> int:
         """Append a line and return its position in the file.
 
-        The position is read from the file, because an interrupt can occur between a write and its record.
+        The position is read from the file, because an interrupt can occur after a line is written and before this is
+        recorded.
         """
         try:
             at = self._file.seek(0, os.SEEK_END)
@@ -220,7 +221,7 @@ class Journal:
             self._shut()
 
     def finish(self) -> None:
-        """Remove the file after the run is complete and its result is saved. Raises `GearTrainError`."""
+        """Remove the file after the run is complete and its result is saved. Raises `GearTrainError` if that fails."""
         self.close()
         try:
             self.path.unlink(missing_ok=True)
@@ -236,7 +237,7 @@ class Journal:
 
 @contextmanager
 def _only_writer(path: Path) -> Iterator[None]:
-    """Lock a journal for this process by a lock file; the lock always ends with the process."""
+    """Lock a journal for this process by a lock file. The lock is always released when the process ends."""
     from filelock import FileLock, Timeout
 
     lock = FileLock(f"{path}.lock", timeout=0, thread_local=False)
@@ -256,7 +257,7 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem to report if the data in a journal differ from `question`: it belongs to another run."""
+    """Return the problem that the data in a journal differ from `question`, so that it is from another run."""
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]
@@ -297,7 +298,7 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
 
 
 def _valid_line(line: bytes) -> re.Match[bytes] | None:
-    """Return the match of a line that is complete and has a correct checksum; else None."""
+    """Return the match of a line that is complete and has a correct checksum; None for any other line."""
     found = _LINE.fullmatch(line)
     return found if found is not None and int(found[1], 16) == crc32(found[2]) else None
 

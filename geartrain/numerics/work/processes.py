@@ -1,8 +1,8 @@
 """Worker processes on this machine.
 
-They are spawned, not forked. A fork copies locks that other threads hold (of numpy, of a progress bar), and a worker
-that waits for such a lock waits forever. Spawning works in the same way on all systems. Each worker imports its modules
-once.
+Processes are spawned, not forked. A fork copies locks that other threads hold (such as those of numpy or of a progress
+bar), and a worker that waits for such a lock waits forever. Spawning works in the same way on all systems. Each worker
+imports its modules once.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ _MOST = 61 if sys.platform == "win32" else 10_000  # processes: Windows cannot w
 
 
 class ProcessPool(WorkerPool):
-    """Up to `workers` processes, started when they are needed and replaced when one dies; `waits` has the same meaning
-    as in `WorkerPool`.
+    """Pool of up to `workers` processes, which are started on demand and replaced if they die. `waits` has the same
+    meaning as in `WorkerPool`.
 
-    The processes end with this process, also if it is killed. Each process has one end of a pipe (`leash`), and exits
-    when the other end is closed.
+    The processes end when this process ends, even if it is killed. Each process has one end of a pipe (`leash`), and
+    exits when the other end is closed.
     """
 
     def __init__(self, workers: int, waits: bool = False) -> None:
@@ -47,7 +47,7 @@ class ProcessPool(WorkerPool):
         return self._workers
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """Return True if the function can be pickled, False if not, as for local functions."""
+        """Return True if the function can be pickled; False for other functions, such as local ones."""
         try:
             pickle.dumps(work)
         except (AttributeError, TypeError, pickle.PicklingError):
@@ -55,7 +55,7 @@ class ProcessPool(WorkerPool):
         return True
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Submit a call, as `Executor.submit` does; a new pool is started after the death of a worker."""
+        """Submit a call, as `Executor.submit` does. A new pool is started if a worker has died."""
         if self._shut:
             raise RuntimeError("cannot schedule new futures after shutdown")
         try:
@@ -77,7 +77,7 @@ class ProcessPool(WorkerPool):
         return future
 
     def _discard_pool(self) -> None:
-        """Discard a broken pool and fail its futures: one that was submitted at that moment would never complete."""
+        """Discard a broken pool and fail its futures, because a future submitted then would never complete."""
         pool, self._pool = self._pool, None
         if pool is not None:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -85,7 +85,7 @@ class ProcessPool(WorkerPool):
             future.set_exception(BrokenExecutor("a worker process died"))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Stop the pool, as `Executor.shutdown` does; with `wait` all workers have ended on return."""
+        """Stop the pool, as `Executor.shutdown` does. If `wait` is True, all workers have ended on return."""
         if self._pool is not None:
             self._pool.shutdown(wait, cancel_futures=cancel_futures)
         self._shut = True
@@ -101,10 +101,10 @@ class ProcessPool(WorkerPool):
 
 
 def _ignore_late_failure(future: Future[Any]) -> None:
-    """Make a future that has ended ignore a later exception.
+    """Make a future that has already ended ignore a later exception.
 
-    When workers die, the pool's thread sets an exception on all of its futures. If one was cancelled or has failed just
-    before, that would end the thread with a traceback, and the other futures would never complete.
+    When workers die, the pool's thread sets an exception on all of its futures. If one of them was cancelled or failed
+    just before, this would end the thread with a traceback, and the other futures would never complete.
     """
     fail = future.set_exception
 
@@ -117,10 +117,10 @@ def _ignore_late_failure(future: Future[Any]) -> None:
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Start processes with SIGINT blocked, also before `_start_worker`; only the parent process handles Ctrl-C.
+    """Start processes in this context with SIGINT blocked, so that only the parent process handles Ctrl-C.
 
-    A process inherits the blocked signals of its parent. A signal in the meantime is delivered to the parent
-    afterwards.
+    A process inherits the blocked signals of its parent. A signal that arrives in this context is delivered to the
+    parent afterwards.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -133,7 +133,7 @@ def _interrupts_blocked() -> Iterator[None]:
 
 
 def _start_worker(leash: Connection) -> None:
-    """Prepare a new worker: ignore SIGINT, and watch the pipe to the parent process."""
+    """Prepare a new worker: SIGINT is ignored, and the pipe to the parent process is watched."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_watch_leash, args=(leash,), daemon=True).start()
 

@@ -1,18 +1,20 @@
-"""Ordered results of independent tasks, the same for every executor, even if workers die.
+"""Ordered results of independent tasks, which are the same for every executor, even if workers die.
 
-Results are converted to JSON text in the process that computes them, so that they are the same from this process,
-another process, another machine or a journal: tuples become lists and keys become strings.
+Results are converted to JSON text in the process that computes them, so that they do not depend on whether they come
+from this process, another process, another machine or a journal: tuples become lists and keys become strings.
 """
 
 from __future__ import annotations
 
 import json
+import os
 import pickle
+import sys
 import traceback
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sized
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from queue import Empty, SimpleQueue
@@ -20,11 +22,10 @@ from time import monotonic
 from typing import Any
 from zlib import crc32
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.work.executors import cores
 from geartrain.numerics.work.journal import Journal
-from geartrain.numerics.work.worker_pool import WorkerPool
+from geartrain.numerics.work.worker_pool import Announcement, WorkerPool
 
 TaskFunction = Callable[[Any], Any]
 ProgressReport = Callable[[int, int], None]
@@ -55,13 +56,12 @@ def run(
         Function at the top level of a module, so that other processes can import it. Its results are plain JSON data
         and depend only on the task.
     tasks : iterable
-        Any number of tasks, which are read when needed. At most 64 results per worker are stored while an earlier
-        result is missing.
+        Any number of tasks, which are read on demand. At most 64 results per worker are stored while an earlier result
+        is missing.
     executor : concurrent.futures.Executor, optional
-        Any executor; by default tasks run in this process. An executor from `open_executor` survives the death of its
-        workers.
+        Any executor; by default tasks run in this process. An executor from `open_executor` continues if workers die.
     journal : Journal, optional
-        Stored results, which are not computed again; new results are added.
+        Journal of stored results, which are not computed again; new results are added.
     tell : callable, optional
         Progress function, called with (tasks done, total number of tasks) at most ten times a second and at the end.
         The total is 0 if `tasks` has no length.
@@ -69,7 +69,7 @@ def run(
     Yields
     ------
     plain data
-        Results as read from JSON: tuples become lists, and keys become strings.
+        Results in the form read from JSON: tuples become lists, and keys become strings.
 
     Raises
     ------
@@ -105,17 +105,17 @@ class Execution:
     journal: Journal | None = None
     """Journal of finished results, with which a run can be resumed."""
     tell: ProgressReport | None = None
-    """Progress function, called with (tasks done, total number), at most ten times a second and at the end."""
+    """Progress function, called with (tasks done, total number of tasks), at most ten times a second and at the end."""
 
     def run(self, work: Callable[[Any], Any], tasks: Iterable[Any]) -> Iterator[Any]:
-        """Yield results in the order of the tasks, as `geartrain.numerics.run` does.
+        """Yield the results in the order of the tasks, as `geartrain.numerics.run` does.
 
         Parameters
         ----------
         work : callable
             Function at the top level of a module.
         tasks : iterable
-            Arguments of the function, one per call.
+            Tasks, each of which is the argument of one call.
         """
         return run(work, tasks, self.executor, self.journal, self.tell)
 
@@ -135,7 +135,7 @@ def _run_here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None,
 
 
 class _Progress:
-    """Counter of finished tasks, which limits the rate of progress reports."""
+    """Counter of finished tasks that limits the rate of progress reports."""
 
     def __init__(self, tell: ProgressReport | None, total: int) -> None:
         self.tell, self.total, self.done = tell, total, 0
@@ -143,7 +143,7 @@ class _Progress:
         self._at = -_REPORT_INTERVAL
 
     def step(self, count: int = 1) -> None:
-        """Count further tasks as done, and report if the last report is old enough."""
+        """Count further tasks as done, and report the progress if enough time has passed since the last report."""
         self.done += count
         if self.tell and (monotonic() - self._at >= _REPORT_INTERVAL or self.done == self.total):
             self._report(self.tell)
@@ -168,7 +168,7 @@ class _Submission:
 
 
 class _Run:
-    """Run of tasks by an executor. Futures report to a queue when they end; only this thread reads the queue."""
+    """Run of tasks by an executor. Futures that end are put in a queue, which only this thread reads."""
 
     def __init__(
         self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Progress
@@ -201,7 +201,7 @@ class _Run:
             self._cancel()
 
     def _first_results(self) -> Iterator[Any]:
-        """Yield the first results, computed in this process until the start of workers is worthwhile."""
+        """Yield the first results, computed in this process until starting workers is worthwhile."""
         done, spent = 0, 0.0
         while not self.exhausted:
             submission = self._next_task()
@@ -225,8 +225,8 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Submit as many tasks as the limits allow; a task during which a worker died runs without others, so that the
-        faulty task is identified.
+        """Submit as many tasks as the limits allow. A task during which a worker died is run without others, so that a
+        task that kills workers is identified.
         """
         if any(each.deaths for each in self.pending.values()):
             return
@@ -242,7 +242,7 @@ class _Run:
             self._submit(submission)
 
     def _next_task(self) -> _Submission | None:
-        """Return the next task that is not in the journal; None if no task may be submitted now, or none is left."""
+        """Return the next task that is not in the journal; None if no task may be submitted now, or if none is left."""
         for index, task in self.tasks:
             self.issued = index + 1
             mark = mark_of(task) if self.journal is not None else ""
@@ -311,7 +311,7 @@ class _Run:
         self.again.append(submission)
 
     def _cancel(self) -> None:
-        """Cancel all pending tasks and store results that finished in the meantime."""
+        """Cancel all pending tasks, and store the results of tasks that finished in the meantime."""
         for future in self.pending:
             future.cancel()
         for future, submission in self.pending.items():
@@ -348,14 +348,14 @@ class RemoteFailure:
     trace: str
     """Traceback in the worker, as text."""
     kind: type[GearTrainError] | None = None
-    """Class of the exception if it is a `GearTrainError`, else None."""
+    """Class of the exception if it is a `GearTrainError`; None for other exceptions."""
     problems: tuple[Problem, ...] = ()
     """Problems of the exception if it is a `GearTrainError`; empty for other exceptions."""
     pickled: bytes = b""
     """Pickled form of any other exception; empty if it cannot be pickled without loss."""
 
     def error(self) -> Exception:
-        """Return the exception, with the traceback of its worker as a note."""
+        """Return the exception, with the worker's traceback as a note."""
         error = self._again()
         error.add_note(f"raised in a worker:\n{self.trace}")
         return error
@@ -413,3 +413,88 @@ def _fraction(value: Any) -> str:
     if isinstance(value, Fraction):
         return fraction_text(value)
     raise TypeError
+
+
+def cores() -> int:
+    """Return the number of processor cores that this process may use according to its affinity; at least 1."""
+    if hasattr(os, "process_cpu_count"):  # Python 3.13
+        return os.process_cpu_count() or 1
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0)) or 1
+    return os.cpu_count() or 1
+
+
+@contextmanager
+def open_executor(
+    workers: int | None = None, dask: str | None = None, announce: Announcement | None = None
+) -> Iterator[Executor | None]:
+    """Return a context manager that yields an executor for `run`, or None if the tasks run in this process.
+
+    All running work is ended when the context is left.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Number of processes on this machine, 1 or more; they are started with the first task. The default is the number
+        of cores available to this process. By default, processes are started only if the work is not nearly finished
+        after one second in this process.
+    dask : str, optional
+        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers run the tasks. It requires the extra
+        `dask`, and the same version of geartrain on the cluster.
+    announce : callable, optional
+        Function that is called once with (tasks, workers) when other processes begin to work.
+
+    Yields
+    ------
+    concurrent.futures.Executor or None
+        Executor for `run` and `Execution`; it continues if workers die.
+
+    Raises
+    ------
+    QuestionError
+        If both `workers` and `dask` are given, or if `workers` is below 1.
+    MissingExtraError
+        If `dask` is given and the extra `dask` is not installed.
+    GearTrainError
+        If the cluster does not respond or cannot work.
+
+    Examples
+    --------
+    >>> from geartrain.numerics import run
+    >>> with open_executor(workers=1) as executor:
+    ...     list(run(abs, [-1, 2], executor))
+    [1, 2]
+    """
+    pool = _pool(workers, dask)
+    if pool is not None:
+        pool.announce = announce
+    try:
+        yield pool
+    finally:
+        if pool is not None:
+            pool.dismiss()
+
+
+def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
+    if workers is not None and dask is not None:
+        why = "the number of workers of a cluster is set when it is started"
+        raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give only one of them"))
+    if workers is not None and workers < 1:
+        what = f"the number of workers is {workers}"
+        raise QuestionError(Problem(what, "a run has at least one worker", "give 1 or more"))
+    if dask is not None:
+        from geartrain.numerics.work.cluster import DaskPool
+
+        return DaskPool(dask)
+    count = _default_count() if workers is None else workers
+    if count == 1:
+        return None
+    from geartrain.numerics.work.processes import ProcessPool
+
+    return ProcessPool(count, waits=workers is None)
+
+
+def _default_count() -> int:
+    """Return the number of available cores; 1 in a worker of `multiprocessing.Pool`, which must not start processes."""
+    started = sys.modules.get("multiprocessing.process")
+    return 1 if started is not None and started.current_process().daemon else cores()

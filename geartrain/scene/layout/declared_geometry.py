@@ -17,8 +17,8 @@ from geartrain.kinematics.circuits.joint_tree import Axes
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
+from geartrain.train.declaration import wheel_thickness
 from geartrain.train.outputs import looks_away
-from geartrain.train.wheel_stock import wheel_thickness
 
 if TYPE_CHECKING:
     from geartrain.teeth.coupling import Coupling
@@ -45,7 +45,7 @@ class AxisLine:
     bearers: tuple[str, ...]
     """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
-    """Axes about which the links in `bearers` turn, in the same order; the frame has none."""
+    """Axes about which the links in `bearers` turn, in the same order; the frame has no axis."""
     given: Vector | None
     """Declared point of the axis [mm]; None if no position is declared."""
 
@@ -142,9 +142,7 @@ class PitchContact:
 
 @dataclass(frozen=True, slots=True)
 class CouplingTie:
-    """Coupling of two axes: driver and driven link, their axes, and the distance between the axes [mm] if it is
-    declared.
-    """
+    """Coupling of two axes: driver and driven link, their axes, and the distance between axes [mm] if declared."""
 
     links: tuple[str, str]
     axes: tuple[str, str]
@@ -152,7 +150,7 @@ class CouplingTie:
     encloses: bool
     """True if a pin's circle encloses the slot's axis, so that the two axes are close together."""
     wish: float | None = None
-    """Preferred distance [mm] if nothing determines the distance; None without a preference."""
+    """Preferred distance [mm] if nothing determines the distance; None if any distance is suitable."""
 
     @property
     def axis_pair(self) -> tuple[str, str]:
@@ -161,8 +159,8 @@ class CouplingTie:
 
 
 class DialEnds(NamedTuple):
-    """Numbers of hands, one above the other, at the low and the high end of an arbor: 0 if that end is not extended to
-    a dial, 1 if it is, and 2 if its hand passes over the hand of a dial inside its dial.
+    """Numbers of hands, one above the other, at the low and the high end of an arbor. A number is 0 if that end does
+    not extend to a dial, 1 if it does, and 2 if its hand passes over the hand of a dial inside its dial.
     """
 
     low: int = 0
@@ -180,7 +178,7 @@ class DeclaredGeometry:
     ties: tuple[CouplingTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
     thickness: Mapping[str, float]
-    """Declared thickness by wheel [mm], for wheels with a declared thickness."""
+    """Declared thickness [mm] of each wheel for which one is declared."""
     strays: tuple[tuple[str, str, str], ...]
     """Wheels that a gear pair requires on a different axis than earlier pairs do: wheel, pair and axis."""
     front: int
@@ -188,7 +186,7 @@ class DeclaredGeometry:
     dial_ends: Mapping[str, DialEnds]
     """Link -> ends of its arbor that extend to a dial."""
     driven: str | None
-    """Axis of the first input, which is at the origin if no position is declared; None without inputs."""
+    """Axis of the first input, which is at the origin if no position is declared; None if the train has no input."""
     discs: Mapping[str, float]
     """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
     belts: tuple[Mapping[str, float], ...] = ()
@@ -323,8 +321,8 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return by pair the declared centre distance divided by that of touching pitch circles; ratios of 1 are
-    omitted.
+    """Return the declared centre distance of each pair divided by the distance at which pitch circles touch; ratios of
+    1 are omitted.
     """
     try:
         sizes = find_sizes(train.meshes)
@@ -393,7 +391,8 @@ def _contact(
 def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:
     """Return `worm_sense` of a worm gear pair (1 or -1) from the signs of its equation.
 
-    It cannot be derived from circumferential velocities: those of worm and wheel are not parallel at the pitch point.
+    It cannot be derived from circumferential velocities: the velocities of worm and wheel are not parallel at the pitch
+    point.
     """
     flip = 1
     for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
@@ -407,7 +406,9 @@ _BELT = 1.25  # distance of pulleys divided by the largest diameter
 
 
 def _preferred_distance(coupling: Coupling) -> float | None:
-    """Return the distance of the axes of a coupling [mm] if no positions are declared; None without a preference."""
+    """Return the preferred distance of the axes of a coupling [mm] if no positions are declared; None if any distance
+    is suitable.
+    """
     around = getattr(coupling, "around", None)
     if isinstance(around, Mapping):
         return _BELT * float(max(millimetres(diameter) for diameter in around.values()))

@@ -118,8 +118,8 @@ class _BlockBuilder:
     """Builder of the blocks of one group of parallel axes.
 
     crossing   pairs with one wheel on an axis of the group, from the side of this wheel
-    met        crossing axis -> point in plan from which its height is counted: its given point, or that of its first
-               pair
+    met        crossing axis -> point in plan from which its height is counted: its given point, or the point of its
+               first pair
     number     numbers of stacks, in the order of their first use
     """
 
@@ -186,7 +186,7 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan, relative to that at its reference point [mm]."""
+        """Return the height of a crossing axis at a point in plan above its height at its reference point [mm]."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
@@ -210,9 +210,7 @@ class _BlockBuilder:
                     self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of a crossing mate: its strip in plan, or the whole area that it sweeps if a carrier moves
-        it.
-        """
+        """Return the block of a crossing mate: its strip in plan, or the whole area that it sweeps on a carrier."""
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
@@ -275,8 +273,8 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
     """Return the slots of one group of wheels; empty if no assignment exists, or if the search limit is reached.
 
-    Iterative deepening: the first success of a depth-first search has the minimum number of slots. It has an explicit
-    stack, because a chain of meshes may exceed Python's recursion limit.
+    The method is iterative deepening: the first success of a depth-first search has the minimum number of slots. The
+    search has an explicit stack, because a chain of meshes may exceed Python's recursion limit.
     """
     tries = 0
     # one slot is not sufficient, because some wheels clash

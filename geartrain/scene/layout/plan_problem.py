@@ -118,8 +118,8 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that intersect a common axis, except in worm gears, with the direction of the line through
-    both.
+    """Yield pairs of axes that intersect a common axis, except in worm gears, with the direction of their
+    common line.
     """
     met: dict[str, list[str]] = {}
     for each in crossing:

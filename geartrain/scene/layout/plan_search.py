@@ -130,7 +130,7 @@ class DistanceBound(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """Step of the search: the axis to be placed, by index, and the placed axes that restrict its position."""
+    """Step of the search, with the index of the axis to be placed and the placed axes that restrict its position."""
 
     axis: int
     placed: Indices
@@ -232,7 +232,8 @@ class PlanOrder:
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Return bounds from the shortest paths to placed axes over axes that are not placed yet.
+        """Return bounds on the distances of an axis from placed axes, given by the shortest paths over axes that are
+        not placed yet.
 
         The ends of a chain of bars are at most the length of the chain apart, and at least its longest bar minus the
         rest.
@@ -335,7 +336,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return points in plan of all axes [mm] at the required distances, or fitted to them; the result is
+    """Return points in plan of all axes [mm] at the required distances or fitted to them; the result is
     deterministic.
     """
     return _BeamSearch(problem).found()
@@ -424,8 +425,8 @@ class _BeamSearch:
         return []
 
     def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return the point of an axis in a group of planets that is placed as the first equal group, rotated about the
-        axis of the carrier; empty for other axes.
+        """Return the point of an axis in a group of planets that is placed like the first equal group, but rotated
+        about the axis of the carrier; empty for other axes.
         """
         first, turn = self.order.rotated.get(step.axis, (None, 0.0))
         placed = set(step.placed.tolist())
@@ -437,7 +438,7 @@ class _BeamSearch:
         return [(x + c * u - s * v, y + s * u + c * v)]
 
     def _outside(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points outside all placed axes, in eight directions; the origin if no axis is placed."""
+        """Return points outside all placed axes in eight directions, or the origin if no axis is placed."""
         if not len(step.placed):
             return [(0.0, 0.0)]
         radius = self.order.radius

@@ -121,7 +121,7 @@ class WheelBlock:
     across: bool = False
     """True for a wheel of an axis that crosses this group, which meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
-    """Ends of the trace in plan of a crossing wheel that does not move, with half width `outer`; otherwise None."""
+    """Ends of the trace in plan of a fixed crossing wheel, whose half width is `outer`; None for other wheels."""
 
 
 def find_plan_overlap(

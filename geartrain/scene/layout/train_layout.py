@@ -119,7 +119,7 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
 
 
 def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
-    """Yield notices on dials whose pointers turn about another point than the declared centre."""
+    """Yield notices on dials whose pointers turn about a point other than the declared centre."""
     declared = found.geometry.declared
     for name, axis, centre in declared.centres:
         off = size(across(minus(found.points[axis], centre), declared.lines[axis].direction))
@@ -196,8 +196,8 @@ def align_meshes(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the angles at which wheels mesh, and phase errors.
 
-    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors [pitches] are those
-    of pairs that close a loop and do not mesh.
+    The angles give the first tooth of each wheel (rad, from 0 to a pitch). The phase errors [pitches] are given for
+    pairs that close a loop and do not mesh.
     """
     sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1
     angle: dict[tuple[str, str], float] = {}  # angle of the pitch point of a pair about the axis of its wheel
@@ -264,7 +264,9 @@ class AxisPlace(Shown):
     direction: Vector
     """Declared unit vector of the axis, about which positive speeds of its links are counted."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from meshing wheels or a pin, or `free` (chosen)."""
+    """Origin of the position: `given` in the declaration, `found` from meshing wheels or a pin, or chosen freely
+    (`free`).
+    """
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
 
@@ -289,7 +291,7 @@ class WheelPlace(Shown):
     radius: float
     """Pitch radius [mm]; for a bevel wheel, at the large end."""
     module: float
-    """Transverse module [mm], the pitch diameter divided by the tooth count; axial module of a worm."""
+    """Transverse module [mm], the pitch diameter divided by the tooth count; for a worm, the axial module."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     given: bool = False
@@ -297,7 +299,7 @@ class WheelPlace(Shown):
     cone: float = 0.0
     """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
-    """Side of the axis, along its direction, towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
+    """Side of the axis towards which the pitch cone opens: 1 in the axis direction, -1 against it, 0 for a cylinder."""
     layer: int | None = 0
     """Index of the level, from 0 for the lowest along the main axes; None for wheels on other axes."""
     turn: float = 0.0
@@ -454,9 +456,7 @@ def _coned_seats(found: Arrangement) -> dict[str, Seat]:
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Return the level indices of the wheels on the main axes, from the lowest; a broad wheel counts at its lowest
-    slot.
-    """
+    """Return the level indices of the wheels on the main axes, from the lowest; a broad wheel has its lowest level."""
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

@@ -2,12 +2,12 @@
 
 Wheels that mesh share a module, so each cluster of meshing wheels has one module. Two pairs between the same two axes
 force the ratio of the modules of their clusters. These ratios are stored in a weighted union-find structure as exact
-fractions. The scale of a group of clusters is a declared module, else a least squares fit of declared distances, else
-the median of all known modules.
+fractions. The scale of a group of clusters is a declared module; if there is none, a least squares fit of declared
+distances, or the median of all known modules.
 
 Free modules are changed until every closed chain of axes can close. A chain closes if none of its distances is longer
-than the sum of the rest (polygon inequality). Relaxation: each distance that is longer than the shortest path between
-its ends is shortened, or that path is lengthened, repeatedly.
+than the sum of the rest (polygon inequality). The method is relaxation: each distance that is longer than the shortest
+path between its ends is shortened, or that path is lengthened, repeatedly.
 
 `SizedGeometry` is the input of all placements: the declared geometry with modules, sizes of wheels, and seats of
 pairs whose axes are not parallel.
@@ -69,8 +69,8 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten each distance that is longer than the path round it, or lengthen that path, in place; return True if
-    changed.
+    """Shorten a distance that is longer than the path round it, or lengthen that path, in place; return True after a
+    change.
     """
     one = distances[at]
     way = _way_round(distances, at, modules)
@@ -97,9 +97,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """Return the nearest fraction with a denominator up to 1000, so that modules have simple values; the result may be
-    0.
-    """
+    """Return the nearest fraction with a denominator up to 1000, to keep module values simple; the result may be 0."""
     return Fraction(factor).limit_denominator(1000)
 
 
@@ -138,7 +136,7 @@ class WheelModules:
     """Wheel -> module [mm]."""
     declared: frozenset[str]
     distances: Mapping[tuple[str, str], float]
-    """Pair of axes -> required distance [mm]: the declared offset of a pin, otherwise the mean distance of its gear
+    """Pair of axes -> required distance [mm]: a pin's declared offset, otherwise the mean distance of the gear
     pairs.
     """
 
@@ -158,7 +156,7 @@ class _ModuleSearch:
     cluster   number of the cluster of each wheel
     between   gear pairs with parallel axes and worm gear pairs, by their axes
     own       declared modules by wheel
-    given     declared module by cluster: that of its first wheel with a declared module
+    given     declared module by cluster: the module of its first wheel with a declared module
     """
 
     def __init__(self, geometry: DeclaredGeometry) -> None:
@@ -196,9 +194,7 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root (reference cluster) of each cluster, and the module of the cluster divided by the module of that
-        root.
-        """
+        """Root (reference cluster) of each cluster, and the cluster's module divided by the module of the root."""
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -227,8 +223,8 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return the modules of the reference clusters (roots), as declared, otherwise fitted by least squares to
-        declared positions and offsets.
+        """Return the modules of the reference clusters (roots) that are declared, or follow from declared positions and
+        offsets by a least squares fit.
 
         For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.
         """
@@ -250,7 +246,9 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes [mm] from their declared points, or from a pin's declared offset, or None."""
+        """Return the distance of two axes [mm] from their declared points or from a pin's declared offset; None if
+        neither is declared.
+        """
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -300,8 +298,8 @@ class Seat:
     """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
-    """Distance along the wheel's axis from the point where the axes intersect, or are nearest, to the wheel's centre
-    [mm].
+    """Distance along the wheel's axis from the intersection of the axes, or nearest point, to the wheel's
+    centre [mm].
     """
     cone: float
     """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""
@@ -350,8 +348,7 @@ def opposite(v: Vector) -> Vector:
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
     """Return the unit vector from a worm's axis to its wheel's axis.
 
-    If no positions are declared, it is the cross product of the direction of the wheel's axis and that of the worm's
-    axis.
+    If no positions are declared, it is the cross product of the directions of the wheel's axis and the worm's axis.
     """
     worm, wheel = (geometry.lines[axis] for axis in contact.axes)
     way = unit(cross(wheel.direction, worm.direction))
@@ -386,7 +383,7 @@ class WheelSize:
 
     @property
     def foot(self) -> float:
-        """Distance of the middle of the wheel above the middle of a wheel in the lowest of its slots [mm]."""
+        """Height of the middle of the wheel above the middle of the lowest slot that it occupies [mm]."""
         return (self.thickness - self.plain) / 2
 
 

@@ -19,7 +19,8 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the size of a bevel wheel's teeth at the small end divided by its size at the large end, from 0.55 to 1.
+    """Return the tooth size of a bevel wheel at the small end divided by the tooth size at the large end, from 0.55 to
+    1.
 
     cone        half angle of its pitch cone [rad], above 0; a right angle for a crown wheel
     radius      pitch radius at the large end [mm]
@@ -49,7 +50,7 @@ def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> f
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the extents of `reach` [mm] with the standard tooth heights of a module, for wheels of unknown teeth."""
+    """Return the extents of `reach` [mm] with the standard tooth heights of a module, for wheels with unknown teeth."""
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 

@@ -44,7 +44,7 @@ class StackProblem:
     clash: Flags
     """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
     pierce: Flags
-    """Mask, shape (links and pins, blocks), of the wheels that each arbor or pin would pass through at their height."""
+    """Mask of the wheels that an arbor or pin would pass through at equal height, shape (links and pins, blocks)."""
     arbors: Sequence[str]
     """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]
@@ -52,7 +52,9 @@ class StackProblem:
     plates: Mapping[str, str]
     """Arbor -> wheel of a carrier that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Wheel with a pin and wheel with its slot, in the order of the rows of `pierce` after the rows of arbors."""
+    """Pairs of a wheel with a pin and the wheel with its slot, in the order of the rows of `pierce` after the
+    arbors.
+    """
     still: str = ""
     """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
 
@@ -63,8 +65,8 @@ class StackProblem:
 
 
 class _OrderSearch:
-    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and equal keys
-    are one level.
+    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and stacks with
+    equal keys share a level.
 
     clash     stacks that must not share a level, by stack
     carried   stacks of each arbor, and of the wheel that carries its axis
@@ -156,7 +158,9 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to its cheapest position, in a level (integer key) or between levels (half-integer key)."""
+        """Move one stack to its cheapest position, which is a level (integer key) or between two levels (half-integer
+        key).
+        """
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -225,8 +229,8 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) for each ordered pair of coaxial arbors: the first arbor with every stack of the second
-        arbor.
+        """Rows (arbor, stack) that combine, for each ordered pair of coaxial arbors, the first arbor with every stack
+        of the second arbor.
 
         The arrays are the arbors and the stacks of all rows, and the index of the first row of each pair.
         """
@@ -272,7 +276,7 @@ class _OrderSearch:
 
     @cached_property
     def _dial_arbors(self) -> tuple[Indices, Indices]:
-        """Arbors that extend beyond the low end of the stack, and beyond the high end."""
+        """Arbors that extend beyond the low end of the stack, and arbors that extend beyond its high end."""
         ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
         ends += [DialEnds()] * len(self.problem.pins)
         low, high = np.array(ends, bool).reshape(-1, 2).T
@@ -298,9 +302,7 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run of levels moved or
-    reversed.
-    """
+    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with a run of levels moved or reversed."""
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -403,7 +405,7 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, which share a
+        """Yield arbors with the wheels through which they pass, except a pin's and its slot's arbors, which share a
         stud.
         """
         tied = {frozenset(pair) for pair in self.problem.pins}

@@ -51,7 +51,7 @@ class FramePlaces:
 
 @dataclass(frozen=True, slots=True)
 class ColumnMember:
-    """Arbor or pipe of a column: its link, its ends, and its inside (0 if solid) and outside diameter [mm]."""
+    """Arbor or pipe of a column, with its link, its ends, and its inside (0 if solid) and outside diameter [mm]."""
 
     link: str
     low: float
@@ -82,8 +82,8 @@ class AxisColumn:
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other; None if all links can be nested."""
     on: str = ""
-    """Axis of the stud on whose end this stud is turned, otherwise empty; `topped` marks the lower one of two such
-    studs.
+    """Axis of the stud from whose end this stud projects, in one piece with it; otherwise empty. `topped` marks the
+    lower one of two such studs.
     """
     topped: bool = False
 
@@ -105,7 +105,7 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """Input for the choice of the arbor, pipes and studs of one axis: its discs, discs of other axes, and ends at
+    """Input for the choice of the arbor, pipes and studs of one axis: its discs, other axes' discs, and ends at
     dials.
     """
 
@@ -114,7 +114,7 @@ class ColumnProblem:
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[int, int]]
-    """Link -> (below, above): number of hands one above the other at each end of the link's arbor; 0 if the end does
+    """Link -> (below, above): number of hands, one above the other, at each end of the link's arbor; 0 if that end does
     not extend beyond the stack.
     """
     span: tuple[float, float]
@@ -130,7 +130,7 @@ class ColumnProblem:
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes, each with its gap to the middle of this axis [mm]; it does not depend on the plates'
+        """Discs of other axes, each with its gap to the middle of this axis [mm], which does not depend on plate
         positions.
         """
         return beside(self.axis, self.at, self.others)
@@ -141,8 +141,8 @@ class ColumnProblem:
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Return the column (arbor and pipes) with a single bearing, in a bridge, and a collar on either side of the
-        bridge.
+        """Return the column (arbor and pipes) with a single bearing in a bridge, and with a collar on either side of
+        the bridge.
         """
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
@@ -183,8 +183,8 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return the pieces from the innermost outwards, and two links of which neither fits into the other, or
-        None.
+        """Return the pieces from the innermost outwards, and two links of which neither fits into the other; None if
+        all links fit.
         """
         if not self._fixed_discs:
             return self._turning_order
@@ -236,8 +236,8 @@ class ColumnProblem:
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
     def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Yield possible pieces that hold the fixed wheels: one piece for all, or two, of which one is next to its
-        plate.
+        """Yield possible pieces that hold the fixed wheels: one piece for all wheels, or two pieces, one of which is
+        next to its plate.
 
         hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that
         plate
@@ -286,7 +286,9 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core [mm], as given, or such that every pipe fits into its smallest wheel."""
+        """Return the diameter of the core [mm]: the given diameter, or a diameter such that every pipe fits into its
+        smallest wheel.
+        """
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
@@ -353,7 +355,7 @@ class CoaxialLink:
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on the piece; `ends` (below, above) is True for each end that extends beyond the stack."""
+    """Discs on the piece; the entries of `ends` (below, above) are True for ends that extend beyond the stack."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:

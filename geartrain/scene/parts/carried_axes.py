@@ -68,8 +68,8 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return the seat on a plate in a gap of the stack, at a given height; its faces are nominal until heights are
-    known.
+    """Return the seat on a plate in a gap of the stack, at a given height; its faces are nominal until heights
+    are set.
     """
     disc = replace(disc, low=height - _THIN, high=height + _THIN)
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))

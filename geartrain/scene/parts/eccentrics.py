@@ -152,7 +152,9 @@ class Eccentric:
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """Yield a washer on each side of the wheels, on the same arbor; none for a flexible wheel, which has a wall."""
+        """Yield a washer on each side of the wheels, on the same arbor; yield nothing for a flexible wheel, which has a
+        wall.
+        """
         if self.wave is not None:
             return
         radius = max(self.radius, self.wall + _OVER)
@@ -179,9 +181,7 @@ def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
 
 
 def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
-    """Return the problem that an eccentric is too thin for an arbor of the diameter `arbor` [mm]; None if it is thick
-    enough.
-    """
+    """Return the problem of an eccentric that is too thin for an arbor of the diameter `arbor` [mm], or None."""
     beside = eccentric.wall - arbor / 2
     if beside >= _THIN:
         return None

@@ -1,7 +1,7 @@
 """Plan of plates, pillars, arbors, pipes and studs of a train, with their positions in the stack.
 
 The two plates of the frame, and the plates of carriers, are tried in every gap between levels. For each axis the best
-bearing is selected, and the obstacles are counted. Of the positions with the fewest obstacles, the position with the
+bearing is selected, and the obstacles are counted. Among the positions with the fewest obstacles, the position with the
 lowest cost of studs and of arbors that pass through a plate is selected.
 
 Plates of shafts are arms, which bypass obstacles, and flanges for clutches. Heights of wheels as laid out become
@@ -178,7 +178,7 @@ class FramePlan:
     core: float | None
     """Diameter of all arbors [mm]; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[int, int]]
-    """Link -> (below, above): number of hands one above the other at each end of the link's arbor; 0 if the end does
+    """Link -> (below, above): number of hands, one above the other, at each end of the link's arbor; 0 if that end does
     not extend to a dial.
     """
 
@@ -199,8 +199,7 @@ class FramePlan:
 
     @cached_property
     def choice(self) -> PlateChoice:
-        """Positions of the plates with the fewest obstacles, and of equal positions the one with the lowest cost of
-        studs.
+        """Positions of the plates with the fewest obstacles; ties are broken in favour of the lowest cost of studs.
 
         If the arbor of a link cannot be nested and extends to a dial, the link gets an arm, connected to it by a bar,
         provided that this leaves fewer obstacles.
@@ -226,9 +225,7 @@ class FramePlan:
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Return the diameters of the arbor and the pivots of an axis [mm], as requested or as declared for its
-        link.
-        """
+        """Return the diameters of the arbor and the pivots of an axis [mm], as requested or declared for its link."""
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
@@ -329,7 +326,7 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if the plates cannot support the
+        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if no plate can support the
         axis.
         """
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
@@ -364,7 +361,7 @@ class FramePlan:
 
     @property
     def bridged_plate(self) -> tuple[float, float]:
-        """Faces of the plate to which the bridge is fixed."""
+        """Heights of the faces of the plate to which the bridge is fixed [mm]."""
         above = self.bridge is not None and self.bridge > self.places.front
         return self.places.front if above else self.places.back
 
@@ -544,9 +541,7 @@ class StackHeights:
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return the heights as built: plates are inserted between slabs of wheels, and the lowest slab stays in its
-    place.
-    """
+    """Return the heights as built: plates are inserted between slabs of wheels, and the lowest slab stays in place."""
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [

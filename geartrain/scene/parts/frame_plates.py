@@ -63,9 +63,7 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield at least six holes in a wide wave generator between its lobes, around a central hole of diameter `bore`
-    [mm].
-    """
+    """Yield six or more holes in a wide wave generator between its lobes, around a hole of the diameter `bore` [mm]."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -221,8 +219,8 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes, except that of the hub, in a wheel or plate that carries axes: for studs, posts, pins and
-        eccentrics.
+        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate that carries axes, but not the
+        hole of its hub.
         """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
@@ -258,7 +256,9 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """Yield all turned parts: parts of axes, sleeves, barrel, washers, cup walls, pillars, posts, pins and feet."""
+        """Yield all turned parts: the parts of axes, sleeves, barrels, washers, cup walls, pillars, posts, pins and
+        feet.
+        """
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None
@@ -324,7 +324,7 @@ class FramePlates:
 
 
 def _box(points: Sequence[Point]) -> list[Point]:
-    """Return the corners of the upright rectangle around points: clocks have rectangular plates."""
+    """Return the corners of the upright bounding rectangle of points, because clocks have rectangular plates."""
     (left, right), (low, high) = ((min(values), max(values)) for values in zip(*points, strict=True))
     return [(left, low), (right, low), (right, high), (left, high)]
 

@@ -96,7 +96,9 @@ def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
 
 @dataclass(frozen=True)
 class FrameStack:
-    """Train as placed, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is given."""
+    """Train with its positions, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is
+    given.
+    """
 
     train: GearTrain
     layout: Layout
@@ -215,9 +217,7 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by coupling, if no wheel of the link of the pins is wide enough for the
-        pins.
-        """
+        """Circles of pins in round holes, by coupling, if no wheel of the link of the pins is wide enough for them."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
@@ -353,7 +353,7 @@ _BESIDE = 1.0  # mm of clearance between the central hole of a wheel and an arbo
 
 
 def find_eccentrics(stack: FrameStack) -> Iterator[Eccentric]:
-    """Yield the eccentrics of a stack; those of the same name are numbered from the second.
+    """Yield the eccentrics of a stack; eccentrics of the same name are numbered from the second one.
 
     A wheel whose carried axis is close to the axis of its carrier turns on an eccentric of the carrier. If the carrier
     represents parallel cranks, each crank has an eccentric.
@@ -407,9 +407,7 @@ def _arbor(stack: FrameStack, link: str) -> float | None:
 
 
 def _cranks(stack: FrameStack, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-    """Yield the link, axis and coupling of each of the parallel cranks that a link represents, carried about its
-    axis.
-    """
+    """Yield the link, axis and coupling of each parallel crank that a link represents, carried about its axis."""
     tree = stack.train.kinematics.tree
     for coupling in stack.train.declaration.pin_couplings:
         pair = coupling.pin, coupling.slot

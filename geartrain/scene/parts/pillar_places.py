@@ -40,7 +40,7 @@ def pillar_places(
 ) -> list[Point]:
     """Return four, three or five positions of pillars [mm], in this order of preference.
 
-    Their polygon contains all axes and has the shortest perimeter. Without such a polygon, the result is up to five
+    Their polygon contains all axes and has the shortest perimeter. If no such polygon exists, the result is up to five
     positions that are far apart.
 
     In each direction from the middle of the axes the candidate is the innermost position with free space outwards.
@@ -64,9 +64,7 @@ def pillar_places(
 
 
 def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
-    """Return the first position, then repeatedly the position farthest from those already chosen (greedy
-    dispersion).
-    """
+    """Return the first position, then repeatedly the position farthest from the chosen ones (greedy dispersion)."""
     taken = [first]
     while len(taken) < min(count, len(set(spots))):
         taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))
@@ -74,7 +72,7 @@ def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
 
 
 def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:
-    """Return the point of a ray just beyond the last circle that the ray intersects."""
+    """Return the point of a ray just beyond the last circle that the ray intersects [mm]."""
     along = np.array([cos(angle), sin(angle)])
     far = 0.0
     for centre, reach in blocked:
@@ -86,7 +84,9 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon (count, 2) of candidates around all axes, relative to their middle, or None."""
+    """Return the shortest polygon (count, 2) of candidates around all axes, relative to their middle; None if none
+    exists.
+    """
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
@@ -107,7 +107,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance of a point from circles [mm], negative inside one; infinite without circles."""
+    """Return the minimum distance of a point from circles [mm], negative inside a circle; infinite without circles."""
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 

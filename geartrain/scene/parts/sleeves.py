@@ -178,8 +178,8 @@ class Barrel:
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters; None without a declared weight or drum, or for lack of
-    space.
+    """Return the barrel of the link at which power enters; None if no weight or drum is declared, or if space is
+    insufficient.
     """
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:

@@ -35,9 +35,7 @@ class StackDisc:
     outer: float
     """Outer radius of the teeth or of the rim [mm]."""
     inner: float = 0.0
-    """Radius of the free space within the teeth of a ring, or of a central hole for an eccentric [mm]; 0 for other
-    discs.
-    """
+    """Radius of the free space within a ring's teeth, or of a central hole for an eccentric [mm]; 0 for other discs."""
     root: float = 0.0
     """Root radius of the teeth [mm]; 0 for a plate, which does not limit the diameter of its arbor."""
     hub: bool = True
@@ -148,7 +146,9 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a convex edge with notches, and its windows; passages that would divide the plate are omitted."""
+    """Return a plate's convex edge with notches, and the plate's windows; passages that would divide the plate are
+    omitted.
+    """
     windows = []
     for each in passages:
         x, y = each.way

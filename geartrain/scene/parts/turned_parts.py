@@ -137,7 +137,7 @@ def rod_name(column: AxisColumn, member: ColumnMember) -> str:
 
 
 def without(bands: Sequence[Band], member: ColumnMember, cut: frozenset[str]) -> list[Band]:
-    """Return bands without the heights of the pinions that are cut from the same piece."""
+    """Return the bands of a turned part, interrupted at the pinions that are cut from the same piece."""
     found = list(bands)
     for disc in member.discs:
         if disc.name in cut:
@@ -157,7 +157,9 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor from shoulder to shoulder, with a pivot or, where it passes through, a collar at each plate."""
+    """Yield an arbor from shoulder to shoulder, with a pivot at each plate, or a collar where it passes through the
+    plate.
+    """
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)

@@ -155,7 +155,9 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 
 def _hull(points: Sequence[Point]) -> list[Point]:
-    """Return the corners of the convex hull, counter-clockwise from the leftmost; the ends of collinear points."""
+    """Return the corners of the convex hull, counter-clockwise from the leftmost corner, or the two ends of collinear
+    points.
+    """
     # here, because scenes without plates do not need scipy
     from scipy.spatial import ConvexHull
 

@@ -185,7 +185,7 @@ def _on_bracket(
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
     """Return all dials and pointers. A dial without a plate is placed on the bracket of the arbor of its pointers.
 
-    Neighbouring arbors limit the radius of the dial. Without a bracket, or without space, the dial is unchanged.
+    Neighbouring arbors limit the radius of the dial. If the bracket or the space is missing, the dial is unchanged.
     """
     face = dials[at]
     own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]

@@ -4,8 +4,8 @@ A bracket is a plate perpendicular to an arbor and to the plates of the frame, w
 
 A cage holds axes of a carrier that are inclined to the carrier's axis, such as the axes of the pinions of a
 differential. An eye bears the outer end of the pinion's arbor. A post extends from the eye along the carrier's axis, to
-a wheel of the carrier of sufficient radius, else to an arm beyond all wheels that extends inwards to the carrier's
-axis. If a plate of the frame is before the wheel, the arm is beside the pinion.
+a wheel of the carrier of sufficient radius, otherwise to an arm beyond all wheels that extends inwards to the carrier's
+axis. If a plate of the frame is in front of the wheel, the arm is beside the pinion.
 
 The pendulum of an escapement and the driving weight hang on a train in true size.
 """
@@ -31,7 +31,7 @@ from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.scene.solids.solid_part import SolidPart, turned_about
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.train.wheel_stock import material_named
+from geartrain.train.declaration import material_named
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -64,7 +64,7 @@ class HangingParts:
     barrel: Barrel | None
 
     def found(self) -> tuple[SceneHanger, ...]:
-        """Return the pendulum, then the line and the weight, as far as they are declared; empty without a dial."""
+        """Return the pendulum, the line and the weight that are declared; empty if the train has no dial."""
         return () if self.front is None else tuple(each for each in (self.pendulum, *self._weight()) if each)
 
     @property
@@ -74,8 +74,8 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face of the train, and downward direction; None without
-        such a dial.
+        """Direction towards the reader of the first dial on a face of the train, and downward direction; None if no
+        such dial exists.
         """
         normal = self.plan.stack.normal
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
@@ -105,7 +105,7 @@ class HangingParts:
 
     @property
     def _side(self) -> float:
-        """1 if the normal points away from the reader, so that the space behind the frame is above it; else -1."""
+        """1 if the normal points away from the reader, so that the space behind the frame is above it; otherwise -1."""
         assert self.front is not None
         return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
 
@@ -151,7 +151,9 @@ class HangingParts:
 
 
 def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
-    """Yield the turned parts of a hanging part, at rest relative to the body with index `frame`; none for a line."""
+    """Yield the turned parts of a hanging part, at rest relative to the body with index `frame`; yield nothing for a
+    line.
+    """
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
         rod = Band(_COCK, hanger.length - wide, _ROD * wide)
@@ -191,9 +193,7 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of the frame's arbors that are parallel to its plates; `bores` are arbor diameters by axis
-    [mm].
-    """
+    """Return the brackets of arbors that are parallel to the frame plates; `bores` are arbor diameters by axis [mm]."""
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
@@ -263,7 +263,7 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor, on the plate with fewer wheels before it, or the nearer one."""
+    """Return the bracket at one end of an arbor, on the plate with fewer wheels before it, or on the nearer plate."""
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
@@ -299,9 +299,7 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the end of its arbor along the body
-    [mm].
-    """
+    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the outer end of its arbor [mm]."""
 
     body: int
     reach: float
@@ -309,9 +307,7 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are arbor diameters by axis
-    [mm].
-    """
+    """Return the cages of axes carried at an angle to the carrier's axis; `bores` are arbor diameters by axis [mm]."""
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]
@@ -359,9 +355,7 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1 or -1) and its position
-        [mm].
-        """
+        """Return the outer end of the wheels on their arbor: side of the carrier's axis (1 or -1) and position [mm]."""
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
@@ -385,7 +379,9 @@ class _CageBuilder:
         return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the nearest face of a carrier's wheel whose tips are outside of a post; None if there is none."""
+        """Return the height of the nearest face of a carrier's wheel whose tips are outside of a post [mm]; None if
+        none exists.
+        """
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
         return min(faces, key=lambda each: abs(each - height), default=None)

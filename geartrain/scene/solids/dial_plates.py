@@ -66,9 +66,7 @@ class DialCircle:
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials that fit, as letters to be engraved below the hole, relative to the centre of the
-        disc.
-        """
+        """Yield the names of dials that fit, as letters engraved below the hole, relative to the centre of the disc."""
         height = max(_LETTER * self.radius, _SMALLEST)
         inside = min(self.radii.values()) * (1 - DEPTH)
         for depth, name in enumerate(self.scales):
@@ -122,8 +120,8 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return the declared rectangle, or a single dial's disc if it contains all feet, else the convex curve around
-        all dials and feet.
+        """Return the declared rectangle, or a single dial's disc if it contains all feet, otherwise the convex curve
+        around all dials and feet.
         """
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if self.corners:
@@ -197,7 +195,7 @@ def _plate(
 
 
 def _corners(sheet: FacePlate | None, right: Point, up: Point) -> tuple[Point, ...]:
-    """Return the corners of a declared plate, in the coordinates of the stack [mm]; empty without a declaration."""
+    """Return the corners of a declared plate, in the coordinates of the stack [mm]; empty if no plate is declared."""
     if sheet is None:
         return ()
     wide, high = float(millimetres(sheet.width)) / 2, float(millimetres(sheet.height)) / 2
@@ -268,8 +266,8 @@ def dial_feet(
     faces: tuple[float, float],
     corners: Sequence[Point] = (),
 ) -> list[TurnedPart]:
-    """Return the feet of a plate of dials: up to four, at its corners or far apart inside its dials, otherwise outside
-    all turning parts.
+    """Return up to four feet of a plate of dials, at its corners or far apart inside its dials, otherwise outside all
+    turning parts.
 
     circles   centres and radii of the discs of its dials [mm]
     faces     heights of its faces [mm]

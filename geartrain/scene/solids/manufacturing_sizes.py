@@ -19,7 +19,7 @@ from geartrain.scene.layout.wheel_modules import WIDE
 from geartrain.scene.parts.processes import process_named
 from geartrain.teeth.standard_teeth import BACKLASH, DEDENDUM
 from geartrain.train import GearPair, Train
-from geartrain.train.wheel_stock import wheel_thickness
+from geartrain.train.declaration import wheel_thickness
 
 _SAME_LEVEL = 1e-3  # mm: tolerance for equal thicknesses
 _STOCK = (
@@ -50,11 +50,11 @@ class ManufacturingSizes(Shown):
     """
 
     module: float | None = None
-    """Module: pitch diameter divided by tooth count [mm], above 0; only for declarations that give no sizes."""
+    """Module: pitch diameter divided by tooth count [mm], above 0; only for declarations without sizes."""
     thickness: float | None = None
     """Thickness of wheels and plates [mm], above 0."""
     bore: float | None = None
-    """Diameter of the arbors [mm]. With 0, arbors, plates and the holes of wheels are omitted."""
+    """Diameter of the arbors [mm]. If it is 0, arbors, plates and the holes of wheels are omitted."""
     backlash: float | None = None
     """Circumferential backlash at the pitch circle of every pair whose backlash is not determined by its declaration
     [mm], 0 or more.
@@ -66,7 +66,7 @@ class ManufacturingSizes(Shown):
     arms: int | None = None
     """Number of spokes of each wheel with enough space for openings between spokes, 3 or more; None for solid webs."""
     sheet: tuple[float, float] | None = None
-    """Width and height of the sheets on which flat parts are arranged [mm], above 0; None without sheets."""
+    """Width and height of the sheets on which flat parts are arranged [mm], above 0; None if no sheets are used."""
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` if a size is out of range or the process is unknown."""
@@ -98,7 +98,7 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
 def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearTrain:
     """Return the train with the requested modules and backlash, as if they were declared.
 
-    Without a requested module and without declared tooth forms, it is the same train.
+    The same train is returned if no module is requested and no tooth form is declared.
 
     Raise `QuestionError` if the declaration gives sizes, which take precedence, if a wheel is too small or too large to
     be made, or if the requested backlash is not possible for the teeth.
@@ -126,7 +126,7 @@ def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout
 
 
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
-    """Return the factor by which a requested module enlarges a layout; 1 without a requested module.
+    """Return the factor by which a requested module enlarges a layout; 1 if no module is requested.
 
     Raise `QuestionError` if the declaration gives sizes.
     """
@@ -189,7 +189,7 @@ def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of a named process, unless one is given or every form fixes its own."""
+    """Return the sizes with the backlash of a named process, unless it is given or determined by all tooth forms."""
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -250,7 +250,9 @@ def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return arbor diameters by axis [mm] where no plate holds them: as given, or 1/3 of the root diameter, up to 6."""
+    """Return arbor diameters by axis [mm] where no plate holds them: as given, or 1/3 of the root diameter up
+    to 6 mm.
+    """
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

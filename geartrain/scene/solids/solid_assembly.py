@@ -60,7 +60,8 @@ class SolidModel(Shown):
     Raises
     ------
     QuestionError
-        At first use, if the train already declares sizes in `making`, or its teeth cannot have the requested backlash.
+        At first use, if `making` contains sizes that the train already declares, or if its teeth cannot have the
+        requested backlash.
 
     Examples
     --------

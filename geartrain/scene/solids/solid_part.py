@@ -41,11 +41,11 @@ class SolidPart(Shown):
     pin, wall, rod, bob or weight.
     """
     turn: Floats
-    """Rotation matrix from the part to the zero pose. Shape (3, 3)."""
+    """Rotation matrix from the coordinates of the part to the zero pose, of shape (3, 3)."""
     place: Floats
-    """Translation from the part to the zero pose [mm]."""
+    """Translation from the coordinates of the part to the zero pose [mm]."""
     status: str = ""
-    """Declared status of a wheel: surviving, reconstructed, ..."""
+    """Declared status of a wheel, such as surviving or reconstructed."""
     contours: tuple[Contour, ...] = ()
     """Flat shape from which the part is made; empty if the part is not flat."""
     height: float = 0.0
@@ -53,7 +53,7 @@ class SolidPart(Shown):
     turned: TurnedPart | None = None
     """Turned part about the z axis of the solid; None if the solid is not a body of revolution."""
     drawn: Solid | None = None
-    """Surface of a wheel: with teeth cut from its flat shape, or approximate; None for other parts."""
+    """Surface of a wheel, either with teeth cut from its flat shape or approximate; None for other parts."""
 
     @cached_property
     def solid(self) -> Solid:

@@ -56,7 +56,9 @@ class CutCoupling:
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Return couplings that flat wheels with given bores [mm] can hold, by name; pins of round holes need no wheel."""
+    """Return the couplings, by name, that can be cut into flat wheels with given bores [mm]; pins of round holes need
+    no wheel.
+    """
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
@@ -115,7 +117,7 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return a wheel's holes for pins and for a slot, in coordinates of the wheel with rotation `turn` and centre
+    """Return a wheel's holes for pins and for a slot, in the wheel's coordinates with rotation `turn` and centre
     `place`.
     """
     coupling, thick = cut.coupling, pin_width(cut.coupling)
@@ -314,8 +316,8 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost bar position with enough clearance to wheel and arm, or else the position with the most
-    clearance.
+    """Return the outermost bar position with enough clearance to wheel and arm; if there is none, the position with the
+    most clearance.
     """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]

@@ -36,9 +36,10 @@ _NEXT = [1, 2, 0]
 
 
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
-    """Return points (n, 2) of a polygon with holes, and triangles (m, 3) of their indices, counter-clockwise.
+    """Return the points (n, 2) of a polygon with holes, and counter-clockwise triangles (m, 3) as indices of these
+    points.
 
-    The points are those of the polygon and then those of its holes. Polygons (k, 2) may have either orientation. They
+    The points of the polygon are followed by the points of its holes. Polygons (k, 2) may have either orientation. They
     must not intersect themselves or each other.
     """
     parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
@@ -53,7 +54,7 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
 
 
 def area(polygon: Floats) -> float:
-    """Return the signed area of a polygon, positive if it is counter-clockwise."""
+    """Return the signed area of a polygon, in the squared unit of its points; it is positive if counter-clockwise."""
     x, y = polygon.T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
@@ -106,7 +107,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Corners of a polygon, of which those `left` are not cut off yet; a cut changes two neighbours."""
+    """Corners of a polygon; corners in `left` are not cut off yet, and a cut changes two neighbours."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -128,7 +129,9 @@ class _Corners:
                 return at
 
     def _empty(self, at: int) -> bool:
-        """Return True if no other point is in the triangle of a convex corner; otherwise, note one as its blocker."""
+        """Return True if no other point is in the triangle of a convex corner; otherwise, record one such point as its
+        blocker.
+        """
         own = self.corners[[self.before[at], at, self.after[at]]]
         (ax, ay), (x, y) = own.T[..., None], self.corners.T
         side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)
@@ -266,9 +269,7 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of a tooth with its sector of the web, closed along the bore, or at the centre of a solid
-    wheel.
-    """
+    """Return the polygon of a tooth with its sector of the web, closed along the bore or at the centre of the wheel."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -300,7 +301,7 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return a wheel's approximate solid, first tooth along x and axis along z, with a hole of `bore` [mm]."""
+    """Return a wheel's approximate solid, with the first tooth along x, the axis along z, and a hole of `bore` [mm]."""
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
         return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)
@@ -312,7 +313,7 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle if it has too many
+    """Return the radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle if it has too many
     teeth.
     """
     if wheel.teeth > MOST_TEETH:
@@ -340,8 +341,8 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return a bevel or crown wheel: its back, its teeth from the large end to the small end, and the disc inside the
-    ring of teeth.
+    """Return the solid of a bevel or crown wheel, with its back, its teeth from the large to the small end, and the
+    disc inside the ring of teeth.
 
     The surface has rows of points, from the bore at the back round the outside to the bore at the front.
     """

@@ -48,7 +48,7 @@ def spoke_windows(
 
     root     root radius [mm]; `bore` is the diameter of the hole for the arbor [mm]
     spokes   number of spokes, 3 or more; fewer give no windows
-    corner   radius of inner corners [mm], at least that of the tool; by default half a module
+    corner   radius of inner corners [mm], at least the radius of the tool; by default half a module
     """
     if spokes < 3:
         return ()
@@ -258,7 +258,9 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """Return the blank with the hole for its arbor, if there is space, and with holes for other parts, and notices."""
+    """Return the blank with holes for other parts and, if there is space, the hole for its arbor, and return
+    notices.
+    """
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":

@@ -97,7 +97,9 @@ class _ConstraintBuilder:
         yield from self._owned()
 
     def _owned(self) -> Iterator[CountConstraint]:
-        """Yield a condition for each collection of owned wheels: no tooth count is used more often than it is owned."""
+        """Yield a condition for each collection of available wheels: no tooth count may be used more often than it
+        occurs in the collection.
+        """
         wheels: dict[tuple[tuple[int, int], ...], dict[str, int]] = {}
         for name, (link, wheel) in self.declared.wheels.items():
             search = wheel.teeth.search if isinstance(wheel.teeth, Teeth) else None
@@ -127,7 +129,7 @@ class _ConstraintBuilder:
                 yield _bounds(what, name, most=self._most(name, requested.largest_radius))
 
     def _most(self, wheel: str, radius: Quantity) -> int:
-        """Return the maximum tooth count z for which the pitch radius m z/2 does not exceed `radius`."""
+        """Return the maximum tooth count of a wheel whose pitch radius does not exceed `radius`."""
         # measure: m for lengths, plain for numbers, empty if not declared
         measure, module = self.fitting.module(wheel)
         if (measure == "m") != (radius.unit is not None) or module is None:
@@ -339,7 +341,7 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
 def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
     """Return whether n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
-    The condition, derived in `phase_numbers`, is that n divides each of the numbers that this function returns.
+    The condition is that n divides every number that `phase_numbers` returns, where it is derived.
     """
     # b is only needed modulo n; reduced, so that products of counts fit int64
     kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda one: one % number)
@@ -350,8 +352,8 @@ def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the gcd g of two arrays of numbers >= 0, and u, v with u a + v b = g, by the extended Euclidean
-    algorithm.
+    """Return g = gcd(a, b) for each pair of elements of arrays a, b >= 0, and u, v with u a + v b = g, by the extended
+    Euclidean algorithm.
     """
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
@@ -400,10 +402,11 @@ def reason(found: PlanetSet, number: int) -> str:
 
 
 def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether the tip circles of neighbouring planets have more than the required clearance, exactly.
+    """Return whether the clearance between the tip circles of neighbouring planets exceeds the required clearance, by
+    exact comparison.
 
-    `reach` is twice the distance of a planet's axis from the central axis, `tips` the tip diameter plus the clearance;
-    see `neighbour_terms`.
+    `reach` is twice the distance of a planet's axis from the central axis, and `tips` is the tip diameter plus the
+    required clearance; see `neighbour_terms`.
     """
     chord = sine(Fraction(1, 2 * number))
     return is_positive(neighbour_terms, [reach.of(columns), tips.of(columns)], [chord], True)
@@ -431,9 +434,7 @@ def is_above_zero(room: WholeSum, columns: CandidateColumns) -> Bools:
 
 @dataclass(frozen=True, slots=True)
 class PlanetClearance:
-    """Required clearance between planets with an addendum of 1 module: number of planets, and minimum clearance
-    [modules].
-    """
+    """Number of planets, and required minimum clearance between them [modules], for an addendum of 1 module."""
 
     number: int
     clearance: Fraction
@@ -508,11 +509,11 @@ def _is_plain(planet: Planet, external: bool) -> bool:
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Return twice the distance of a planet's axis from the central axis; None if the planet meshes with no
-    central wheel.
+    """Return twice the distance of a planet's axis from the central axis; None if the planet meshes with no central
+    wheel.
 
-    The distance is that of a mesh of `wheel` with a central wheel, if any; external meshes are preferred to
-    internal meshes.
+    The distance is computed from a mesh of `wheel` with a central wheel, if there is one; external meshes are preferred
+    to internal meshes.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None

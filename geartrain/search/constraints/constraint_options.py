@@ -17,8 +17,8 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, slots=True)
 class ConstraintOptions:
-    """Constraints on tooth counts in addition to the required ratios. By default only equal coaxial centre distances
-    are required.
+    """Constraints on tooth counts in addition to the required ratios. By default only the centre distances of gear
+    pairs between the same two axes must be equal.
 
     See Also
     --------
@@ -33,11 +33,14 @@ class ConstraintOptions:
     coaxial: bool | None = None
     """Requirement that spur wheels of the same module between the same two axes have equal centre distances.
 
-    Wheels without a declared module are assumed to have the same module. If None, two pairs of wheels are exempt if all
-    their counts are fixed and violate the equality, because their modules then differ or their profiles are shifted.
+    Wheels without a declared module are assumed to have the same module. With None, the requirement does not apply to
+    two pairs of wheels whose counts are all fixed and violate it, because their modules then differ or their profiles
+    are shifted.
     """
     shift: int = 0
-    """Maximum difference between centre distances on the same two axes, compensated by profile shift [half modules]."""
+    """Maximum difference between the centre distances of gear pairs between the same two axes, to be compensated by
+    profile shift [half modules].
+    """
     planets: int | Mapping[str, int] | None = None
     """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number. With
     None, the numbers declared by `copies` are used.
@@ -53,9 +56,9 @@ class ConstraintOptions:
     largest_radius: Quantity | None = None
     """Maximum pitch radius of every varied wheel: a length, or a number of modules; worms are exempt."""
     different: bool = False
-    """Requirement that no varied wheel has the same tooth count as another wheel, except equal planets."""
+    """True to require that no varied wheel has the same tooth count as another wheel; equal planets are exempt."""
     hunting: bool = False
-    """Requirement that the tooth counts of meshing wheels are coprime."""
+    """True to require that the tooth counts of meshing wheels are coprime."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return the options as a dict for JSON, with quantities as strings. Options that are None or False are

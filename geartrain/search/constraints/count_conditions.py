@@ -32,8 +32,7 @@ CandidateColumns = Mapping[str, "Ints"]
 
 
 CandidateTest = Callable[[CandidateColumns], "Bools"]
-"""Predicate on candidates that can be pickled: a partial function of this package that lacks only its last
-argument.
+"""Predicate on candidates: a `functools.partial` that lacks only its last argument, so that it can be pickled.
 
 It returns whether each candidate passes, shape (candidates,).
 """
@@ -239,8 +238,8 @@ def teeth_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair whose wheels have the same module [m, or number without a
-    unit].
+    """Return twice the centre distance of a spur pair whose wheels have the same module [m; dimensionless if the module
+    has no unit].
     """
     assert mesh.module is not None
     return teeth_of(mesh).times(mesh.module)
@@ -282,7 +281,8 @@ def cosine(turns: Fraction) -> Decimal:
 
 
 def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Decimal], strictly: bool) -> Bools:
-    """Return for each candidate whether the sum of the terms is above 0 (or, unless `strictly`, 0 or more).
+    """Return, for each candidate, whether the sum of the terms of a kernel is positive (if `strictly`), or
+    non-negative.
 
     counts     integers, arrays that broadcast to one shape, (candidates,)
     constants  numbers that are the same for all candidates

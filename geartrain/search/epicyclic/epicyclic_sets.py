@@ -308,7 +308,7 @@ class EpicyclicSet(CountSizes, Result):
     ratio: Fraction
     """Input speed divided by output speed, exact; negative if they have opposite senses."""
     error: Fraction
-    """Exact relative error |r| / q - 1 of the ratio r, as defined by `ratio_is`, from the requested ratio q."""
+    """Exact relative error |r| / q - 1, where r is the ratio as defined by `ratio_is` and q is the requested ratio."""
     planets: int
     """Requested number of planets."""
     places: int
@@ -420,7 +420,7 @@ class SetFindings(Tabular, Result):
 
 
 def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
-    """Return the exact sort key of a set in an order: primary criterion, error, total, largest wheel, mode, counts."""
+    """Return the exact sort key of a set: primary criterion `by`, error, sum of counts, largest count, mode, counts."""
     counts = tuple(found.teeth.values())
     measures: dict[SetOrder, Any] = {"error": abs(found.error), "total": sum(counts), "largest": max(counts)}
     return (measures[by], *measures.values(), mode, counts)

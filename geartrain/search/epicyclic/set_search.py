@@ -290,8 +290,8 @@ class _Search:
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
 
     def _inside(self, columns: Columns, mode: EpicyclicMode, errors: Floats) -> NDArray[np.bool_]:
-        """Return whether the ratio error of each set is within the tolerance. Floats decide except near the bound,
-        where Fractions do.
+        """Return whether the ratio error of each set is within the tolerance. Floats are compared, except near the
+        bound, where Fractions are compared.
         """
         if self.tolerance is None:
             return np.ones(len(errors), dtype=bool)
@@ -379,8 +379,8 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
-    """Yield all combinations of tooth counts in blocks: the number of combinations of a block, and those that satisfy
-    the coaxial equations, are admissible and fit.
+    """Yield blocks of combinations of tooth counts: the number of combinations in the block, and the combinations that
+    satisfy the coaxial equations, are admissible, and fit.
 
     planets    number of equal planets between which an idle wheel must have clearance
     clearance  minimum clearance between these planets [modules]; None if it is not required
@@ -515,13 +515,14 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
     """Return the number of equally spaced positions at which identical planets can be assembled, for each set.
 
     n equal planets can be equally spaced if and only if n divides this number; if it is 0, every position is possible.
-    z is a tooth count, P that of the planet step in mesh, and f the speed of a central wheel relative to the carrier.
+    Here z is the tooth count of a central wheel, P is the tooth count of the planet step with which it meshes, and f is
+    its speed relative to the carrier.
 
     Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
     teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n
     must be an integer. If they mesh with two steps, the planet may also be rotated by whole teeth of the first step,
     each of which shifts the second by P_y/P_x of a tooth, so (z_y P_x -+ z_x P_y)/(n gcd(P_x, P_y)) must be an integer.
-    Well known cases are (s + r)/n and, for stepped planets, (s1 p2 + r2 p1)/(n gcd(p1, p2)).
+    Well-known cases are (s + r)/n for a sun and a ring, and (s1 p2 + r2 p1)/(n gcd(p1, p2)) for stepped planets.
     """
     number: Ints = np.zeros_like(columns[kind.members[0].wheel])
     for x, y in combinations(kind.members, 2):
@@ -560,8 +561,8 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     """Return the clearance between the tips of equally spaced neighbouring planets [modules], for each set.
 
-    It is negative if planets overlap, and infinite for one planet. For planets on one circle it is
-    (s + p) sin(pi/n) - p - 2. Planets in mesh with each other are placed by the law of cosines.
+    It is negative if planets overlap, and infinite for one planet. For n planets with p teeth on a sun with s teeth it
+    is (s + p) sin(pi/n) - p - 2. Planets in mesh with each other are placed by the law of cosines.
     """
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
@@ -585,10 +586,10 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
 
 
 def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
-    """Return whether the tips of neighbouring planets have at least a clearance [modules], for each set.
+    """Return whether the tips of neighbouring planets have at least the given clearance [modules], for each set.
 
-    Values near the bound are compared exactly, as for the clearance of a declared train. For bevel wheels, whose
-    clearance is an angle, floats decide.
+    Values near the bound are compared exactly, as for the clearance of a declared train. Clearances of bevel wheels,
+    which are angles, are compared as floats.
     """
     found, minimum = room(kind, columns, planets), float(clearance)
     # bevel sets are not decided exactly below, so a tie counts as sufficient clearance
@@ -639,7 +640,7 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
     """Return the clearance of bevel planets [modules]: the angle between neighbouring axes minus the pitch cone angles,
-    times the radius, minus the addenda.
+    multiplied by the radius; from this the addenda are subtracted.
     """
     cone = np.arccos(_planet_cosine(columns))
     # a cone angle of 0 gives an infinite radius, which is replaced below

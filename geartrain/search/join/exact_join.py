@@ -22,8 +22,8 @@ from geartrain.search.join.wheel_monomials import extent
 
 
 Slices = Mapping[int, tuple[int, int]]
-"""Half-open index range of the values of each variable that one task covers; variables that are missing have all
-values.
+"""Half-open index range of the values of each variable that one task covers; variables that are not listed are
+unrestricted.
 """
 AssignmentColumns = dict[str, Ints]
 
@@ -66,7 +66,7 @@ class ExactJoin:
         return PartialAssignments(self.items, {}, 1)
 
     def full(self, node: PlanNode) -> int:
-        """Return the number of assignments of the variables of a node and its subtree, without constraints."""
+        """Return the number of assignments of the variables of a node and its subtree, regardless of constraints."""
         if id(node) not in self._full:
             first, last = self._run(node.item)
             total = int(self.items[node.item].sums[last] - self.items[node.item].sums[first])
@@ -140,10 +140,9 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """Return the rows that relaxed constraints do not reject, with their indices.
+        """Return the rows that can still satisfy all constraints, with their indices in `rows`.
 
-        Rows are removed if a constraint rejects them for all values of the free variables. They are counted in
-        `removed`.
+        A row is removed, and counted in `removed`, if a constraint rejects it for all values of the free variables.
         """
         at = np.arange(rows.size)
         for number in node.prunes:
@@ -176,8 +175,8 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the extensions of the rows by values of the variable of a node that satisfy the constraints of the
-        node, block by block, each with the indices of its original rows.
+        """Yield the rows extended by each value of a node's variable that satisfies the constraints of the node, block
+        by block, with the indices of the original rows.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable

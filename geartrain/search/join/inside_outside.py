@@ -29,7 +29,7 @@ from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlte
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Functions from values of a constrained function to misfits, by the index of the constraint in
+"""Functions that convert values of a constrained function to misfits, by the index of the constraint in
 `JoinProblem.requested`.
 """
 CountWeights = Mapping[str, Tallies]
@@ -57,9 +57,9 @@ class RecordedNode:
     places: Ints
     """Index in `values` of the value that each transition assigns."""
     values: ProductStep
-    """Values of the variable that occur, stored as the last step of the multiplication that produces them."""
+    """Values that the variable takes, stored as the last step of the multiplication that produces them."""
     misfit: Floats
-    """Misfit that each transition adds by graded constraints that are complete at this node."""
+    """Misfit that each transition adds, from graded constraints whose last variable is assigned at this node."""
     children: tuple[tuple[RecordedNode, Ints], ...]
     """Child nodes, each with the index of the row to which each transition leads."""
 
@@ -105,7 +105,7 @@ class _Recorder:
         return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
     def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats:
-        """Return the misfit of the graded constraints that are complete at a node."""
+        """Return the misfit of the graded constraints whose last variable is assigned at a node."""
         found = np.zeros(rows.size)
         for number in (node.guide, *node.checks):
             demand = number - len(self.join.question.rules)
@@ -161,7 +161,7 @@ class AssignmentSums:
         return AlternativeRows(own[table.choices], table.size, table.children, before, facts)
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
-        """Return the covariance of the tooth counts of each pair of wheels, in the order of `counts`, up to rounding.
+        """Return the covariance, as a float, of the tooth counts of each pair of wheels in the order of `counts`.
 
         weights   arrays of float64, not negative
         """

@@ -45,19 +45,19 @@ class PlanNode:
     guide: int
     """Index of the constraint that selects the values to try; -1 if all values are tried."""
     checks: tuple[int, ...]
-    """Indices of the constraints, other than the guide, that are complete with this variable, in the order of
+    """Indices of the constraints, other than the guide, whose last variable is assigned at this node, in the order of
     evaluation.
     """
     prunes: tuple[int, ...]
-    """Indices of polynomial constraints with at least two free variables, by which rows are pruned here."""
+    """Indices of the polynomial constraints with at least two free variables by which rows are pruned at this node."""
     children: tuple[PlanNode, ...]
     """Child nodes, no two of which have a common constraint."""
     reach: tuple[int, ...]
     """Indices of all constraints of this node and its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """Yield the indices of the constraints that are complete with this node, then of the constraints complete in
-        its subtree.
+        """Yield the indices of the constraints whose last variable is assigned at this node, then of the constraints
+        whose last variable is assigned in its subtree.
         """
         if self.guide >= 0:
             yield self.guide
@@ -75,7 +75,7 @@ class JoinProblem:
     requested: tuple[IntervalConstraint, ...]
     """Constraints on the values of functions of tooth counts."""
     rules: tuple[CountConstraint, ...]
-    """Constraints on tooth counts. Indices of constraints count `rules` first, then `requested`."""
+    """Constraints on tooth counts. Constraint indices refer to `rules` followed by `requested`."""
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[Factors, ...]
@@ -126,7 +126,7 @@ def find_join_problem(
     Plans with different choices of the constraints that are evaluated last are compared.
 
     probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
-    weights         weights of `JoinProblem`
+    weights         integer weights of tooth counts, as in `JoinProblem`
     """
     found = [_planned(domains, requested, early, late, probabilities) for early, late in _rule_partitions(rules)]
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})
@@ -226,8 +226,8 @@ class _Planner:
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int]) -> int:
-        """Select the next variable: a variable that an equation determines, otherwise the variable of the constraint
-        with the lowest cost that occurs in most constraints.
+        """Select the next variable: a variable that an equation determines; otherwise, among the variables of the
+        constraint with the lowest cost, the variable that occurs in most constraints.
         """
         for at in active:
             left = self.scopes[at] & open_

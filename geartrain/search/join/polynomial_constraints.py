@@ -1,4 +1,5 @@
-"""Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free variables.
+"""Constraints on outputs as signs of polynomials, and tests whether they can be satisfied while some variables are
+free.
 
 A speed N/D, a quotient of polynomials, is within the relative tolerance t of the requested speed w if |N/D - w| <= t w.
 This is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is a set of
@@ -215,13 +216,13 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def opens(self, item: int) -> bool:
-        """Return whether the admissible values of a variable can be computed as index ranges, which requires at most
-        two powers of it in each polynomial.
+        """Return whether the admissible values of a variable can be computed as index ranges, which requires that each
+        polynomial contains at most two powers of the variable.
         """
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 
     def holds(self, rows: PartialAssignments) -> Bools:
-        """Return whether each row satisfies the constraint, exactly. All its variables must be assigned."""
+        """Return whether each row satisfies the constraint, by exact arithmetic. All its variables must be assigned."""
         # several cases have the same polynomials
         signs = cache(lambda polynomial: polynomial.signs(rows))
         return self._in_any_case(rows, lambda inequality: inequality.met(signs(inequality.polynomial)))

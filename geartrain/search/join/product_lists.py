@@ -1,8 +1,8 @@
 """Variables of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
 
 An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns variables
-instead of wheels. A variable (class `Item`) is a list of products of counts, here of a c, and another one of b d. A
-wheel in a constraint on counts is a variable by itself.
+instead of wheels. A variable (class `Item`) is a list of products of counts: here one variable for a c, and another one
+for b d. A wheel in a constraint on counts is a variable by itself.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ class Item:
         return owner, found
 
     def last_step(self, indices: Ints) -> ProductStep:
-        """Return the last of the steps that lead from the empty product to some distinct products."""
+        """Return the last of the steps that lead from the empty product to the given distinct products."""
         step = self._step(len(self.wheels) - 1, self.values[indices])
         assert step is not None, "a variable has at least one wheel"
         return step

@@ -64,7 +64,7 @@ class IntervalConstraint:
 
 
 WheelMonomial = Mapping[str, int]
-"""Monomial through which all functions depend on some wheels: power of each wheel, not 0."""
+"""Monomial through which all functions depend on some wheels: nonzero power of each wheel."""
 
 
 def find_wheel_monomials(
@@ -104,7 +104,7 @@ def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Split wheels into groups of similar size whose products can be listed, as few as possible."""
+    """Split wheels into the smallest possible number of groups of similar size whose products can be listed."""
     if not wheels:
         return
     short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST

@@ -58,13 +58,13 @@ class PeriodTargets:
         return (1 << len(self.periods)) - 1
 
     def meets(self, target: int, ratio: Fraction) -> bool:
-        """Return whether a period is within the tolerance of target number `target`, compared exactly."""
+        """Return whether the period `ratio` is within the tolerance of target number `target`, compared exactly."""
         low, high = self.bounds[target]
         return low <= ratio <= high
 
     def error(self, target: int, ratio: Fraction) -> Fraction:
-        """Return the relative speed error of an arbor with this period, speed / requested speed - 1; positive
-        if fast.
+        """Return the relative speed error of an arbor whose period is `ratio`: speed / requested speed - 1; positive if
+        the arbor is too fast.
         """
         return self.periods[target] / ratio - 1
 
@@ -207,7 +207,7 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 
 @dataclass(frozen=True)
 class ReachablePeriods:
-    """Targets that two gear pairs in series can drive from one arbor, for each of m arbors between the pairs."""
+    """Targets that two gear pairs in series can drive from one arbor, for each of m possible intermediate arbors."""
 
     first: Ints
     """Index of the ratio of the pair to the intermediate arbor, shape (m,)."""
@@ -222,8 +222,9 @@ class ReachablePeriods:
 def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
     """Find all intermediate arbors from which one pair can drive at least one requested target.
 
-    If several ratios lead to a target, one of them is returned. Floats select with a margin; ratios are compared
-    exactly where they are used. The table and the queries are sorted, so one target costs one pass over the table.
+    If several ratios lead to a target, one of them is returned. Ratios are selected as floats with a margin, and are
+    compared exactly where they are used. The table and the queries are sorted, so one target costs one pass over the
+    table.
     """
     logs, size = table.logs, len(table)
     found = np.full((len(targets.periods), size), -1, dtype=np.int32)
@@ -243,8 +244,8 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
 
 
 def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """Return bit masks of the targets that one pair can drive from the arbor behind each ratio of the table, shape
-    (n,).
+    """Return, for each ratio of the table, a bit mask of the targets that one more pair can drive from an arbor reached
+    by this ratio, shape (n,).
     """
     sets = np.zeros(len(table), dtype=np.int64)
     found = reach(table, targets, log_period, requested)
@@ -262,8 +263,8 @@ Meshes = tuple[tuple[int, int], ...]
 
 
 def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes, bool]:
-    """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is the proved
-    minimum.
+    """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is proved to be
+    minimal.
 
     Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of wheels. The search is
     branch and bound over the multiples that can coincide. If it reaches its limit of steps, the number is only an upper

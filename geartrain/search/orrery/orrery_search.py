@@ -501,8 +501,8 @@ class BeamSearch:
         return PartialTree(tree, left, wheels, bulk)
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the best extensions of a partial tree: one arbor with its targets, and further targets driven from
-        these arbors.
+        """Yield the best extensions of a partial tree by one arbor with its targets, and by further targets of the new
+        arbors.
         """
         reaches = [reach(self.table, self.targets, arbor.log, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
@@ -589,7 +589,7 @@ class BeamSearch:
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
     """Return the `width` best partial trees.
 
-    Only the best few trees with the same targets and periods are selected before other trees.
+    Only a few trees with the same targets and periods are selected before other trees.
     """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []

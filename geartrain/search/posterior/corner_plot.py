@@ -62,8 +62,8 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
     """Draw a corner plot of tooth counts: marginal probabilities on the diagonal, joint probabilities of each pair
     below.
 
-    Darker squares are more probable. Outlines show priors; dashed lines show declared counts. Raise `QuestionError`
-    without a wheel, or with more than 9.
+    Darker squares are more probable. Outlines show priors; dashed lines show declared counts. Raise `QuestionError` if
+    there is no wheel, or if there are more than 9.
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:

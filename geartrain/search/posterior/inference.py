@@ -141,7 +141,8 @@ def infer_counts(
 
     Examples
     --------
-    A pinion of 20 teeth drives a wheel of 60 to 62 at 1/3 of its speed, to 2 %: 60 and 61 fit, 62 is 3.2 % too slow.
+    A pinion of 20 teeth drives a wheel of 60 to 62 teeth at 1/3 of its speed, within 2 %. The wheel is 3.2 % too slow
+    with 62 teeth:
 
     >>> from fractions import Fraction
     >>> from geartrain.train import declare
@@ -409,7 +410,7 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
     """Compute the joint posterior of each pair of wheels, by the chain rule p(a, b) = p(a) p(b | a).
 
-    One further posterior is computed for each count of nonzero probability, of every wheel except the last.
+    One further posterior is computed for each count of nonzero probability of every wheel except the last.
 
     Parameters
     ----------

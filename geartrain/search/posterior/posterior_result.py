@@ -74,7 +74,7 @@ class WheelPosterior(Result):
 
     @property
     def bits(self) -> float:
-        """Information gained from the outputs: relative entropy of posterior and prior [bit]."""
+        """Information gained from the outputs: relative entropy of the posterior with respect to the prior [bit]."""
         return relative_entropy(map(float, self.probabilities), self.uncertainty.priors)
 
     def probability(self, count: int) -> CountProbability:
@@ -128,7 +128,7 @@ class CountCombination(Result):
 
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
-    """Sobol indices of the speed of an output, for tooth counts distributed as their prior."""
+    """Sobol indices of the speed of an output, for tooth counts that are distributed according to their priors."""
 
     KEYS = ("output", Key("mean", to=as_float), "spread", Key("own", to=float), Key("whole", to=float))
 

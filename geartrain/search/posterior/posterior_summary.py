@@ -43,9 +43,7 @@ _NONE = 1e-13
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` entries of an ascending list and all ties of the last entry, and False if ties were
-    omitted, else True.
-    """
+    """Return the first `most` candidates and all ties of the last of them, and whether all ties are included."""
     # misfits in floats: entries that may be tied with the last are later sorted exactly
     found: list[GradedAssignment] = []
     for candidate in candidates:
@@ -104,7 +102,7 @@ def _probability(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and best combinations, computed by either method; the fields are those of
+    """Evidence, posteriors, correlations and best combinations from either method, with the fields of
     `ToothCountPosterior`.
     """
 
@@ -276,14 +274,14 @@ def _correlated(
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
-"""Pairs of a coefficient and the powers of the wheels of a formula, which may be negative."""
+"""Pairs of a coefficient and the (possibly negative) powers of the wheels, for each term of a formula."""
 
 
 def find_variance_shares(
     name: str, formula: Formula, uncertainties: Mapping[str, ToothCountPrior]
 ) -> VarianceShares | None:
-    """Return the Sobol indices of an output; None if its speed is constant, or undefined for some counts, or if it is
-    not a sum of monomials and has more than two million combinations.
+    """Return the Sobol indices of the speed of an output. Return None if the speed is constant or undefined for some
+    counts, or if it is not a sum of monomials and has more than two million combinations.
     """
     own = [uncertainties[wheel] for wheel in formula.wheels]
     if not any(len(uncertainty.counts) > 1 for uncertainty in own):
@@ -339,7 +337,7 @@ def _root(value: Fraction) -> float | None:
 
 
 def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior]) -> VarianceShares | None:
-    """Compute the Sobol indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
+    """Compute the Sobol indices from the speeds of all combinations, in an array with one axis per wheel."""
     shape = tuple(len(uncertainty.counts) for uncertainty in uncertainties)
     columns = {
         uncertainty.wheel: np.array(uncertainty.counts).reshape([-1 if at == axis else 1 for at in range(len(shape))])
@@ -382,7 +380,7 @@ def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places
 
 
 def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> Floats:
-    """Return the prior mean of an array over some axes (wheels), which remain with length 1."""
+    """Return the prior mean of an array over some axes (wheels), which are kept with length 1."""
     found: Floats = values
     for axis in axes:
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]

@@ -47,14 +47,15 @@ class LikelihoodBatch:
         self._outputs = [(misfit_of(one), observation_constraint(one, question.soft, graded=False)) for one in ordered]
 
     def turns(self, counts: Mapping[str, Ints]) -> Bools:
-        """Return whether the train turns, for each combination, given as counts of equal length for each wheel."""
+        """Return, for each combination, whether the train turns. `counts` contains arrays of equal length by wheel."""
         found: Bools = np.ones(len(counts[self.wheels[0]]), dtype=np.bool_)
         for condition in self.question.conditions:
             found &= decide(condition, counts)[0]
         return found
 
     def judged(self, counts: Mapping[str, Ints]) -> tuple[Bools, Floats]:
-        """Return whether each combination satisfies the observations, exactly, and its misfit up to rounding.
+        """Return whether each combination satisfies the observations, by exact arithmetic, and its misfit up to
+        rounding.
 
         The misfit of a rejected combination is infinite. Further outputs of a rejected combination are not evaluated.
         """
@@ -68,10 +69,10 @@ class LikelihoodBatch:
 
 
 def decide(one: IntervalConstraint, counts: Mapping[str, Ints]) -> tuple[Bools, Floats]:
-    """Return whether each combination satisfies a constraint, exactly, and the value of its function up to rounding.
+    """Return whether each combination satisfies a constraint, by exact comparison, and the value of its function up to
+    rounding.
 
-    Floats decide, except that exact rational arithmetic decides if the value is within its error bound of an end of an
-    interval.
+    Floats are compared, and exact rational numbers if the value is within its error bound of an end of an interval.
     """
     function = one.function
     assert isinstance(function, Formula)
@@ -113,7 +114,7 @@ class PosteriorTally:
     weight    sum of the likelihoods
     square    sum of the squared likelihoods, for confidence intervals
     by        sum of the likelihoods for each count of each wheel
-    sizes     weighted sums of products of two counts, each relative to the `origin_of` its wheel
+    sizes     weighted sums of products of two counts, each count minus the `origin_of` its wheel
     best      pairs (misfit, indices of counts), ascending
     ranked    False if ties were omitted
     """

@@ -176,7 +176,7 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
-    """Write the rows as one row group; without rows write no file."""
+    """Write the rows as one Parquet row group; write no file if there are no rows."""
     from geartrain.numerics.files import ColumnTable
 
     assert to.path is not None

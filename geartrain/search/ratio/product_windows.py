@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 
 
 def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
-    """Return for each factor f the half-open index range of `products` with low f <= product <= high f, exactly.
+    """Return, for each factor f, the half-open index range of the `products` with low f <= product <= high f, compared
+    exactly.
 
     products   ascending, at least one
     factors    positive, below 2^52
@@ -132,8 +133,8 @@ class ProductWindows:
         return int((_ends(self, bound) - self.starts).sum())
 
     def values(self, low: int, high: int) -> tuple[Ints, Places]:
-        """Return the distinct products in [low, high), ascending, shape (n,), and the number of multisets of the
-        window below each product, with their total number at the end, shape (n + 1,).
+        """Return the distinct products in [low, high) in ascending order, shape (n,), and the number of multisets of
+        the window below each product and in total, shape (n + 1,).
         """
         row, column = spread(_ends(self, low), _ends(self, high))
         found = self.rows[row]
@@ -203,9 +204,9 @@ def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
-    """Return every multiset of `below` numbers with one number that is at least as large as all of them.
+    """Return every combination of a number and a multiset of `below` numbers that do not exceed this number.
 
-    The arrays are the product, the counts, and the index of that number, one row for each multiset.
+    The arrays contain the product, the counts, and the index of the number, with one row for each combination.
     """
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
@@ -218,7 +219,7 @@ def _by_product(chosen: Ints) -> Ints:
 
 
 def _chosen(numbers: Ints, size: int) -> Ints:
-    """Return all multisets of 0, 1 or 2 of the numbers, ascending within each, shape (multisets, size)."""
+    """Return all multisets of 0, 1 or 2 of the numbers, in ascending order within each, shape (multisets, size)."""
     if size == 0:
         return np.empty((1, 0), dtype=numbers.dtype)
     if size == 1:

@@ -96,11 +96,11 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
 
 
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
-    """Search the reverted trains whose stages have a sum of counts in [low, high); the result is that of
+    """Search the reverted trains whose stages have a sum of counts in [low, high); the result has the keys described in
     `search_segment`.
 
     Every multiset of stages with this sum is generated once, from a lower and an upper half, by a meet in the middle on
-    the ratios. Floats select the candidates, and near the tolerance Fractions decide.
+    the ratios. Candidates are compared as floats, and as Fractions near the tolerance.
     """
     judge, size = StageFilter(question), question.stages
     first, last = map(float, question.edges)
@@ -132,8 +132,8 @@ def _multisets(number: int, size: int) -> Ints:
 
 
 def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
-    """Return whether each ratio over / under is within the tolerance of the requested ratio. Floats decide except near
-    the tolerance.
+    """Return whether each ratio over / under is within the tolerance of the requested ratio. Ratios are compared as
+    floats, and as Fractions near the tolerance.
     """
     limit, value = float(question.tolerance), question.value
     errors = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
@@ -277,7 +277,7 @@ def _check(question: StageProblem, tolerance: Fraction) -> None:
 
 
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
-    """Search all segments and merge their results. After a keyboard interrupt return the results obtained so far."""
+    """Search all segments and merge their results. After a keyboard interrupt, return the results obtained so far."""
     work, tasks = partial(search_segment, pickle.dumps((question, near))), _segments(question)
     # a single task runs in this process, without the overhead of an executor
     results = map(work, tasks) if len(tasks) < 2 else means.run(work, tasks)
@@ -296,10 +296,10 @@ def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOut
 
 
 def _segments(question: StageProblem) -> list[Sequence[int]]:
-    """Divide the search into segments, which together contain every pair of products within the tolerance once.
+    """Divide the search into segments, which together contain every pair of products within the tolerance exactly once.
 
-    Stages with equal sums are divided by their sum: eight sums in a segment for four or more stages, which are
-    slow, otherwise all sums in one segment.
+    Stages with equal sums are divided by their sum. A segment contains eight sums for four or more stages, whose search
+    is slow, and all sums for fewer stages.
     """
     size = question.stages
     if question.of_equal_sums:

@@ -45,13 +45,15 @@ class StageConstraints(Result):
     """
 
     hunting: bool = False
-    """Requirement that the two counts of every stage are coprime, so that every tooth meets every tooth of its mate."""
+    """True to require that the two counts of every stage are coprime, so that every tooth meets every tooth of its
+    mate.
+    """
     reverted: bool = False
-    """True to require the same centre distance for all stages of one module. The sums of the two tooth counts, for a
-    stage with a ring their differences, are then equal.
+    """True to require that all stages of the same module have the same centre distance. The sums of the two tooth
+    counts (their differences, for a stage with a ring) must then be equal.
     """
     different: bool = False
-    """Requirement that all counts are distinct."""
+    """True to require that all counts are distinct."""
     internal: int = 0
     """Number of internal meshes, 0 to the number of stages. An internal mesh preserves the sense of rotation; an
     external mesh reverses it. A ring has more teeth than its pinion.
@@ -165,7 +167,7 @@ class StageProblem:
         return sum(multisets(stages, self.stages) for stages in sums.values())
 
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
-        """Return the part of the range [low, high) of denominator products in which a numerator product can match."""
+        """Return the part of the range [low, high) of denominator products for which a numerator product can match."""
         first, last = self.edges
         minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
         return max(low, -(-minimum * last.denominator // last.numerator)), min(
@@ -261,7 +263,7 @@ def _spread(pairs: Pairs) -> Fraction:
 
 StageOrder = Literal["error", "total", "largest", "distinct", "hunting", "centres"]
 """Primary criterion of the order of solutions: minimum absolute error, sum of counts, largest count or number of
-distinct counts; maximum number of stages with coprime counts; minimum number of centre distances.
+distinct counts, maximum number of stages with coprime counts, or minimum number of centre distances.
 
 Ties are broken by absolute error, sum, largest count, and the counts.
 """
@@ -330,8 +332,8 @@ def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fracti
 class BestStages:
     """List of the n best of all rows (solutions) that are added, in bounded memory.
 
-    The columns of a row are: primary criterion of the order, smaller is better; products of numerator and denominator;
-    counts of numerator and denominator, each ascending.
+    The columns of a row are the primary criterion of the order (smaller is better), the products of numerator and
+    denominator, and the counts of numerator and denominator, each ascending.
     """
 
     def __init__(self, best: int, value: Fraction) -> None:

@@ -362,7 +362,9 @@ def account(question: StageProblem, outcome: SweepOutcome) -> Mapping[str, int]:
 
 
 def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
-    """Return the rejected pairs of multisets by reason; for an empty result also the nearest miss and suggestions."""
+    """Return the rejected pairs of multisets by reason; for an empty result also return the nearest miss and
+    suggestions.
+    """
     if not outcome.complete:
         return Shortfall(
             question.considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts"
@@ -413,8 +415,8 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
 
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
-    """Yield the suggestion of one more stage, with its number of solutions unless counting them would be slow.
-    Nothing is yielded without a solution.
+    """Yield the suggestion of one more stage, with its number of solutions unless counting them would be slow. Nothing
+    is yielded if there is no solution.
     """
     size = question.stages + 1
     # one more external stage would reverse the required sense

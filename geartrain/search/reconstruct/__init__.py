@@ -13,7 +13,6 @@ The problem
 
 The search: enumeration of trees up to the order of arbors, by paths from the input to each dial
 - `train_topology`: a rooted tree without orders of arbors and counts of added wheels (an equivalence class of trains)
-- `quotient_tables`: sorted tables of quotients of added counts
 - `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and tables of quotients
 - `path_trees`: recursive enumeration of the topologies that have one given path per dial
 - `added_counts`: choices of added counts by variable elimination and tables of products; their sums
@@ -33,7 +32,7 @@ The answer
 - `known_rank`: the rank of a known train, and the facts that distinguish it
 - `reconstruction`: the request, and all steps in one call
 - `reconstruction_report`: the answer as a document
-- `verb`, `reconstruction_run`: the command
+- `verb`: the command
 """
 
 from __future__ import annotations

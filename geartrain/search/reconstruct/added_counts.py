@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import product
 from math import comb, prod
 from typing import NamedTuple
@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.arrays import Bools, Floats
 from geartrain.search.reconstruct.train_topology import AddedKind, AddedWheels, Dials, Quotients
 from geartrain.search.weighted_alternatives import sums_by
 
@@ -51,8 +52,8 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Exchanged counts are different
-    choices.
+    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Choices in which the counts of two
+    wheels are exchanged are different.
     """
     minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
@@ -197,7 +198,7 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
 
 
 Group = tuple[Dials, int, int]
-"""Dials whose speed a group of added wheels changes, and its numbers of driving and of driven wheels."""
+"""Group of added wheels: dials whose speed it changes, and its numbers of driving and of driven wheels."""
 Wanted = tuple[tuple[str, Quotients], ...]
 """Required bounds of the quotient of all added wheels on the path to each dial."""
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
@@ -205,8 +206,8 @@ Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 
 
 class OpenCounts(NamedTuple):
-    """Added wheels without tooth counts, with the required quotients of these counts and the limits set by rings,
-    sorted.
+    """Added wheels whose tooth counts are not yet chosen, with the required quotients of these counts and the upper
+    limits set by rings, in sorted order.
     """
 
     added: AddedWheels
@@ -280,7 +281,9 @@ class AddedCounts:
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return, for each tooth count, the number of choices in which some wheel has it, by inclusion-exclusion."""
+        """Return, for each tooth count, the number of choices in which at least one wheel has it, by
+        inclusion-exclusion.
+        """
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)
@@ -289,7 +292,7 @@ class AddedCounts:
     def _without_count(
         self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
     ) -> int:
-        """Return how many of `number` choices give no wheel of some kinds a given tooth count."""
+        """Return the number of choices, out of `number`, in which no wheel of the given kinds has a given count."""
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]
@@ -387,7 +390,7 @@ _LISTED_TOGETHER = 3
 
 
 def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Return two small groups that determine the speed of a dial of exact speed by themselves, with their total
+    """Return two small groups that together determine the speed of a dial with an exact speed, and their total
     quotient.
     """
     best, fewest = None, _LISTED_TOGETHER + 1
@@ -428,3 +431,96 @@ def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
     )
+
+
+Bounds = tuple[Floats, Floats]
+"""Arrays of the minimum and the maximum of each quotient, equal if the quotient is exact."""
+
+_FEW = 2
+"""Maximum number of added wheels whose quotients are all tabulated."""
+_LONGEST = 12_000_000
+"""Maximum number of quotients in a table. Larger tables are not built, and every number is then accepted."""
+ROUNDING = 1e-12
+"""Relative rounding error of a quotient."""
+
+
+class QuotientTables:
+    """Sorted tables of all quotients of products of tooth counts that added wheels can have.
+
+    minimum, maximum   range of the tooth count of an added wheel
+    """
+
+    def __init__(self, minimum: int, maximum: int) -> None:
+        self._counts = np.arange(minimum, maximum + 1, dtype=np.float64)
+
+    def may_hold(self, bounds: Bounds, drivers: int, driven: int) -> Bools:
+        """Return whether each range contains a product of `drivers` added counts divided by a product of `driven`
+        added counts, without false negatives.
+        """
+        return _contain(self._table(drivers, driven), bounds)
+
+    def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
+        """Return a lower bound, at most `_FEW` + 1, of the number of added wheels with a quotient in each range."""
+        found = np.full(bounds[0].shape, _FEW + 1, dtype=np.int8)
+        for wheels in range(_FEW, -1, -1):
+            found[_contain(self._few(wheels), bounds)] = wheels
+        return found
+
+    @cache  # noqa: B019 -- lives as long as the search
+    def _few(self, wheels: int) -> Floats | None:
+        """Return all quotients of products of at most `wheels` added counts; None if there are too many."""
+        tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
+        known = [table for table in tables if table is not None]
+        return _distinct(np.concatenate(known)) if len(known) == len(tables) else None
+
+    @cache  # noqa: B019 -- lives as long as the search
+    def _table(self, drivers: int, driven: int) -> Floats | None:
+        if driven:
+            above, below = self._table(drivers, 0), self._table(driven, 0)
+            if above is None or below is None or len(above) * len(below) > _LONGEST:
+                return None
+            # products below 2^53 are exact floats, so equal quotients are rounded to equal floats
+            return _distinct(np.divide.outer(above, below))
+        if not drivers:
+            return np.ones(1)
+        before = self._table(drivers - 1, 0)
+        if before is None or len(before) * len(self._counts) > _LONGEST:
+            return None
+        return _distinct(np.multiply.outer(before, self._counts))
+
+
+def _distinct(numbers: Floats) -> Floats:
+    """Return the sorted distinct numbers. Sorting is ten times faster than the hash table of `numpy.unique`."""
+    found = np.sort(numbers, axis=None)
+    return np.asarray(found[np.append(True, found[1:] != found[:-1])])
+
+
+def _contain(table: Floats | None, bounds: Bounds) -> Bools:
+    """Return whether each range contains an entry of a table; True for all ranges if there is no table."""
+    low, high = bounds
+    if table is None:
+        return np.ones(low.shape, dtype=bool)
+    # if any entry is in the range, the first entry that is not below it is
+    at = np.searchsorted(table, low * (1 - ROUNDING))
+    at[at == len(table)] = 0  # the smallest entry is then below the range
+    return np.asarray((table[at] >= low * (1 - ROUNDING)) & (table[at] <= high * (1 + ROUNDING)))
+
+
+@lru_cache(maxsize=1 << 16)
+def prime_powers(number: int) -> tuple[tuple[int, int], ...]:
+    """Return the prime factorisation of a positive integer by trial division, as pairs (prime, power).
+
+    A remainder without a prime factor below 10 000 is treated as prime.
+    """
+    found, prime = [], 2
+    while prime * prime <= number and prime < 10_000:
+        power = 0
+        while number % prime == 0:
+            number //= prime
+            power += 1
+        if power:
+            found.append((prime, power))
+        prime += 1
+    if number > 1:
+        found.append((number, 1))
+    return tuple(found)

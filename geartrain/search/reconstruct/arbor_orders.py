@@ -65,9 +65,10 @@ class CountTokens:
         return tuple(-at - 1 for at in range(first, first + wheels))
 
     def kinds(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, AddedKind]:
-        """Return the kind of each added wheel, by the number of the token that replaces its tooth count in the train.
+        """Return the kind of each added wheel, by the token (a negative number) that replaces its tooth count in the
+        train.
 
-        maximum   maximum tooth count; a wheel inside a ring gets a lower limit if the ring has fewer teeth
+        maximum   maximum tooth count; the maximum of a wheel that meshes with a smaller ring is reduced accordingly
         """
         most: dict[int, int] = {}
         for pair in _meshes(arbor):
@@ -113,7 +114,9 @@ class MeshFacts:
         return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
 
     def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
-        """Return the known mesh that a mesh satisfies, as a set of at most one pair; None if the mesh is excluded."""
+        """Return the known pair of meshing wheels that a mesh realises, in a set that is empty if there is none; return
+        None if the mesh is excluded.
+        """
         assert driven is not None
         if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1].name, driven.name)) in self.apart:
             return None
@@ -228,7 +231,7 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return the arbors that one wheel drives at the beginning of the given chains."""
+        """Return the arbors that one wheel drives, which begin the given chains."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:

@@ -78,7 +78,7 @@ def free_name(name: str, kind: str, taken: Container[str]) -> str:
 
 
 def numbered(stem: str, taken: Container[str]) -> str:
-    """Return `stem` with the smallest number, from 1, that is not taken."""
+    """Return `stem` followed by the smallest positive number that gives a name not in `taken`."""
     number = 1
     while f"{stem}{number}" in taken:
         number += 1
@@ -95,9 +95,7 @@ class FreeNames:
     """Names of wheels that are already used."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
-        """Return the name of the next added arbor, derived from the first dial whose pointer it carries if there is
-        one.
-        """
+        """Return the name of the next added arbor, derived from the first dial whose pointer it carries, if any."""
         name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
         link = free_name(name, "arbor", self.links)
         self.links.add(link)

@@ -157,7 +157,7 @@ def _arbor_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[B
     for arbor in candidate.arbors():
         said = arbor.name or "an added arbor"
         if arbor.name in wheels and wheels[arbor.name] and arbor.driven and arbor.driven.name is None:
-            what = f"{said} is driven by an added wheel of {arbor.driven.teeth}"
+            what = f"{said} is driven by an added wheel of {arbor.driven.teeth} teeth"
             yield BrokenRule("driven", (said,), what, f"if {said} is lost")
         if arbor.passes and not problem.idlers:
             assert arbor.driven is not None
@@ -345,7 +345,7 @@ class _TrainReading:
 
     @cached_property
     def _driven(self) -> dict[str, DrivenArbor]:
-        """Mesh that drives each link that meshes connect to the input on the frame, in breadth-first order."""
+        """Mesh that drives each link that is connected to the input by meshes on the frame, in breadth-first order."""
         rings = {own for own, name in self._survivors.items() if name in self.problem.rings}
         return walk_meshes(self.train, self._source, self._joined, rings)
 

@@ -83,7 +83,7 @@ def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
 
 
 def without_each_dial(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problems that result from dropping each dial in turn; nothing for a single dial."""
+    """Yield the problems that result from dropping each dial in turn; yield nothing if there is only one dial."""
     for dial in problem.dials if len(problem.dials) > 1 else ():
         left = tuple(each for each in problem.dials if each is not dial)
         yield ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=left))
@@ -215,7 +215,7 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
     """Yield the problem with another tooth count of one surviving wheel, for each count that differs by at most
-    `MISREAD` from a possible count, small differences first.
+    `MISREAD` from a possible count, in ascending order of the difference.
     """
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:

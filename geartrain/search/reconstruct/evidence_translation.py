@@ -127,7 +127,9 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """Yield pairs: a declared range of a speed, and True if the range is signed, False for a range of the magnitude."""
+    """Yield each declared range of a speed, with True for a range of the signed speed, False for a range of its
+    magnitude.
+    """
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)

@@ -48,7 +48,7 @@ LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer
 """Kinds of facts that an examination of surviving or new fragments can establish."""
 
 _MOST_FACTS = 200
-"""Maximum number of facts that are compared for equal partitions of the candidates."""
+"""Maximum number of facts that are compared to find facts that partition the candidates in the same way."""
 
 
 class Fact(NamedTuple):
@@ -59,7 +59,7 @@ class Fact(NamedTuple):
     kind: FactKind
     """Kind of the fact."""
     subject: str
-    """Names of wheels, arbor or dial, or the tooth count, that the fact is about."""
+    """Subject of the fact: names of wheels, name of an arbor or a dial, or a tooth count."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,7 @@ class FactMarginal(Result):
     kind: FactKind
     """Kind of the fact."""
     subject: str
-    """Names of wheels, arbor or dial, or the tooth count, that the fact is about."""
+    """Subject of the fact: names of wheels, name of an arbor or a dial, or a tooth count."""
     answers: tuple[FactAnswer, ...]
     """Answers in descending order of probability."""
 
@@ -162,7 +162,7 @@ class FactTally:
 class ExplainedFacts:
     """Marginals of all facts, and groups of facts that partition the trains in the same way.
 
-    weighed   all trains, or the best
+    weighed   all trains, or only the best trains
     tally     sums over all trains, if known; facts are then equivalent if they partition `weighed` in the same way and
               have equal sums
     """
@@ -180,7 +180,7 @@ class ExplainedFacts:
         self._tally = own if tally is None else tally
 
     def marginals(self) -> tuple[FactMarginal, ...]:
-        """Return the marginal of every fact except `pair`, by kind and in descending order of probability."""
+        """Return the marginals of all facts except the kind `pair`, by kind and in descending order of probability."""
         found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
         return tuple(
             sorted(found, key=lambda one: (_KINDS.index(one.kind), -_yes_weight(one), _answer_order(one.subject)))
@@ -216,7 +216,7 @@ class ExplainedFacts:
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
     """Yield all facts of a candidate with their answers, each fact once.
 
-    Tooth counts of surviving wheels are facts only for wheels in `doubtful`; pointers only for dials in `lost`.
+    Tooth counts of surviving wheels are included only for wheels in `doubtful`, and pointers only for dials in `lost`.
     """
     yield from _order_facts(train, doubtful, lost)
     added = _added_wheels(train)
@@ -452,7 +452,7 @@ def find_facts(
 ) -> CandidateFindings:
     """Compute the marginals, the facts to observe next, and the family tree of the listed candidates.
 
-    Marginals and facts to observe next cover all trains if these can be summed.
+    Marginals and facts to observe next cover all trains if sums over all trains can be computed.
     """
     candidates = found.candidates
     if not candidates:

@@ -1,4 +1,4 @@
-"""Likelihood of a candidate by measured modules, radii and positions of axes: a float, 0 if it is impossible.
+"""Likelihood of a candidate, given measured modules, radii and positions of axes; 0 if the candidate is impossible.
 
 Every mesh of two measured wheels contributes exp(-(e/s)^2 / 2), where e is the logarithm of the ratio of their modules
 and s its standard deviation. A wheel that was not measured has the module that fits the adjacent wheels best. Misfits

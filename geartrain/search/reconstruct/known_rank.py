@@ -128,7 +128,8 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
     """Return the rank and probability of one explanation among all explanations.
 
     Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the prior
-    depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is listed.
+    depends only on the topology, the rank follows from the numbers of trains of each weight, without a list of the
+    trains.
     """
     if found.topologies:
         weight = train_prior(candidate, problem)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from geartrain.errors import QuestionError
 from geartrain.numerics.arrays import Bools, Floats
-from geartrain.search.reconstruct.quotient_tables import Bounds, QuotientTables, prime_powers
+from geartrain.search.reconstruct.added_counts import Bounds, QuotientTables, prime_powers
 from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     PlacedWheel,
@@ -67,7 +67,8 @@ def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str
 
 
 class SeenMeshes:
-    """Compatibility of the passes of a path through different arbors, from the known meshes.
+    """Compatibility of the passes (driven and driving wheels) of a path through different arbors, from the known
+    meshes.
 
     passes   passes of each arbor, the input first
     order    indices of the arbors; arbors of one component are adjacent, and components with many passes come first
@@ -146,7 +147,9 @@ class PathGrowth:
     idle: NDArray[np.int8]
     """Number of surviving wheels on the arbors of the path that the path does not use."""
     need: NDArray[np.int8]
-    """Number of added wheels that must contain a large prime, because no later arbor contains it."""
+    """Number of added wheels whose count must be divisible by a large prime, because no later arbor contains this
+    prime.
+    """
     ended: Bools
     """True if the path ends at one of the arbors."""
 
@@ -290,7 +293,7 @@ class PathList:
     # extension by one arbor at a time
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, Bools]:
-        """Return the paths through all arbors, and a matrix of the plans of added arbors that are possible for each."""
+        """Return the complete paths, and a matrix of the plans of added arbors that are possible for each path."""
         growth = PathGrowth.start(len(self.passes), float(abs(self.problem.input_speed)), self._powers(self._wanted))
         self._examined = 0
         found = []
@@ -342,7 +345,7 @@ class PathList:
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _is_listed(self, at: int, each: ArborPass | None) -> bool:
-        """Return whether `along` permits a pass of an arbor, or avoiding the arbor."""
+        """Return whether `along` permits a pass of an arbor; the pass is None if the path avoids the arbor."""
         if self._along is None:
             return True
         arbor = (self.problem.input, *self.problem.arbors)[at]
@@ -359,7 +362,7 @@ class PathList:
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Large primes, of which an added tooth count contains at most one; empty if the dial has a tolerance."""
+        """Large primes, at most one of which divides the count of an added wheel; empty if the dial has a tolerance."""
         if not self.dial.is_exact:
             return ()
         minimum = self.problem.additions.maximum
@@ -422,7 +425,7 @@ class PathList:
         return self._magnitudes(turned)[1] > 0
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
-        """Return the minimum and maximum speed magnitude of the dial in one sense; maximum 0 if the sense is
+        """Return the minimum and maximum speed magnitude of the dial in one sense; the maximum is 0 if the sense is
         excluded.
         """
         low, high = self.dial.minimum, self.dial.maximum

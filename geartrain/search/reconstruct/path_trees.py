@@ -46,7 +46,7 @@ def dial_partitions(
     """Yield each partition of dials into the dials whose pointers an arbor carries and, for each of its wheels, the
     dials to which the wheel leads.
 
-    Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
+    Dials whose paths leave by added wheels are partitioned into blocks, with one added wheel for each block.
 
     ways     exits by which the path to each dial may leave the arbor
     arbors   bit mask of the surviving arbors on the path to each dial; dials with a common arbor stay in one block
@@ -211,9 +211,11 @@ class PathTrees:
                     yield from _with_ends(trunk, self._branching(last, below, after))
 
     def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
-        """Yield each chain of given surviving arbors and some added arbors that all paths can share, without its end.
+        """Yield each chain of given surviving arbors and some added arbors that all paths can share, without the end of
+        the chain.
 
-        The second entry is the number of wheels and arbors that may still be added, the third is the rest of each path.
+        The second entry is the number of wheels and arbors that may still be added, and the third is the rest of each
+        path.
         """
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
@@ -238,7 +240,7 @@ class PathTrees:
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
         """Return the surviving arbors that all paths pass in the same way, and the arbor at which they separate.
 
-        The second entry is None without such an arbor. The result is None if paths separate at more than one arbor.
+        The second entry is None if there is no such arbor. The result is None if paths separate at more than one arbor.
         """
         through, ends = [], []
         for at in _arbors(reduce(and_, (path.arbors for path in paths.values()))):

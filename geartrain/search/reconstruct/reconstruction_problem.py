@@ -1,7 +1,7 @@
 """Problem of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, limits of additions.
 
-Speeds are exact, in turns per unit of the input arbor, and signed. The input arbor turns at `input_speed`. Lengths are
-exact, in millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
+Speeds are exact and signed [turns per unit of the input]. The input arbor turns at `input_speed`. Lengths are exact, in
+millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
 """
 
 from __future__ import annotations
@@ -223,8 +223,8 @@ class Additions:
     arbors: int | None = None
     """Maximum number of added arbors; None if it is not limited."""
     on: Literal["any", "new"] = "any"
-    """Arbors that may carry added wheels. "new": added arbors only. "any": surviving arbors too, with added
-    driving wheels, and with an added driven wheel if no wheel of the arbor survives.
+    """Arbors that may carry added wheels: "new" for added arbors only, "any" for surviving arbors too. A surviving
+    arbor may have added driving wheels, and an added driven wheel if no wheel of the arbor survives.
     """
 
 

@@ -55,8 +55,8 @@ class ExplanationCount(Result):
     multisets: int | None
     """Number of equivalence classes up to the order of arbors on paths; None if there are too many trains."""
     classes: int | None
-    """Number of classes of trains with equal driving and driven wheels on each path, and so equal ratios; None if there
-    are too many trains.
+    """Number of classes of trains with equal driving and driven wheels on each path, and therefore with equal ratios;
+    None if there are too many trains.
     """
 
 

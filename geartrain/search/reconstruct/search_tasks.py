@@ -16,11 +16,10 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.arrays import Bools
 from geartrain.numerics.work import Execution
-from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts
+from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts, QuotientTables
 from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, arranged
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import (
     Arbor,
     ReconstructionProblem,
@@ -47,7 +46,7 @@ class OrderPart(NamedTuple):
     open: OpenCounts
     choices: int
     orders: list[Arbor]
-    """Trains with tokens instead of the tooth counts of added wheels, one for each order."""
+    """Trains in which negative numbers (tokens) replace the tooth counts of added wheels, one train for each order."""
 
     @property
     def trains(self) -> int:
@@ -296,7 +295,8 @@ class PathChoice:
     def _extended(self, chosen: Choice, lists: dict[str, Rows], share: Iterator[bool] | None) -> Iterator[Choice]:
         """Yield all choices that extend the chosen paths by paths to the other dials.
 
-        share   whether each next path belongs to this part of the search; None if an earlier path was distributed
+        share   iterator that yields, for each path, whether it belongs to this part of the search; None if the paths to
+                an earlier dial were already distributed over the parts
         """
         dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
         rows = lists[dial]
@@ -343,7 +343,7 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
-        """Return a lower bound of the distance of each path from a chosen path."""
+        """Return, for each path, a lower bound of the number of added wheels that are not shared with a chosen path."""
         first, second = self.lists[end], self.lists[dial]
         (low, high), (minimum, maximum) = first.bounds, second.bounds
         with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0

@@ -301,14 +301,14 @@ class _Base:
     """Arbors that turn on the frame or on one carrier: links that form one arbor, and meshes."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Links that couplings connect to each link, including the link, in the order of the train."""
+    """Links that couplings connect to each link, including the link itself, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
     """Meshes of each arbor with other arbors of the base."""
 
 
 class _Parts:
-    """Search for the parts of a train. `loop` describes the last closed loop of meshes, because of which a part is
-    excluded.
+    """Search for the parts of a train. `loop` describes the last closed loop of meshes that was found; a part with such
+    a loop is excluded.
     """
 
     def __init__(self, train: Train) -> None:
@@ -317,7 +317,7 @@ class _Parts:
         self._inputs = {link: speed for link, speed in train.case(None).inputs.items() if speed}
 
     def trees(self) -> Iterator[SpurTree]:
-        """Yield the parts in an order in which the speed of the first arbor of each part is already known."""
+        """Yield the parts in an order in which the speed of the first arbor of a part is known from earlier parts."""
         waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
         # the part at the input begins; it determines the speeds at which others begin
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
@@ -355,7 +355,7 @@ class _Parts:
         return {base: own for base, own in found.items() if own.meshes}
 
     def _arbor(self, base: str, wheel: str, bases: dict[str, _Base] | None = None) -> str:
-        """Return the arbor of a wheel: the frame for fixed links, the first link for joined links."""
+        """Return the arbor of a wheel: the frame if its link is fixed, or the first of the links joined to its link."""
         return self._arbor_of_link(base, self.train.wheels[wheel][0], bases)
 
     def _arbor_of_link(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
@@ -484,7 +484,7 @@ def why_not(train: Train, link: str) -> str:
 
 
 def _unsupported_features(train: Train) -> Iterator[str]:
-    """Yield the features of a train that no part supports."""
+    """Yield the features of a train that a reconstruction does not support."""
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
     if any(one.kind != "pin_and_slot" for one in train.pin_couplings):

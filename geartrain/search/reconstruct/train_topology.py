@@ -36,7 +36,7 @@ class ArborPass:
     driven: PlacedWheel | None
     """Driven wheel, by which the path enters; None on the input arbor."""
     driver: PlacedWheel | None
-    """Driving wheel, by which the path leaves; in an idler it is the driven wheel; None if the path ends here."""
+    """Driving wheel, by which the path leaves; None if the path ends here. In an idler it is the driven wheel."""
     idle: int
     """Number of surviving wheels of the arbor that the path does not use."""
     idler: bool = False
@@ -236,7 +236,7 @@ class AddedWheels:
     """Number of added wheels that change no speed."""
 
     def without(self, kind: AddedKind) -> AddedWheels:
-        """Return the added wheels without one wheel of a kind."""
+        """Return the added wheels with one wheel of a kind removed."""
         if not kind.dials:
             return AddedWheels(self.groups, self.idle - 1)
         left = [

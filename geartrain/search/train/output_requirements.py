@@ -344,7 +344,7 @@ class TrainRequirements:
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
     """Return the admissible counts of each varied wheel, ascending, in the order of declaration.
 
-    `free` is the argument of `search_train`. Raise `QuestionError` if no wheel is varied, or if a wheel named
+    `free` has the same meaning as in `search_train`. Raise `QuestionError` if no wheel is varied, or if a wheel named
     in `free` has no range of counts.
     """
     if isinstance(free, str) and free not in ("search", "uncertain"):

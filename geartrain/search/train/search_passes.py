@@ -43,8 +43,8 @@ Task = dict[str, Any]
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
-    """Return the tasks of a pass, and the fraction of the pass that they cover, below 1 if the limit of steps is
-    exceeded.
+    """Return the tasks of a pass, and the fraction of the pass that they cover, which is below 1 if the limit of steps
+    is exceeded.
 
     Tasks are runs of the values of the first variable, and of its child in the plan if the first has few values. If the
     limit is exceeded, the tasks are a random sample with a fixed seed.
@@ -224,7 +224,7 @@ class PassResult:
     """Result of one pass of a search: sums over its tasks, and the best assignments."""
 
     share: Fraction | None = None
-    """Common relative tolerance of the pass; None without a common tolerance."""
+    """Common relative tolerance of the pass; None if there is no common tolerance."""
     searched: float = 1.0
     """Fraction of the assignments that the tasks cover: below 1 for a random sample."""
     steps: float = 0.0

@@ -63,7 +63,7 @@ class Assignment(CountSizes, Result):
 
     @property
     def error(self) -> Fraction:
-        """Maximum absolute relative error of the outputs; 0 without outputs."""
+        """Maximum absolute relative error of the outputs; 0 if there are no outputs."""
         return max((abs(reached.error) for reached in self.outputs.values()), default=Fraction(0))
 
     def measure(self, by: By) -> tuple[Fraction | int, ...]:

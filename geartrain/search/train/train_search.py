@@ -104,7 +104,9 @@ def relaxed_search(search: PartSearch) -> PartSearch:
 
 
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
-    """Return the rejected assignments of a pass by reason; without a solution also the nearest miss and suggestions."""
+    """Return the rejected assignments of a pass by reason; if there is no solution, also the nearest miss and
+    suggestions.
+    """
     found = tallied(search, passed)
     if passed.count or not passed.complete:
         return found

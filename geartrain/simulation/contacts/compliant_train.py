@@ -107,7 +107,8 @@ class CompliantTrain(TrainModel):
         return pair.opening_row(len(self.coordinates), pair.front.slope)
 
     def _inertia(self, row: Floats) -> float:
-        """Return the effective inertia of a pair [kg m2]: 1/(r M^-1 r^T), with its `_row` r and the mass matrix M.
+        """Return the effective inertia of a pair [kg m2], 1/(r M^-1 r^T), where r is its `_row` and M is the mass
+        matrix.
 
         The result is 0 if all speeds in the row are prescribed.
         """
@@ -154,7 +155,7 @@ class CompliantTrain(TrainModel):
     def fastest(self) -> float:
         """Maximum angular frequency that time steps must resolve [rad/s].
 
-        It is that of the fastest mode, or half the decay rate of the most damped pair.
+        It is the frequency of the fastest mode or half the decay rate of the most damped pair, whichever is larger.
         """
         rates = [0.0]
         for pair, c in zip(self.model.pairs, self.yields.damping, strict=True):

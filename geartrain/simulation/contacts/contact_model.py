@@ -45,13 +45,13 @@ class ContactPair:
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
     """Friction terms of the driver's lever arm, which is its torque divided by the driven side's torque.
 
-    In the order: front flank turning forward and backward, back flank turning forward and backward. None without
-    friction.
+    The order is front flank turning forward and backward, then back flank turning forward and backward. The value is
+    None without friction.
     """
     restitution: float = 0.0
     """Coefficient of restitution."""
     has_no_dwell: bool = False
-    """True if the transmission function has no dwell: the driven side could also drive."""
+    """True if the transmission function has no dwell, so that the driven side could also drive."""
 
     @property
     def two_sided(self) -> bool:
@@ -75,7 +75,7 @@ class Bearing:
 
 @dataclass(frozen=True)
 class Stop:
-    """Upper limit of an angle that increases by `pitch` [rad] after each `beat` [s], as in an escapement."""
+    """Upper limit of an angle, as in an escapement. The limit increases by `pitch` [rad] after each `beat` [s]."""
 
     name: str
     angle: Form
@@ -120,7 +120,8 @@ class ContactModel:
 
     @property
     def fall_times(self) -> list[float]:
-        """Time that each stopped link takes from one stop to the next [s], with all coordinates in their mean ratios.
+        """Time that each stopped link takes from one stop to the next [s], if all coordinates move in their mean
+        ratios.
 
         It follows from the driving torque at the start, without resistance.
         """

@@ -159,7 +159,7 @@ class _Bodies:
         return None if missing or not plates else sum(plate.mass for plate in plates)
 
     def _plates(self, link: str) -> tuple[Sequence[PlateMoments], tuple[str, ...]]:
-        """Return the moments of all wheels of a link, and descriptions of missing data."""
+        """Return the masses and moments of inertia of all wheels of a link, and descriptions of missing data."""
         plates, missing = [], []
         for name, wheel in self.declared.links[link].wheels.items():
             thickness = wheel.thickness or self.declared.thickness

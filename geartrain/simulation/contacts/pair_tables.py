@@ -33,7 +33,8 @@ class PairTables(NamedTuple):
     period: Floats
     """Period of each function [rad]."""
     slope: Floats
-    """Mean slope of each function, which is slope times the driver angle plus a periodic part; 0 if it is not an angle.
+    """Mean slope of each function, the factor of the driver angle besides the periodic part; 0 if the function is not
+    an angle.
     """
     cells: Ints
     """Number of uniform cells in the period of each function; `start` has the index in `first` of its first cell."""
@@ -47,7 +48,7 @@ class PairTables(NamedTuple):
     coefficients: Floats
     """Polynomial coefficients of the pieces about their middles, shape (pieces, DEGREE + 1)."""
     jump: Floats
-    """Minimum jump of the derivative at a kink of each function; infinite without jumps."""
+    """Minimum jump of the derivative at a kink of each function; infinite if there are no jumps."""
 
 
 class TabledFunction(NamedTuple):
@@ -85,7 +86,7 @@ def tabled_function(
 
 
 def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
-    """Return the tables of several functions joined to the arrays of the kernels, in the order of the sequence."""
+    """Return the tables of several functions, joined in the given order into the arrays that the kernels need."""
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
     for each in functions:

@@ -4,7 +4,8 @@ T_1 and T_2 are the torques of the driver and of the driven wheel, and tau is th
 flanks, each with two senses of rotation. On one flank the sliding velocity changes its sign with the sense of rotation.
 With the friction coefficient f, and the coefficients `out` and `into` of the contact geometry, a contact transmits the
 fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards. The driver's torque is then tau/eta(f) times the
-driven torque, and tau/eta(-f) times it backwards, whichever wheel is the power input.
+driven torque for turning forwards, and tau/eta(-f) times the driven torque for turning backwards, whichever wheel is
+the power input.
 """
 
 from __future__ import annotations
@@ -41,7 +42,9 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms on one flank, turning in its driving sense and backwards; None without friction."""
+    """Return the friction terms on one flank for its driving sense and the opposite sense; None if there is no
+    friction.
+    """
     if not mesh.computes_losses or not mesh.has_friction:
         return None
     losses = mesh.losses
@@ -68,8 +71,8 @@ def _friction_term(
 ) -> Floats:
     """Return the friction term tau (1/eta - 1) from the speed ratio tau and efficiency eta at each driver angle.
 
-    It is 0 during a dwell, in which nothing slides. `way` -1 reverses the sliding. Raises `GearTrainError` if friction
-    locks the teeth.
+    It is 0 during a dwell, in which nothing slides. A `way` of -1 reverses the sliding. Raises `GearTrainError` if
+    friction locks the teeth.
     """
     sliding, into, out = rubbing
     # NaN marks tooth pairs that do not touch at this angle
@@ -110,7 +113,7 @@ def separate_rubbing(
 
 
 def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
-    """Return the friction terms of a pin that drives a slot: (r/rho) f |sin d|; None without friction.
+    """Return the friction terms (r/rho) f |sin d| of a pin that drives a slot; None if there is no friction.
 
     The pin has the distances r from its own axis and rho from the slot's axis, f is the friction coefficient, and d is
     the angle between the pin's arm and the slot. The sign depends on the slot's torque and on the sense of rotation.

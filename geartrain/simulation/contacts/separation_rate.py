@@ -1,8 +1,8 @@
 """Input speed at which teeth first separate, searched over all positions including kinks and jumps.
 
-Between kinks of the transmission functions, the torque that each pair must carry is smooth. Every interval is sampled,
-with its ends on their own sides of the kinks, and the best intervals are refined. Where a speed jumps, the sign of the
-impulse decides.
+Between kinks of the transmission functions, the torque that each pair must carry is smooth. Every interval is sampled
+up to one-sided limits at its ends, and the best intervals are refined. Where a speed jumps, the teeth separate if the
+impulse is negative.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ _MOST_KINKS = 80_000  # maximum product of kinks and pairs by default; takes som
 def find_separation(
     train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
 ) -> SeparationRates:
-    """Return the input speed at which the flanks of each pair first separate; `motion` is valid below the lowest speed.
+    """Return the input speed at which the flanks of each pair first separate. `GearTrain.motion` is valid below the
+    lowest of these speeds.
 
     The computation includes inertia, loads, a driving weight or torque, friction of bearings and of teeth with a
     variable ratio, viscous drag, and impacts at speed jumps (docs/dynamics.md, section 3).
@@ -175,8 +176,8 @@ class PairSeparation(Result):
 
 @dataclass(frozen=True)
 class SeparationRates(Result):
-    """Input speeds at which the flanks of each pair in a train first separate; `motion` is valid below the lowest
-    speed.
+    """Input speeds at which the flanks of each pair in a train first separate. `GearTrain.motion` is valid below the
+    lowest of these speeds.
 
     See Also
     --------
@@ -200,8 +201,8 @@ class SeparationRates(Result):
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the links, as used in the computation."""
     uncounted: tuple[str, ...] = ()
-    """Names of the pairs with a constant ratio and of the pins, and `bearing LINK` for each bearing whose friction
-    grows with the load; the computation neglects their friction.
+    """Names of the pairs and bearings whose friction is neglected: pairs with a constant ratio, pins, and (as `bearing
+    LINK`) bearings whose friction increases with the load.
     """
 
     @property
@@ -285,8 +286,8 @@ def _first_separation(found: SeparationRates) -> str:
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return for each pair the minimum input speed at which it separates between kinks [rad/s] and its position, and
-    the width of the narrowest interval between kinks [revolutions of the input].
+    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum,
+    and the width of the narrowest interval between kinks [revolutions of the input].
 
     The best intervals of each pair are refined with ever finer samples.
     """
@@ -321,7 +322,8 @@ def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> t
 def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
     """Return the first input position at which each pair separates at any speed [revolutions], by index of the pair.
 
-    There, a jump of the speed ratio would require a tensile impulse. Pairs without such a position are omitted.
+    At this position, a jump of the speed ratio would require a tensile impulse. Pairs without such a position are
+    omitted.
     """
     if not len(kinks):
         return {}

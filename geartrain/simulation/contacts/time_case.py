@@ -34,7 +34,7 @@ class PowerInput:
     rate: float = 0.0
     """Prescribed speed of the link or of the hand [rad/s]."""
     torque: float = 0.0
-    """Constant torque on the link, which may be that of a weight on its drum [N m]."""
+    """Constant torque on the link [N m], such as the torque of a weight on its drum."""
     stiffness: float = 0.0
     """Torsional stiffness of a spring or a hand [N m/rad]; `wound` is the initial deflection of the spring [rad]."""
     wound: float = 0.0

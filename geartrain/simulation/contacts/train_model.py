@@ -49,8 +49,8 @@ _FREE = 0.05  # relative to the mean ratio: a pair whose ratio stays above can a
 class SlackPin(ExactRatio):
     """Transmission function of a pin on one side of its slot, with clearance, docs/dynamics.md (9).
 
-    The slot is asin(clearance/(2 rho)) ahead of its position with a tight pin (`side` 1), or behind (-1); rho is the
-    distance of the pin from the slot's axis.
+    The slot is asin(clearance/(2 rho)) ahead of its position with a tight pin (`side` 1), or behind it (`side` -1); rho
+    is the distance of the pin from the slot's axis.
     """
 
     def __init__(self, transmission: PinToSlotTransmission, clearance: float, side: int) -> None:
@@ -299,7 +299,9 @@ class TrainModel:
     def _coupling_flanks(
         joint: CouplingMesh, transmission: TransmissionFunction
     ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return `_flanks` of a coupling without backlash, with the losses of its declared efficiency."""
+        """Return the same data as `_flanks` for a coupling without backlash, with the losses of its declared
+        efficiency.
+        """
         label = f"coupling '{joint.coupling.name}'"
         _refuse_jump(label, transmission)
         front, ways = tabled_angle(transmission), joint.coupling.efficiency
@@ -378,7 +380,9 @@ class TrainModel:
             yield Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate)
 
     def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
-        """Return the generalised torques on the coordinates [N m] of torques on links and of the drive."""
+        """Return the generalised torques on the coordinates [N m] due to torques on links and to the torque of the
+        drive.
+        """
         torque = drive * self._form(self.case.drive.link)
         for link, load in loads.items():
             torque += load * self._form(link)

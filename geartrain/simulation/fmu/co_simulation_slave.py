@@ -126,7 +126,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._add(_OUTPUT, name, unit, what, lambda: of(self.simulation))
 
     def _item(self, values: dict[str, float], name: str) -> tuple[Callable[[], float], Callable[[float], None]]:
-        """Return functions that read and set an item of the loads or of the coefficients of restitution."""
+        """Return functions that read and set one of the loads or of the coefficients of restitution."""
 
         def put(value: float) -> None:
             values[name] = value
@@ -208,8 +208,8 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 def keep_alive(names: dict[str, Any]) -> None:
     """Add a permanent reference to the global variables of the unit's script each time the script runs.
 
-    It compensates for the library through which other tools call Python, which each time releases a reference that it
-    does not own (PythonFMU 0.7.0).
+    This compensates for a fault of PythonFMU 0.7.0: on each call of Python, its library releases a reference that it
+    does not own.
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(names))
 

@@ -6,7 +6,7 @@ Here M is the mass matrix, v and v+ are the speeds before and after the step of 
 has the impulse P_c, which acts on the coordinates with the coefficients f_c, the row r_c of its opening speed, the
 bound k_c on that speed, and the compliance 1/s_c. The speeds v+ and the impulses P_c are the solution of one system of
 linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between prescribed coordinates, whose
-speeds are known, have a compliance far below that of any mass, so that the system is regular.
+speeds are known, have a compliance that is small compared with any inverse mass, so that the system is regular.
 """
 
 from __future__ import annotations
@@ -37,39 +37,40 @@ IMPACT_COLUMNS = 5
 
 
 class ContactState(NamedTuple):
-    """State of a train; modified in place by the kernels. Contacts are pairs, followed by stops."""
+    """State of a train, which the kernels modify in place. Contacts are pairs, followed by stops."""
 
     clock: Floats
     """Time [s] and step number."""
     angle: Floats
-    """Angles of the coordinates [rad]; `speed` is in rad/s."""
+    """Angles of the coordinates [rad]; `speed` contains their speeds [rad/s]."""
     speed: Floats
     touching: Ints
-    """Touching flank of each contact, `BACK` for an active stop; `turning` of each bearing: -1, 0 (stuck), 1."""
+    """Touching flank of each contact, `BACK` for an active stop; `turning` is -1, 0 (stuck) or 1 for each bearing."""
     turning: Ints
     ratio: Floats
-    """Speed ratio of each pair in the last step, shape (pairs, 2); `struck` is 1 for contacts during an impact."""
+    """Speed ratio of each pair in the last step, shape (pairs, 2); `struck` is 1 for each contact during an impact."""
     struck: Ints
     steady: Floats
     """Impulse of each pair in its last step without an impact [N m s]."""
     flown: Ints
     """Number of steps since each pair separated.
 
-    `stop_rate`, shape (stops, 2), has the speed of each stopped link one step ago, and when it last left its stop
+    `stop_rate`, shape (stops, 2), contains the speeds of each stopped link one step ago, and when it last left its stop
     [rad/s].
     """
     stop_rate: Floats
 
 
 class RunRecord(NamedTuple):
-    """Results of a run; modified in place by the kernels.
+    """Results of a run, which the kernels modify in place.
 
-    energy         columns `WORK_DRIVE` and following
-    counts         (pairs and stops, COUNTS)
+    energy         energy balance, with the columns from `WORK_DRIVE` on
+    counts         statistics of pairs and stops, (pairs + stops, COUNTS)
     angles, speeds samples, (samples, n); `forces` mean torques between samples, (samples, pairs + stops)
     drive          mean torque of each prescribed coordinate between samples, (samples, n)
-    impacts        (capacity, IMPACT_COLUMNS); `numbers`: samples, impacts detected, unsolved steps, pivots, steps
-                   counted, and 1 if the steps diverged and the run stopped
+    impacts        list of impacts, (capacity, IMPACT_COLUMNS); `numbers` contains the numbers of samples, detected
+                   impacts, unsolved steps, pivots and counted steps, and 1 if the steps diverged and the run was
+                   stopped
     """
 
     energy: Floats
@@ -86,7 +87,7 @@ SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
 class CompliantTeeth(NamedTuple):
-    """Data of compliant teeth by pair; torques are about the driven sides."""
+    """Data of compliant teeth by pair; torques refer to the driven sides."""
 
     stiffness: Floats
     """Torsional stiffness [N m/rad]."""
@@ -112,8 +113,8 @@ class StepEquations(NamedTuple):
     matrix: Floats
     """Matrix of equation (13), docs/dynamics.md, shape (n + contacts, n + contacts); overwritten by the elimination."""
     solution: Floats
-    """Right side of equation (13), docs/dynamics.md, overwritten by the solution: speeds [rad/s] and impulses of the
-    contacts [N m s]; for a prescribed coordinate, the impulse of its drive instead of its speed.
+    """Right side of equation (13), docs/dynamics.md, which the solution overwrites: speeds [rad/s] and impulses of the
+    contacts [N m s]. For a prescribed coordinate it contains the impulse of the drive instead of the speed.
     """
     v: Floats
     """Speeds of the coordinates at the end of the step [rad/s]."""
@@ -283,7 +284,9 @@ def correct_contacts(
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, stick those turning against friction; return the number of changes."""
+    """Release bearings that creep too fast, and reverse or stick bearings that turn against their assumed sense; return
+    the number of changes.
+    """
     found = 0
     for m in range(len(system.sliding)):
         rate = 0.0

@@ -159,7 +159,7 @@ def simulate(
 
 
 def _mark(record: RunRecord, state: ContactState) -> _Mark:
-    """Return copies of the counts, energies and angles up to now."""
+    """Return copies of the counts, energies and angles at the present step."""
     return record.counts.copy(), record.energy.copy(), state.angle.copy()
 
 
@@ -197,7 +197,7 @@ def step_rules(
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     """Return the initial state with all coordinates at 0.
 
-    The speeds are the model's initial speeds, or those of minimum norm with all front flanks in contact.
+    The speeds are the model's initial speeds, or the speeds of minimum norm with all front flanks in contact.
     """
     n, pairs, contacts = len(model.torque), len(model.pairs), len(system.compliance)
     ratio = np.zeros((pairs, 2))

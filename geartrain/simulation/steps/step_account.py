@@ -204,7 +204,9 @@ def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> Non
 
 @kernel
 def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
-    """Return the fraction of the step in which no flank of a pair touches; for a new contact, until it closes."""
+    """Return the fraction of the step in which no flank of a pair touches; for a new contact, the fraction before it
+    closes.
+    """
     if touching[m] == OPEN:
         return 1.0
     side = touching[m] - 1

@@ -349,7 +349,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed of each stopped link [rad/s]: it may reach its stop, or must rebound from it."""
+    """Compute the maximum speed [rad/s] at which each stopped link reaches its stop, or rebounds from it."""
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])

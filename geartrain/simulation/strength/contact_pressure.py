@@ -40,8 +40,8 @@ Tresca, metal yields at half the yield stress (Johnson, Contact Mechanics, 1985,
 YIELD_AT_POINT = 1.6
 """Maximum pressure of a point contact at first yield, divided by the yield stress.
 
-The value is that of spheres, by Tresca and by von Mises (Johnson, Contact Mechanics, 1985, section 6.2). A long ellipse
-has 5/3.
+The value applies to spheres, by Tresca and by von Mises (Johnson, Contact Mechanics, 1985, section 6.2). For a long
+ellipse it is 5/3.
 """
 
 _CUSP = 0.1  # excluded range about a pitch point with infinite curvature [pitches]
@@ -115,11 +115,11 @@ class ContactLoad:
     """Line contact of a loaded pair with a path of contact: forces and pressures along the path.
 
     Positions X along the path are arcs on the pitch line, measured from the pitch point [module]. For helical teeth the
-    quantities are those in the transverse section.
+    quantities refer to the transverse section.
     """
 
     path: PathOfContact
-    """Path of contact, lengths in modules."""
+    """Path of contact, with lengths in modules."""
     module: float
     """Module [mm]; `width` is the width of the teeth in contact [mm]."""
     width: float
@@ -169,8 +169,8 @@ class ContactLoad:
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
         """Return pressure [MPa], force [N] and number of tooth pairs in contact at positions X along the path [module].
 
-        Lines of contact of helical teeth are longer by 1/cos of the base helix angle, and so is the force normal to the
-        flanks; the curvature across the lines is smaller by the cosine.
+        For helical teeth, the lines of contact and the force normal to the flanks are larger by the factor 1/cos(base
+        helix angle), and the curvature across the lines is smaller by the cosine.
         """
         force, counts = self.forces(X)
         curvature = self.path.at(X).kr / self.module * cos(self.base_helix)
@@ -179,8 +179,8 @@ class ContactLoad:
     def single(self) -> tuple[float, float]:
         """Return the positions between which one tooth pair carries the whole load [module].
 
-        Both ends of the path of contact are returned if the contact ratio is below 1, and also for helical teeth, of
-        which one pair never carries the whole load.
+        Both ends of the path of contact are returned if the contact ratio is below 1, and also for helical teeth,
+        because one pair of helical teeth never carries the whole load.
         """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         low, high = recess - p, p - approach
@@ -237,7 +237,7 @@ def base_helix_angle(helix: float, pressure_angle: float) -> float:
 def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
     """Return the minimum number of tooth pairs in contact, averaged over the width: docs/strength.md (20).
 
-    contact_ratio   transverse contact ratio; `overlap`, overlap ratio
+    contact_ratio   transverse contact ratio; `overlap` is the overlap ratio
     """
     # fractional parts of both ratios: whole pitches do not change the minimum
     first, second = contact_ratio - floor(contact_ratio), overlap - floor(overlap)
@@ -261,8 +261,8 @@ class ContactEllipse(NamedTuple):
 def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float], crossing: float) -> ContactEllipse:
     """Return Hertz's contact ellipse of two crossed cylinders: docs/strength.md (25).
 
-    force        normal force [N]; `factor`, elasticity factor ZE [sqrt(MPa)]
-    curvatures   of both cylinders [1/mm]
+    force        normal force [N]; `factor` is the elasticity factor ZE [sqrt(MPa)]
+    curvatures   curvatures of both cylinders [1/mm]
     crossing     angle between their generatrices [rad], above 0
 
     Two rods of radius 10 mm that cross at a right angle are equivalent to a ball of radius 10 mm on a plane:
@@ -401,7 +401,7 @@ class CrossedWheels:
 
 
 def loss_over_friction(mesh: GearMesh) -> float | None:
-    """Return the power loss of a pair divided by its power and its friction coefficient, near friction 0:
+    """Return the power loss of a pair divided by its power and its friction coefficient, in the limit of zero friction:
     docs/strength.md (14).
 
     This value times the energy that the pair transmits is the integral of force over sliding distance. The result is

@@ -2,9 +2,9 @@
 (docs/strength.md).
 
 ISO 6336 is applied by method B with all load factors K equal to 1. Helical pairs follow the editions of 2006: contact
-in the transverse section, roots as of the virtual spur wheel in the normal section. The formulas apply to teeth cut by
-a rack with a rounded corner. An exported outline has another root; Lewis's formula evaluates every section of the true
-outline of a tooth of any form.
+stress in the transverse section, root stress of the virtual spur wheel in the normal section. The formulas apply to
+teeth cut by a rack with a rounded corner. An exported outline has another root; Lewis's formula evaluates every section
+of the true outline of a tooth of any form.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 HOB_CORNER = 0.38
-"""Tip radius of the rack [module], of ISO 53 profile A."""
+"""Tip radius of the basic rack of ISO 53, profile A [module]."""
 
 _CHORD = 2e-5  # tolerance of chords [module]
 _STEP = 0.004  # distance between sections [module]
@@ -41,7 +41,7 @@ class RackWheel:
     """Wheel cut by a rack; lengths in modules."""
 
     z: float
-    """Number of teeth; not an integer for the virtual spur wheel of a helical one."""
+    """Number of teeth; not an integer for the virtual spur wheel of a helical wheel."""
     shift: float
     """Profile shift of the rack [module]."""
     tip: float
@@ -77,7 +77,7 @@ class HelixData:
     def single(self, M: float) -> float:
         """Return the single pair contact factor ZB or ZD of a helical wheel from the factor M1 or M2 of a spur wheel.
 
-        It is 1 from an overlap ratio of 1, with linear interpolation below.
+        It is 1 for overlap ratios of 1 or more, and is interpolated linearly below.
         """
         over = max(M, 1.0)
         return over - min(self.overlap, 1.0) * (over - 1)
@@ -153,7 +153,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
 
     elasticity   elasticity factor [sqrt(MPa)]
     tangential   force at the reference circle [N]
-    width        face width [mm]; `module`, transverse module [mm]
+    width        face width [mm]; `module` is the transverse module [mm]
     """
     a, aw, eps = pair.angle, pair.working, pair.contact_ratio
     z1, z2 = pair.first.z, pair.second.z
@@ -259,8 +259,8 @@ class ToothLoad:
     """
 
     radius: float
-    """Radius of the point of application; `apex` is where the line of action meets the centre line of the tooth
-    [module].
+    """Radius of the point of application [module]; `apex` is the position at which the line of action meets the centre
+    line of the tooth [module].
     """
     apex: float
     angle: float

@@ -142,12 +142,12 @@ class PairUnderLoad:
 
     @property
     def path(self) -> PathOfContact | None:
-        """Path of contact; None for a form without a path of contact."""
+        """Path of contact; None if the tooth form has no path of contact."""
         return self.mesh.path if self.spurs is None else self.spurs.pair.path
 
     @cached_property
     def load(self) -> ContactLoad | None:
-        """Load along the path of contact; None without a path of contact."""
+        """Load along the path of contact; None if there is no path of contact."""
         path = self.path
         if path is None:
             return None
@@ -214,7 +214,8 @@ class PairUnderLoad:
 
     @property
     def _helical_bending_factor(self) -> float:
-        """Bending stress of a helical tooth divided by that of a spur tooth with the same transverse section.
+        """Bending stress of a helical tooth divided by the bending stress of a spur tooth with the same transverse
+        section.
 
         The whole load of the spur tooth is at one tip. Each element of width carries its part of the lines of contact.
         In the normal section the tooth is thinner and the load is larger.

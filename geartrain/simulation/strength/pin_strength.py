@@ -72,7 +72,7 @@ class PinnedDisc:
 
 
 class PinLoad(NamedTuple):
-    """Force on the pin with the maximum pressure, and sum of the curvatures of pin and lobe; normalised as in
+    """Force on the pin with the maximum pressure, and sum of the curvatures of pin and lobe, both normalised as in
     `lobe_load`.
     """
 
@@ -83,9 +83,9 @@ class PinLoad(NamedTuple):
 def lobe_load(disc: CycloidalDisc) -> PinLoad:
     """Return the load of the pin with the maximum pressure.
 
-    The force is divided by the tangential force at the disc's pitch circle, the curvature in 1/module. The radius of
-    curvature of a convex lobe is that of the curve of centres minus that of the pin; for a concave one it is the sum of
-    both (28).
+    The force is divided by the tangential force at the disc's pitch circle; the curvature is in 1/module. The radius of
+    curvature of a convex lobe is the radius of the curve of centres minus the pin radius, and of a concave lobe the sum
+    of both (28).
 
     >>> from geartrain.teeth.cycloidal_disc import CycloidalDisc
     >>> load = lobe_load(CycloidalDisc(11, 25 / 3, 1.0))

@@ -102,7 +102,9 @@ def describe_strength(found: StrengthReport) -> Document:
 
 
 def strength_document(found: TrainStrength) -> Document | None:
-    """Return the document of the strength in one state, as `geartrain strength` prints it; None without the train."""
+    """Return the document of the strength in one state, as `geartrain strength` prints it; None if `found` has no
+    train.
+    """
     declared = found._declaration
     return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
 

@@ -274,7 +274,7 @@ class FlankWear(Result):
     mean_depth: WearRange
     """Mean wear depth of the flanks [mm]."""
     depth: WearRange | None
-    """Maximum wear depth of the flanks [mm]; None for helical teeth and without a path of contact."""
+    """Maximum wear depth of the flanks [mm]; None for helical teeth and for forms without a path of contact."""
 
 
 # -------------------------------------------------------------------------------------------------- contacts and forces

@@ -16,7 +16,7 @@ from geartrain.simulation.strength.strength_results import WheelForce
 from geartrain.simulation.strength.virtual_spurs import ConeMiddle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
-from geartrain.train.wheel_stock import face_width
+from geartrain.train.declaration import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
@@ -82,7 +82,7 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
-        """Return radii and tangential forces of both wheels, which are opposite: docs/strength.md (32).
+        """Return the radii and the tangential forces of both wheels; the forces are opposite: docs/strength.md (32).
 
         cosines   cosine of the angle of each pitch cone: 1 for parallel axes, -1 for a ring
         """

@@ -29,7 +29,7 @@ from geartrain.simulation.strength.virtual_spurs import SkewPair, VirtualSpurs
 from geartrain.teeth.couplings.pins import PinsInHoles
 from geartrain.teeth.cycloidal_disc import DiscMesh
 from geartrain.train import Train
-from geartrain.train.wheel_stock import face_width, material_named
+from geartrain.train.declaration import face_width, material_named
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
@@ -146,7 +146,7 @@ class StrengthQuestion:
     """Strength analysis of a train under the loads of one state."""
 
     train: TrainMechanics
-    """Train; `setting` is its load case, and `torques` are the torques of that case."""
+    """Train. `setting` is its load case, and `torques` are its torques in this load case."""
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]

@@ -77,7 +77,7 @@ class ConeMiddle:
 
 @dataclass(frozen=True)
 class VirtualSpurs:
-    """Virtual spur pair of a bevel pair at mid-width, with the module there."""
+    """Virtual spur pair of a bevel pair with its module, both at mid-width."""
 
     middle: ConeMiddle
     form: ConjugateToothForm

@@ -133,7 +133,7 @@ class RunFigures:
         )
 
     def _peaks_of_contacts(self) -> Iterator[tuple[float | None, float | None]]:
-        """Yield the maximum torque and the maximum quasi-static torque of each contact [N m]; None for rigid ones."""
+        """Yield the maximum torque and the maximum quasi-static torque of each contact [N m]; None for rigid teeth."""
         if self.run.peaks is None:
             return repeat((None, None), len(self.names))
         return zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
@@ -182,7 +182,7 @@ class RunFigures:
 
     @property
     def _other_work(self) -> float:
-        """Work of the other links with prescribed speeds [J]: mean torques over the samples times angles."""
+        """Work of the other links with prescribed speeds [J], from mean torques over the samples and from angles."""
         others = {
             link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
         }
@@ -269,7 +269,7 @@ class RunFigures:
         return found[0], found[1]
 
     def result(self, coarse: RunFigures | None) -> TimeRun:
-        """Return the result of this run, compared with the run `coarse` of longer time steps, unless that is None."""
+        """Return the result of this run, compared with the run `coarse` of longer time steps unless it is None."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]

@@ -144,7 +144,7 @@ class Simulation(Shown):
         Raises
         ------
         QuestionError
-            If the time step is not positive, or a restitution is not 0 to 1.
+            If the time step is not positive, or a coefficient of restitution is not from 0 to 1.
         """
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
@@ -302,7 +302,7 @@ class Simulation(Shown):
         return 1
 
     def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
-        """Advance by some steps; one sample that is never completed accumulates all impulses."""
+        """Advance by some steps. A single sample, which is never completed, accumulates all impulses."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)

@@ -212,7 +212,7 @@ def _slides(run: TimeRun, name: str) -> bool:
 
 
 def _angle(run: TimeRun, name: str, angle: float) -> str:
-    """Return an angle in degrees as a string, or the travel of a link that slides with its unit."""
+    """Return an angle in degrees as a string, or the travel of a sliding link with its unit."""
     if angle <= _STILL:
         return "0"
     return f"{figure(angle / tau, 4)} mm" if _slides(run, name) else figure(degrees(angle), 4)

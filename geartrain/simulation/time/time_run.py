@@ -66,7 +66,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     link: str
     """Name of the link at which power enters."""
     driven: Literal["rate", "torque", "spring", "hand"]
-    """Kind of drive: prescribed speed, torque (including that of a weight), spring, or a hand that turns a spring."""
+    """Kind of drive: prescribed speed, torque (which a weight may exert), spring, or a hand that turns a spring."""
     step: float
     """Time step [s]."""
     skip: float
@@ -180,7 +180,7 @@ class ContactInTime(Result):
     """Results for one pair, pin or escapement from a time-domain simulation."""
 
     name: str
-    """Name of the pair or coupling; for an escapement, name of its link."""
+    """Name of the pair or coupling; for an escapement, the name of its link."""
     apart: float
     """Fraction of the time in which no flank is in contact."""
     coast: float
@@ -202,7 +202,9 @@ class ContactInTime(Result):
     peak: float | None = None
     """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts have impulses."""
     dynamic_factor: float | None = None
-    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None for rigid teeth or a free speed."""
+    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None for rigid teeth or if no speed is
+    prescribed.
+    """
 
 
 @dataclass(frozen=True)
@@ -245,11 +247,11 @@ class EnergyAccount(Result):
     drag: float
     """Energy lost to viscous drag [J]."""
     friction: float
-    """Energy lost to friction of teeth and pins, and by declared efficiencies [J]."""
+    """Energy lost to friction of teeth and pins, and losses given by declared efficiencies [J]."""
     impact_loss: float
     """Energy lost in impacts, or in the damping of compliant teeth [J]."""
     steps: float
-    """Numerical dissipation in lasting contacts [J], of either sign; it decreases with the time step."""
+    """Numerical dissipation in sustained contacts [J], of either sign; it decreases with the time step."""
     kinetic: float
     """Increase of kinetic energy [J]."""
     stored: float

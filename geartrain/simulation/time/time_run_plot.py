@@ -95,7 +95,7 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return at most `_PAIRS` pairs with backlash, those that are apart for the longest times, in the order of the
+    """Return at most `_PAIRS` pairs with backlash, which are out of contact for the longest times, in the order of the
     train.
     """
     names = [

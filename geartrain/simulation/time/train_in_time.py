@@ -124,7 +124,7 @@ def model_in_time(
         names = ", ".join(each.name for each in case.one_way)
         what = f"the simulation in time does not include the one-way clutches {names}"
         why = "a one-way clutch engages and disengages during the motion"
-        fix = "disable them with `free` in a state, or declare clutches that hold both ways"
+        fix = "disable them with `free` in a state, or declare clutches that lock in both directions"
         raise QuestionError(Problem(what, why, fix, declared.place("clutches")))
     if rate is not None:
         # a given rate is positive; the sense follows from the declared inputs
@@ -163,7 +163,7 @@ def find_vibration_modes(
 
     Examples
     --------
-    A disc of 1e-6 kg m2 that vibrates on teeth of 20 N m/rad, sqrt(k/J)/2 pi:
+    A disc with J = 1e-6 kg m2 vibrates on teeth with k = 20 N m/rad at the frequency sqrt(k/J) / (2 pi):
 
     >>> import geartrain
     >>> wheels = {"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 30},
@@ -348,8 +348,8 @@ class TimeStudy:
     def run(self, on_done: Callable[[float], object] = lambda _: None) -> TimeRun:
         """Simulate both runs and return the result.
 
-        on_done   called with the fraction of the total work done since the last call; if it returns True, the result is
-                  that of the completed part of the first run, without a comparison
+        on_done   called with the fraction of the total work done since the last call; if it returns True, the result
+                  covers the completed part of the first run, without a comparison
 
         Raises `KeyboardInterrupt` if `on_done` returns True before the counted part begins.
         """

@@ -14,7 +14,8 @@ admissibility             undercut, pointed tips, contact ratio, interference
 path_losses               loss, stress, heat, flash temperature, depth; efficiency exact in friction
 conjugate_form            base class of the forms, and checks of a declaration
 conjugate_transmission    the pair as designed, and its transmission function
-displaced_contact         displaced flanks, and axles at another centre distance
+displaced_contact         displaced flanks
+off_design_transmission   axles at another centre distance
 conjugate_mesh            a pair of a train: figures, and its design
 """
 
@@ -28,8 +29,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm as ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair as ConjugatePair
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission as ConjugateTransmission
-    from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission as OffDesignTransmission
-    from geartrain.teeth.conjugate.displaced_contact import pair_outlines as pair_outlines
+    from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission as OffDesignTransmission
+    from geartrain.teeth.conjugate.off_design_transmission import pair_outlines as pair_outlines
     from geartrain.teeth.conjugate.path_losses import PathLosses as PathLosses
     from geartrain.teeth.conjugate.path_losses import efficiency as efficiency
     from geartrain.teeth.conjugate.path_losses import measure as measure
@@ -41,7 +42,7 @@ __getattr__, __all__ = public_names(
     {
         "conjugate_form": "ConjugateToothForm",
         "conjugate_transmission": "ConjugatePair ConjugateTransmission",
-        "displaced_contact": "OffDesignTransmission pair_outlines",
+        "off_design_transmission": "OffDesignTransmission pair_outlines",
         "path_losses": "PathLosses efficiency measure",
         "path_of_contact": "PathOfContact",
         "wheel_pair": "WheelPair",

@@ -63,8 +63,8 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X along the pitch surfaces of the first sampled contact whose speed along the profile of
-    `gear` is 0, refined by root finding.
+    """Return the arc X of the first sampled contact whose speed along the profile of `gear` is 0, refined by root
+    finding.
     """
     at = int(np.argmax(U <= 0))
     if at == 0:
@@ -102,9 +102,7 @@ def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
 
 
 def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves) -> float:
-    """Return the arc X of the contact at which both flanks of a tooth intersect; 0 if they intersect from the first
-    contact.
-    """
+    """Return the arc X of the contact at which both flanks of a tooth intersect; 0 if they intersect from the start."""
     foot, _ = path.ends(gear)
     foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
     thickness = partial(_thickness, path, gear, halves)
@@ -252,7 +250,7 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
                 float("nan"),
                 f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}",
                 f"they are {-gap:.4g} modules too long",
-                f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or more centre distance",
+                f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or a larger centre distance",
             )
 
 

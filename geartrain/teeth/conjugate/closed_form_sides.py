@@ -86,9 +86,9 @@ def circle_reach(R: float, rho: float, tip: float) -> float:
 def cone_reach(R: float, rho: float, tip: float) -> float:
     """Return the distance d [rad] from the pitch point at which the addendum of a cycloidal bevel gear ends.
 
-    `R` is the half-angle of its pitch cone, `rho` that of the rolling cone and `tip` that of the tip cone [rad].
-    The pressure angle psi at the distance d follows from sin psi = tan(d/2)/tan rho, and cos tip = cos d cos R -
-    sin d sin psi sin R. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
+    `R`, `rho` and `tip` are the half-angles of its pitch cone, the rolling cone and its tip cone [rad]. The pressure
+    angle psi at the distance d follows from sin psi = tan(d/2)/tan rho, and cos tip = cos d cos R - sin d sin psi sin
+    R. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
     """
     # d from v by an arc tangent, since an arc cosine of 1 - v would lose half the digits near the pitch point
     v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
@@ -174,7 +174,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
         raise RangeError(
             Problem(
                 f"the path of contact does not reach the tip radius of the mate, {tip:.6g} modules",
-                "the pins are at the far side of the lantern before that",
+                "the pins reach the far side of the lantern before they would touch this radius",
                 "give the mate a shorter addendum",
             )
         )
@@ -190,8 +190,8 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the path of contact with minimum friction loss, an extremal of the loss: S = D cos psi, docs/shapes.md
-    (10).
+    """Return the path of contact with minimum friction loss, S = D cos psi, which is an extremal of the loss,
+    docs/shapes.md (10).
 
     S is d on cylinders and sin d on cones, psi is the pressure angle, and D is a constant. The arc X is D ln d, or D ln
     tan(d/2) on cones, counted from the first contact.
@@ -214,9 +214,7 @@ def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) ->
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
-    """Return the extremal of minimum friction with the arc X, whose pressure angle decreases from `first` to `last`
-    [rad].
-    """
+    """Return the extremal of minimum friction with the arc X and a pressure angle from `first` down to `last` [rad]."""
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
         return PathSide((_extremal_piece(pitch, D, D * cos(first), D * cos(last)),))
@@ -240,7 +238,7 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
 
 def flank_start(R: float, A: float, B: float, mate: float) -> float:
     """Return the arc X of the first contact on the part of the mate's flank that the pins do not cut away; -inf if they
-    cut nothing.
+    cut nothing away.
 
     R, A and B are pitch radius, distance from the axle and radius of the pins [module]. `mate` is the pitch radius
     of the mate, negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank extends
@@ -270,8 +268,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None
-    without such a cusp.
+    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None if no
+    such cusp exists.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe
@@ -299,7 +297,7 @@ def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance from a point of the mate to the pin's centre between the pin angles `low` and
+    """Return the minimum distance [module] from a point of the mate to the pin's centre at pin angles from `low` to
     `high`.
     """
     # the mate's frame turns by R / mate t while the lantern turns by t

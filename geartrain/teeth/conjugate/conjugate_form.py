@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
-    from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission
+    from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
     from geartrain.teeth.gear_mesh import GearMesh
@@ -267,7 +267,7 @@ class ConjugateToothForm(ToothForm):
         direction : {1, -1}
             Direction of rotation; with -1 the coast flanks are in contact.
         pitch_distance, internal, shaft_angle, helix
-            As in `path`.
+            Same as in `path`.
 
         Returns
         -------
@@ -288,7 +288,7 @@ class ConjugateToothForm(ToothForm):
         friction = friction * self.slant_pressure(wheels)
         if distance is None:
             return ConjugateTransmission(pair, friction, driver, direction)
-        from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission
+        from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
 
         return OffDesignTransmission(pair, distance, friction, driver, direction)
 
@@ -334,7 +334,7 @@ class ConjugateToothForm(ToothForm):
 
 @lru_cache(maxsize=1024)
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
-    """Return the pair of a tooth form and two wheels from a cache."""
+    """Return the pair of a tooth form and two wheels, which is computed at the first call and then cached."""
     return form.pair(wheels)
 
 
@@ -342,7 +342,7 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess from pitches to arcs X along the pitch surfaces [module; rad for bevel
+    """Convert arcs of approach and recess from pitches to arcs X on the pitch surfaces [module; rad for bevel
     gears].
     """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p

@@ -25,7 +25,8 @@ from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures,
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
-    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, OffDesignTransmission
+    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
+    from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
@@ -52,9 +53,7 @@ class ConjugateDetails(NamedForm, Protocol):
     """Advice on how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if it is
-        undefined.
-        """
+        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if undefined."""
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
         """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
@@ -114,9 +113,7 @@ class ConjugateMesh(GearMesh):
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirements on a tooth of `wheel`: its flank as designed, and a root that clears the mate's
-        tip.
-        """
+        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the mate's tip."""
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -206,7 +203,7 @@ class ConjugateFigures(PairFigures):
     helix_angle: float | None = None
     """Helix angle of helical wheels [rad]; None for straight teeth."""
     overlap_ratio: float | None = None
-    """Overlap ratio of helical teeth; None for straight teeth or without a face width."""
+    """Overlap ratio of helical teeth; None for straight teeth, or if no face width is declared."""
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
@@ -283,8 +280,8 @@ class SharedEfficiency(Result):
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """Pair with conjugate teeth as designed: values for gear 1, then gear 2; lengths in modules (bevels: rad), angles
-    in rad.
+    """Design of a pair with conjugate teeth, with values for gear 1 and then gear 2. Lengths are in modules (in rad for
+    bevel gears) and angles in rad.
     """
 
     KEYS = (

@@ -1,13 +1,10 @@
-"""Contact of conjugate teeth that deviate from their design: displaced flanks, and another centre distance.
+"""Contact of conjugate teeth with displaced flanks.
 
 A flank that protrudes by n along its normal at the contact turns the driven wheel ahead by n divided by the moment arm
 of the normal, docs/cut-by-hand.md (1). The normal passes through the pitch point under the pressure angle psi, so the
 arm is R2 cos psi on cylinders and sin R2 cos psi on cones; for an involute it is the base radius. Beyond the ends of
 the path the corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from
 the law of cosines.
-
-At another centre distance, the transmission function follows from the contact of both outlines.
-These are the flanks of the design, each continued straight beneath its last designed contact.
 """
 
 from __future__ import annotations
@@ -15,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
-from itertools import pairwise
 from math import cos, inf, pi, radians
 from typing import TYPE_CHECKING, TypeVar
 
@@ -23,8 +19,6 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
-from geartrain.teeth.contact.outline_transmission import OutlineGears, OutlineTransmission
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,7 +27,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_STRAIGHT = 0.5  # modules of root beneath a flank, at most a third of its radius
 _NODES = 257  # of the tables along the path and beyond its ends, with linear interpolation
 _SMALL = 1e-12  # rad: shorter contact beyond an end is neglected
 _END_STEP = 1e-4  # fraction of the arc of contact: step of the difference quotient of the tip's radius
@@ -307,112 +300,3 @@ def _sizes(pair: ConjugatePair, gear: int) -> DisplacedWheelSizes:
     lean = float(np.arctan2(width[0] - width[1], depth))
     z = int(pitch.teeth_of(gear))
     return DisplacedWheelSizes(z, depth, max(lean, _BLUNT), z / (2 * reach))
-
-
-# ---------------------------------------------------------------------------------------------- another centre distance
-
-
-class OffDesignTransmission(OutlineTransmission):
-    """Transmission function of a conjugate pair at a centre distance other than its design distance.
-
-    Parameters
-    ----------
-    pair : ConjugatePair
-        Pair at its design distance.
-    distance : float
-        Centre distance [module].
-    friction, driver, direction
-        As in `ConjugateTransmission`.
-
-    See Also
-    --------
-    geartrain.teeth.Involute : Like every conjugate form, it has a method `transmission` that returns such a function.
-    """
-
-    def __init__(
-        self, pair: ConjugatePair, distance: float, friction: float = 0.0, driver: int = 1, direction: int = 1
-    ) -> None:
-        self.pair, self.path = pair, pair.path
-        super().__init__(_outline_gears(pair, distance), friction, driver, direction)
-
-    def _driven(self, driver: int, direction: int) -> OffDesignTransmission:
-        return OffDesignTransmission(self.pair, self.distance, self.friction, driver, direction)
-
-
-@lru_cache(maxsize=64)
-def _outline_gears(pair: ConjugatePair, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at a centre distance, from a cache that keeps their contact results."""
-    return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
-
-
-@lru_cache(maxsize=64)
-def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
-    """Return the outlines of both wheels of a spur pair, for `geartrain.teeth.contact`.
-
-    Parameters
-    ----------
-    pair : ConjugatePair
-        Pair at its design distance.
-
-    Returns
-    -------
-    tuple of GearOutline
-        Outlines of gear 1 and gear 2, lengths in modules. Below the active flanks the roots are straight.
-
-    Examples
-    --------
-    Two involute wheels run without transmission error at a distance larger than the design distance of 30 modules.
-
-    >>> import numpy as np
-    >>> from geartrain.teeth import Involute
-    >>> from geartrain.teeth.conjugate import WheelPair
-    >>> from geartrain.teeth.contact import solve
-    >>> wheels = pair_outlines(Involute(form="involute").pair(WheelPair(24, 36)))
-    >>> found = solve(*wheels, 30.2, np.linspace(0.0, 0.2, 5))
-    >>> bool(np.ptp(found.front.speed) < 1e-9)
-    True
-    """
-    pitch = pair.path.pitch
-    return _outline(pair, 1, int(pitch.z1), pitch.R1), _outline(pair, 2, int(pitch.z2), pitch.R2)
-
-
-def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
-    half = pair.halves[gear - 1] / abs(R)
-    turn = np.exp(-1j * half)
-
-    def flank(X: Floats) -> Floats:
-        points = _body_points(pair.path, gear, X)
-        place = (points[:, 0] + 1j * points[:, 1]) * turn
-        return np.stack([place.real, place.imag], axis=1)
-
-    foot, tip = pair.path.ends(gear)
-    cuts = sorted({0.0, foot, tip, *_joints(pair.path)}, reverse=foot > tip)
-    curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
-    return GearOutline((ToothFlanks.symmetric((_root_line(flank, foot, tip), *curves)),), z, ring=R < 0)
-
-
-def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return points (x, y) of a flank relative to the wheel's axle: x towards the tooth space ahead, y outwards
-    [module].
-    """
-    points = path.flank(gear, X)
-    if gear == 1:
-        return np.asarray(points + np.array([0.0, path.pitch.R1]))
-    R = path.pitch.R2
-    return np.stack([-points[:, 0], abs(R) - points[:, 1] * np.sign(R)], axis=1)
-
-
-def _joints(path: PathOfContact) -> list[float]:
-    ends = ((-1.0, path.approach), (1.0, path.recess))
-    return [sign * float(side.travel(np.array(d))) for sign, side in ends for d in side.joints]
-
-
-def _root_line(flank: object, foot: float, tip: float) -> OutlineCurve:
-    """Return the root flank of a tooth: a straight line that continues the lower end of its flank tangentially."""
-    assert callable(flank)
-    # small enough for the tangent, large enough that the difference exceeds rounding
-    start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
-    way = start - near
-    length = min(_STRAIGHT, float(np.hypot(*start)) / 3)
-    end = start + way / np.hypot(*way) * length
-    return OutlineCurve(lambda t: end + t[:, None] * (start - end))

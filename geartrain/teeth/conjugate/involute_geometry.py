@@ -30,9 +30,7 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module] and pressure angle
-    [rad].
-    """
+    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module], pressure angle [rad]."""
 
     z: float
     psi: float
@@ -70,8 +68,8 @@ class InvoluteWheel:
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Return the radius up to which the rack's corner removes the involute [module]; 0 without undercut and for
-        ring gears.
+        """Return the radius up to which the rack's corner removes the involute [module]; 0 if it removes nothing, and
+        for ring gears.
         """
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
@@ -102,9 +100,7 @@ class InvolutePair:
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Total reduction of the tooth thickness of both wheels relative to a pair without backlash, as an arc X
-    [module].
-    """
+    """Total reduction of the tooth thickness of both wheels from a pair without backlash, as an arc X [module]."""
 
     @property
     def psi(self) -> float:
@@ -167,9 +163,9 @@ class InvolutePair:
 def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
     """Return the centre distance without backlash [module]: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
 
-    psi is the pressure angle of the rack, psi_w the operating pressure angle; x are the profile shifts [module] and
-    z the tooth numbers. With a ring gear, z1 and x1 of the pinion enter with negative sign. Raises `GearTrainError`
-    if no such distance exists because the negative profile shifts are too large.
+    psi is the pressure angle of the rack, psi_w the operating pressure angle; x are the profile shifts [module] and z
+    the tooth numbers. With a ring gear, z1 and x1 of the pinion have a negative sign. Raises `GearTrainError` if no
+    such distance exists because the negative profile shifts are too large.
     """
     psi, sign = first.psi, -1 if second.ring else 1
     teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift

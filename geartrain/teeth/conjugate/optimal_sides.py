@@ -130,9 +130,7 @@ def _solutions(
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact for a solution v = sin psi, the sine of the pressure angle at distances
-    d.
-    """
+    """Return the piece of a path of contact for a solution v = sin psi of the pressure angle at distances d."""
     return sampled(v, _slope(pitch, f, v), v.domain[0], end, max(len(v.coef), 64))
 
 
@@ -347,9 +345,7 @@ def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats,
     matrix[0] = 0.0
 
     def residual(v: Floats) -> tuple[Floats, Floats]:
-        """Return the residual of the differential equation at each node, and the diagonal entries df/dv of the
-        Jacobian.
-        """
+        """Return the residual of the differential equation at each node, and the diagonal df/dv of the Jacobian."""
         off, slope = f(d, v)
         off[0], slope[0] = v[0] - first, 1.0
         return matrix @ v + off, slope

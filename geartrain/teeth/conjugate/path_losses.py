@@ -80,8 +80,8 @@ class PathLosses(Result):
     square root of the maximum of `PathContact.H`. It is infinite if the pressure angle is 0 at a contact.
     """
     off_pitch: float
-    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0
-    without such contacts.
+    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0 if no
+    such contacts exist.
     """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force."""
@@ -222,8 +222,8 @@ def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -
 
 
 def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
-    """Return the sliding integral J for arcs X from `low` to `high`: S / cos^2 psi integrated over d,
-    docs/shapes.md (7), with S = d, or sin d for bevel gears.
+    """Return the sliding integral J of S / cos^2 psi over d for arcs X from `low` to `high`, docs/shapes.md (7). S is
+    d, or sin d for bevel gears.
     """
     x, weights = _GAUSS
     total = 0.0
@@ -259,8 +259,8 @@ def maximum(
     low: float = -inf,
     high: float = inf,
 ) -> float:
-    """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to
-    `high`; -inf without contact.
+    """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to `high`;
+    -inf if there are none.
 
     Each piece of the path is scanned on a grid, and the bracket of its maximum is then refined.
     """

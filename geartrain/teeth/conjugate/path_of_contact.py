@@ -103,8 +103,8 @@ class PathSide:
 
     @property
     def start(self) -> float:
-        """Distance d of the first contact from the pitch point [module]; 0 unless the path does not reach the pitch
-        point.
+        """Distance d of the first contact from the pitch point [module]; above 0 if the path does not reach
+        that point.
         """
         return self.pieces[0].start
 
@@ -128,13 +128,11 @@ class PathSide:
         return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative of the sine of the pressure angle with respect to the distance d from the pitch
-        point.
-        """
+        """Return the derivative of the sine of the pressure angle by the distance d from the pitch point."""
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X along the pitch surfaces while the contact moves from `start` to the distance d."""
+        """Return the arc X along the pitch surfaces [module] while the contact moves from `start` to the distance d."""
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 

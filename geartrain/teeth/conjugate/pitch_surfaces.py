@@ -52,9 +52,7 @@ class PitchSurfaces:
 
     @property
     def B(self) -> float:
-        """Curvature of pitch surface 2 [1/module]: 1/R2, or cot R2 on cones; negative for ring gears, 0 for crown
-        gears.
-        """
+        """Curvature of pitch surface 2 [1/module]: 1/R2, or cot R2 on cones; negative for rings, 0 for crown gears."""
         return 1 / tan(self.R2) if self.bevel else 1 / self.R2
 
     @property
@@ -105,7 +103,7 @@ class PitchSurfaces:
         return found
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
-        """Return contact points in the fixed frame: shape (..., 2) from the pitch point, or (..., 3) on the unit
+        """Return contact points in the fixed frame, shape (..., 2) from the pitch point, or (..., 3) on the unit
         sphere.
         """
         S = self.S(d)
@@ -123,8 +121,9 @@ class PitchSurfaces:
     def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
         """Return radii and azimuths [rad] of points of the fixed frame about the axle of a gear.
 
-        The azimuth is counted from the pitch point and is positive in the direction of increasing X. Cylinders: points
-        (..., 2), the radius in modules. Cones: points (..., 3) on the unit sphere, the radius in rad.
+        The azimuth is counted from the pitch point and is positive in the direction of increasing X. For cylinders,
+        points have the shape (..., 2) and the radius is in modules. For cones, points have the shape (..., 3) on the
+        unit sphere and the radius is in rad.
         """
         x = points[..., 0]
         if not self.bevel:
@@ -162,7 +161,8 @@ class PitchSurfaces:
     def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
         """Return points rotated about an axle by `angle` [rad], by Rodrigues' formula.
 
-        The axis has the polar angle `R` from the pitch point; spur: the axle is at height R above the pitch point.
+        The axis has the polar angle `R` from the pitch point; for spur gears, it is at the height `R` above the pitch
+        point.
         """
         cosine, sine = np.cos(angle), np.sin(angle)
         if not self.bevel:

@@ -81,7 +81,7 @@ class WheelPair(Shown):
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """Pitch surfaces of both wheels at the design distance. Raises `GearTrainError` if the wheels cannot form a
+        """Pitch surfaces of both wheels at the design distance; raises `GearTrainError` if the wheels cannot form a
         pair.
         """
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces

@@ -38,7 +38,7 @@ _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are di
 class ToothPairContact(NamedTuple):
     """Contact of a single tooth pair at driver angles x [rad past the nominal position].
 
-    The driver's axle is at the origin, the driven axle on the x axis.
+    The driver's axle is at the origin, and the driven axle is on the x axis.
     """
 
     x: Floats
@@ -51,8 +51,8 @@ class ToothPairContact(NamedTuple):
     angle: Floats
     """Angle of the driven tooth past the line of centres [rad]."""
     corner: Indices
-    """Tip corners in contact: 1 for the driver's, 2 for the driven wheel's, 3 for both, 0 for none; -1 without
-    contact.
+    """Tip corners in contact: 1 for a corner of the driver, 2 for a corner of the driven wheel, 3 for both, 0 for none;
+    -1 where the teeth do not touch.
     """
 
 
@@ -151,9 +151,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return the range of driver angles in which flanks touch, and the larger range that includes contact of tips
-    [rad].
-    """
+    """Return the range of driver angles [rad] in which flanks touch, and the larger range that includes tip contact."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))

@@ -84,8 +84,8 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return two signs: of the direction towards the second axle, and of the component along it of the radius about
-        the first axle.
+        """Return the sign of the direction towards the second axle, and the sign of the component of the first radius
+        in this direction.
         """
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
@@ -123,7 +123,7 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Tooth pairs that may touch: driver angle x [rad], shape indices of both teeth, angle `place` of the driven
+    """Tooth pairs that may touch, with driver angle x [rad], shape indices of both teeth, angle `place` of the driven
     tooth [rad], and index of the driver position.
     """
 
@@ -146,17 +146,15 @@ class FlankSegments(NamedTuple):
     u: Floats
     """Parameters of `piece1` at both ends of the segment, shape (2, n)."""
     polar2: Floats
-    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives with respect
-    to the parameter u of `piece1`, shape (4, 2, n).
+    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives by the parameter u of
+    `piece1`, shape (4, 2, n).
     """
     v: Floats
     """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
 
 
 class FirstTouches(NamedTuple):
-    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, radii about both
-    axles.
-    """
+    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, and both radii."""
 
     angle: Floats
     speed: Floats
@@ -275,8 +273,8 @@ class FirstTouchSearch:
         return DrivenFrame(self.axles, r, a + x), dr, da
 
     def _stalled(self, segments: FlankSegments) -> Bools:
-        """Return flags of segment ends at which one of the two curves is stationary, where slopes are meaningless;
-        shape (2, n).
+        """Return flags, shape (2, n), of segment ends at which one of the two curves is stationary, so that slopes are
+        meaningless.
         """
         first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
@@ -320,9 +318,7 @@ class FirstTouchSearch:
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the touch at parameter u of the driver's piece; v is NaN unless an end of the driven piece touches
-        there.
-        """
+        """Return the touch at parameter u of the driver's piece; v is NaN unless an end of the driven piece touches."""
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
         at_end = ~np.isnan(v)

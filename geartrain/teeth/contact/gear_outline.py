@@ -154,7 +154,7 @@ class ToothFlanks(Shown):
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """Flank that leads when the wheel turns forward; its azimuths are larger than those of the other flank."""
+    """Flank that leads when the wheel turns forward; it has larger azimuths than the other flank."""
     behind: tuple[OutlineCurve, ...]
     """Flank that trails when the wheel turns forward."""
 
@@ -396,9 +396,7 @@ def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Return the unit tangent of a curve at u = `end`, -1 or 1; from the second derivative if the first derivative is
-    0.
-    """
+    """Return the unit tangent of a curve at u = `end`, -1 or 1, from the first derivative that is not 0."""
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
@@ -481,9 +479,7 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Flags, shape (2, pieces): True if the radius of a piece is stationary in u at its start (row 0) or end (row
-        1).
-        """
+        """Flags, shape (2, pieces): True if a piece's radius is stationary in u at its start (row 0) or end (row 1)."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -516,9 +512,7 @@ class FlankTable:
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins at the
-        node.
-        """
+        """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins there."""
         # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
@@ -531,7 +525,7 @@ class FlankTable:
         return piece[at], u[at], begins[at]
 
     def _sample_points(self, piece: int, cells: int) -> Floats:
-        """Return the values of u at which a piece is sampled: uniform, refined geometrically towards stationary
+        """Return the values of u at which a piece is sampled, which are uniform with geometric refinement at stationary
         ends.
         """
         marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]

@@ -29,9 +29,7 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the front or back flanks of two wheels at one distance; the back flanks are solved as mirror
-    images.
-    """
+    """Contact of the front or back flanks of two wheels at one distance; back flanks are solved as mirror images."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -130,9 +128,7 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def kinds(self, found: FirstTouches) -> Indices:
-        """Return the kind of each touch: 0 for two flanks, 1 for a corner of the first wheel, 2 of the second, 3 of
-        both.
-        """
+        """Return the kind of each touch: 0 for two flanks, 1 or 2 for a corner of wheel 1 or 2, 3 for two corners."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
@@ -141,8 +137,8 @@ class OutlinePair:
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return the number of tooth pairs at each driver position that touch at the driven angle `minimum` or
-        beyond.
+        """Return the number of tooth pairs that touch at the driven angle `minimum` or beyond, at each driver
+        position.
         """
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
@@ -160,7 +156,7 @@ def _no_contact(count: int) -> tuple[Any, ...]:
 
 
 def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Raise an error if the wheels cannot mesh: spur with bevel wheel, two ring gears, or a distance out of range."""
+    """Raise an error for a spur wheel with a bevel wheel, two ring gears, or a distance out of range."""
     if first.bevel != second.bevel or (first.ring and second.ring):
         raise QuestionError(
             Problem(
@@ -198,11 +194,11 @@ class FlankContact(Shown):
     speed: Floats
     """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN without contact."""
     pair: Indices
-    """Number of the driver's tooth that is in contact; 0 without contact. Teeth are counted forward from tooth 0,
-    beyond z after a revolution.
+    """Number of the driver's tooth that is in contact; 0 where the teeth do not touch. Teeth are counted forward from
+    tooth 0, beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 without contact."""
+    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do not touch."""
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
@@ -212,7 +208,8 @@ class FlankContact(Shown):
     sharing: Indices
     """Number of tooth pairs whose gap is within the tolerance."""
     curves: Indices
-    """Numbers of the curves in contact on both outlines, counted through all teeth; -1 without contact. Shape (2, ...).
+    """Numbers of the curves in contact on both outlines, counted through all teeth, shape (2, ...); -1 where the teeth
+    do not touch.
     """
 
     def to_dict(self) -> dict[str, Any]:
@@ -317,7 +314,7 @@ def contact(
     first, second, distance, phi1, within
         As in `solve`.
     side : {"front", "back"}
-        Flank that pushes the driven wheel, or flank that prevents it from running ahead.
+        Flank that pushes the driven wheel ("front"), or flank that prevents it from running ahead ("back").
 
     Returns
     -------

@@ -87,9 +87,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, backlash, and gaps in contact at the centre
-        distance.
-        """
+        """Verdict on whether the pair can run: faults of its teeth, backlash, and gaps in contact at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding error
@@ -104,9 +102,7 @@ class OutlineTransmission(ToothTransmission):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert transmission errors of the front flanks to the direction of motion; reversed motion is the mirror
-        image.
-        """
+        """Convert transmission errors of the front flanks to the direction of motion; reversed motion is mirrored."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
@@ -119,7 +115,7 @@ class OutlineTransmission(ToothTransmission):
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio where the next tooth takes over; they are the same in reversed
+        """Return the upward steps of the speed ratio as the next tooth takes over; they are equal in reversed
         motion.
         """
         return self.table.speed_leaps()
@@ -173,9 +169,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks, among the quadrature nodes; infinite if no contact
-        locks.
-        """
+        """Minimum friction coefficient at which a contact locks, at the quadrature nodes; infinite if none locks."""
         steepest = float(np.nanmax(-self.rubbing(self.graded_nodes(self.speed)[0]).out))
         return 1 / steepest if steepest > _FLAT else inf
 

@@ -46,9 +46,7 @@ _MOST = 100_000  # maximum number of stretches per driver pitch
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """Driven angle as a periodic piecewise polynomial of the driver angle phi1: ratio phi1 + transmission error
-    [rad].
-    """
+    """Driven angle as a periodic piecewise polynomial of the driver angle phi1: ratio phi1 + error [rad]."""
 
     ratio: Fraction
     """Mean speed ratio, driven divided by driver, without sign."""
@@ -63,9 +61,7 @@ class PiecewiseTransmission:
     pair: Indices
     """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
-    """Kind of contact in each interval, shape (n,): an index into `outline_contact.KINDS`; -1 if no tooth is within
-    range.
-    """
+    """Kind of contact in each interval, shape (n,): index into `outline_contact.KINDS`; -1 if no tooth is in range."""
     kinks: Floats
     """Driver angles at which the contact changes to another tooth or curve [rad]."""
     uncertainty: float
@@ -109,8 +105,8 @@ class PiecewiseTransmission:
         return max(0.0, -self.speeds.extremes(1)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error over a period and its rms deviation [rad]; NaN if contact has
-        gaps.
+        """Return the mean of the transmission error over a period and its rms deviation [rad]; NaN for gaps in
+        contact.
         """
         return self.errors.moments()
 
@@ -119,7 +115,7 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Intervals with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth and kind of contact, and
+    """Intervals with fitted polynomials: their ends (2, n), coefficients (COUNT, n), tooth and kind of contact, and
     maximum differences from the function.
     """
 
@@ -278,9 +274,7 @@ class _Fitter:
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
     def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Return the first angle between `low` and `high` at which the labels differ from `left`, by repeated
-        subdivision.
-        """
+        """Return the first angle between `low` and `high` at which the labels differ from `left`, by subdivision."""
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
@@ -297,9 +291,7 @@ class _Fitter:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Return the intervals sorted by driver angle, with each kink moved to the intersection of its adjacent
-        polynomials.
-        """
+        """Return the intervals sorted by driver angle, with kinks moved to intersections of adjacent polynomials."""
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
         breaks = np.append(everything.ends[0], everything.ends[1, -1])
@@ -318,7 +310,7 @@ class _Fitter:
 
 
 def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Return the intervals divided at their kinks, or bisected without kinks, and the previous error of each."""
+    """Return the intervals divided at their kinks, or bisected if they have none, and the previous error of each."""
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
         within = inner[(inner > low) & (inner < high)]

@@ -36,7 +36,7 @@ def _read_pulleys(raw: object) -> object:
     else:
         raise bad("belt", "the pulleys are neither a mapping nor a list", "for example, write `around: [p, q]`")
     if len(found) < 2:
-        raise bad("belt", "a belt goes around two or more pulleys", "add a pulley")
+        raise bad("belt", "a belt needs at least two pulleys", "add a pulley")
     if twice := next((name for name in found if list(found).count(name) > 1), None):
         raise bad("belt", f"pulley '{twice}' is given twice", "give each pulley once")
     return found
@@ -88,10 +88,10 @@ class Belt(Coupling):
         ends = self.ends
         if unknown := next((name for name in self.reversed if name not in ends), None):
             what = f"`reversed` names '{unknown}', which is not a pulley of this belt"
-            raise bad("belt", what, f"name some of: {', '.join(ends[1:])}")
+            raise bad("belt", what, f"choose from: {', '.join(ends[1:])}")
         if set(ends) == set(self.reversed) or (len(ends) == 2 and ends[0] in self.reversed):
-            what = f"'{ends[0]}' is reversed, but the senses of the others refer to this first pulley"
-            raise bad("belt", what, f"reverse only others, such as `reversed: [{ends[1]}]`")
+            what = f"'{ends[0]}' is reversed, but the senses of the other pulleys refer to this one"
+            raise bad("belt", what, f"reverse only other pulleys, such as `reversed: [{ends[1]}]`")
         return self
 
     @property
@@ -101,7 +101,7 @@ class Belt(Coupling):
 
     @property
     def row_names(self) -> tuple[str, ...]:
-        """Name of the belt for two pulleys; otherwise `first~other` for each other pulley."""
+        """Name of the belt if it has two pulleys; otherwise, a name `first~other` for each other pulley."""
         first, *others = self.ends
         return (self.name,) if len(others) == 1 else tuple(f"{first}~{other}" for other in others)
 
@@ -128,7 +128,7 @@ class Belt(Coupling):
         return iter(() if self.by_teeth else self.around.values())
 
     def sense(self, pulley: str) -> int:
-        """Return 1 if a pulley turns in the sense of the first pulley relative to the carrier, else -1."""
+        """Return 1 if a pulley turns in the sense of the first pulley relative to the carrier, otherwise -1."""
         return 1 if (pulley in self.reversed) == (self.ends[0] in self.reversed) else -1
 
     def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:

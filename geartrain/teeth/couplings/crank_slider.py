@@ -37,7 +37,7 @@ class CrankSlider(TravelCoupling):
     def _passes(self) -> CrankSlider:
         if self.rod.base <= self.radius.base:
             what = f"a rod of {self.rod.text} is not longer than the crank of {self.radius.text}"
-            raise bad("travel", what, "give a longer rod: the crank could not turn through")
+            raise bad("travel", what, "give a longer rod, so that the crank can turn fully")
         return self
 
     @property

@@ -156,12 +156,12 @@ class EllipticalPair(_LobedPair):
     def _closes(cls, eccentricity: Figure) -> Figure:
         if not 0 <= eccentricity.value < 1:
             what = f"with an eccentricity of {eccentricity.text} the pitch curve does not close"
-            raise bad("law", what, "give 0 (a circle) to below 1")
+            raise bad("law", what, "give a value from 0 (a circle) to less than 1")
         return eccentricity
 
     @property
     def _root(self) -> float:
-        """The square root in `distance`."""
+        """Square root that occurs in the formula of `distance`."""
         e, m = float(self.eccentricity.value), self.lobes[0] / self.lobes[1]
         return sqrt(1 - (1 - e**2) * (1 - 1 / m**2))
 
@@ -172,7 +172,9 @@ class EllipticalPair(_LobedPair):
 
     @property
     def transmission(self) -> SeriesTransmission:
-        """Transmission function, with rho = e (m + 1)/(m s + 1): mean ratio m without sign, and s the root of C."""
+        """Transmission function with rho = e (m + 1)/(m s + 1), where e is the eccentricity, m the mean ratio without
+        sign, and s the square root in `distance`.
+        """
         from geartrain.teeth.couplings.series_transmission import SeriesTransmission
 
         m = self.lobes[0] / self.lobes[1]
@@ -213,7 +215,7 @@ class PitchCurvePair(_LobedPair):
     def _has_a_mate(self) -> PitchCurvePair:
         _check_points(self.radii, "radii", _FEWEST)
         if len({radius.unit is None for radius in self.radii}) > 1:
-            raise bad("law", "some radii have a unit and others do not", "give all with a unit, or all without")
+            raise bad("law", "some radii have a unit, others do not", "give all radii with a unit, or all without one")
         if min(radius.base for radius in self.radii) <= 0:
             raise bad("law", "a radius of the pitch curve is not above 0", "give radii above 0")
         try:
@@ -224,7 +226,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def distance(self) -> float:
-        """Distance between the axes [m, or in the unit of radii that are declared without a unit]."""
+        """Distance between the axes [m], or in the unit of the radii if these are declared without a unit."""
         from geartrain.teeth.couplings.pitch_curves import mate_distance
 
         return mate_distance(self._values, float(-self.mean))
@@ -258,7 +260,7 @@ Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
 class TabledLaw(_VaryingPair):
     """Coupling with the driven angle q = mean S + unit d(S), with d given by harmonics or by a table.
 
-    A mean of 0 is a cam with an oscillating arm.
+    A mean of 0 describes a cam with an oscillating arm.
     """
 
     NEEDS_DISTANCE = False
@@ -315,7 +317,7 @@ class TabledLaw(_VaryingPair):
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function; with a negative mean, angles of the driven side are forward angles."""
+        """Transmission function; if the mean ratio is negative, the angles of the driven side are forward angles."""
         from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicTable
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 

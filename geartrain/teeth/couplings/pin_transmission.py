@@ -48,8 +48,8 @@ class PinTransmission(SeriesTransmission):
 
     @property
     def _maximum_tangent(self) -> float:
-        """Maximum of tan d over a turn, e/sqrt(r^2 - e^2), for a pin whose circle encloses the slot's axis: d is the
-        angle between pin radius and slot, r the pin radius and e the axis offset.
+        """Maximum of tan d over a turn, e/sqrt(r^2 - e^2), for a pin whose circle encloses the slot's axis. Here d is
+        the angle between pin radius and slot, r the pin radius and e the axis offset.
         """
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
 
@@ -80,10 +80,10 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
 class PinToSlotTransmission(PinTransmission):
     """Transmission function of a pin that drives a slot.
 
-    The slot angle is S + atan2(e sin S, r - e cos S) for r > e, and -atan2(r sin S, e - r cos S) for r < e. The mean
-    ratio is 1 if the circle of the pin encloses the axis of the slot (r > e). Otherwise it is 0: the slot oscillates,
-    and its angle is measured from the line from its axis to the axis of the pin. The efficiency is 1/(1 + f |tan d|),
-    where d is the angle between the pin radius and the slot; this also applies to the return stroke.
+    At the pin angle S, the slot angle is S + atan2(e sin S, r - e cos S) for r > e, and -atan2(r sin S, e - r cos S)
+    for r < e. The mean ratio is 1 if the circle of the pin encloses the axis of the slot (r > e). Otherwise it is 0:
+    the slot oscillates, and its angle is measured from the line from its axis to the axis of the pin. The efficiency is
+    1/(1 + f |tan d|), where d is the angle between the pin radius and the slot; this also applies to the return stroke.
 
     Parameters
     ----------
@@ -143,7 +143,8 @@ class PinToSlotTransmission(PinTransmission):
         """Return the minimum efficiency over a turn.
 
         It occurs at the maximum of the angle d between pin radius and slot, sin d = e/r, with axis offset e and pin
-        radius r. If the slot oscillates, it is 0 with friction, because of the dead points, and 1 without friction.
+        radius r. If the slot oscillates, the minimum is 0 with friction, because of the dead points, and 1 without
+        friction.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -151,7 +152,7 @@ class PinToSlotTransmission(PinTransmission):
 
 
 class SlotToPinTransmission(PinTransmission):
-    """Transmission function of a slot that drives its pin: pin angle = S - asin((e/r) sin S), with slot angle S,
+    """Transmission function of a slot that drives its pin: the pin angle is S - asin((e/r) sin S), with slot angle S,
     axis offset e and pin radius r.
 
     The pin's circle must enclose the slot's axis.
@@ -246,7 +247,7 @@ class SlotToPinTransmission(PinTransmission):
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction at which the pin locks at some angle: sqrt(r^2 - e^2)/e, with pin radius r
+        """Minimum coefficient of friction at which the pin locks at some angle, sqrt(r^2 - e^2)/e, with pin radius r
         and axis offset e.
         """
         return 1 / self._maximum_tangent if self.e else inf

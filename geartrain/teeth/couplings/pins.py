@@ -2,7 +2,7 @@
 
 A pin on one link slides in a slot of another link, whose axis is at the distance `offset`. In the frame of their
 carrier, the slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e. Over
-one turn of the pin the slot turns m times: m = 1 if the pin's circle encloses the slot's axis (r > e), else m = 0.
+one turn of the pin the slot turns m times: m = 1 if the pin's circle encloses the slot's axis (r > e), otherwise m = 0.
 
 Three or more pins in round holes, each wider than its pin by 2 e, keep two links parallel: m = 1 at every instant.
 """
@@ -69,8 +69,8 @@ class _PinInSlot(PinCoupling):
             raise bad("pin", what, "give a pin_radius above 0 and an offset of 0 or more")
         # an offset of 0 needs no unit
         if offset.value and (radius.unit is None) != (offset.unit is None):
-            what = f"pin_radius {radius.text} and offset {offset.text} have a unit in one value only"
-            raise bad("pin", what, "give both with a unit, or both without")
+            what = f"only one of pin_radius {radius.text} and offset {offset.text} has a unit"
+            raise bad("pin", what, "give both with a unit, or both without one")
         # compared as exact fractions, so that equal lengths in different units are recognised
         r, e = radius.base, offset.base
         # the slot would reverse its direction at that moment
@@ -153,7 +153,7 @@ class PinsInHoles(_ParallelCoupling):
 
 
 class Parallel(_ParallelCoupling):
-    """Any other coupling that keeps two links parallel: parallel cranks, an Oldham cross, a flexible wall.
+    """Any other coupling that keeps two links parallel, such as parallel cranks, an Oldham cross or a flexible wall.
 
     The links `pin` and `slot` are interchangeable. The coupling is not drawn.
     """

@@ -67,7 +67,7 @@ class Ratio(Coupling):
             what = f"the ratio {value.text} with the tolerance {tolerance.text} may be 0"
             raise bad("ratio", what, "give a tolerance below the ratio")
         if self.carrier in self.pair:
-            what = f"'{self.carrier}' is the carrier and one of the pair"
+            what = f"'{self.carrier}' is both the carrier and one of the pair"
             raise bad("ratio", what, "name the third link of the set as `carrier`, or omit it")
         return self
 

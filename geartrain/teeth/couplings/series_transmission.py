@@ -57,7 +57,7 @@ class SeriesTransmission(LosslessTransmission):
         return SeriesTransmission(self.ratio, self.factor, self.order, self.rho, self.rest, -self.phase)
 
     def _argument(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return x = n (S + phase), and sin^2(x/2)."""
+        """Return the argument x = n (S + phase) of epsilon, and sin^2(x/2)."""
         x = self.order * (np.asarray(S, dtype=float) + self.phase)
         return x, np.sin(x / 2) ** 2
 
@@ -108,8 +108,8 @@ class SeriesTransmission(LosslessTransmission):
         return -self.amplitude, self.amplitude
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the deviation from uniform motion, which is 0, and its rms [rad]: |A| sqrt(Li2(rho^2) / 2)
-        with the dilogarithm Li2.
+        """Return the mean of the deviation from uniform motion, which is 0, and its rms |A| sqrt(Li2(rho^2) / 2) [rad],
+        where Li2 is the dilogarithm.
         """
         # Parseval's theorem for the sine series
         return 0.0, abs(self.factor) * sqrt(_dilogarithm(self.rho**2, self.rest * (1 + self.rho)) / 2)

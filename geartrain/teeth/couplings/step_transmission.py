@@ -26,9 +26,10 @@ _EARLY = Fraction(1, 10**9)
 class GenevaTransmission(TableTransmission):
     """Transmission function of a Geneva drive, from S = 0 in the middle of a step.
 
-    There a pin is on the line of centres: nearest to the other axis for an external drive, farthest for an internal
-    one. With rho = sin(pi/n), the driven angle is atan2(rho sin S, 1 - rho cos S) while |S| <= pi/2 - pi/n, and pi/n
-    during the rest; for an internal drive atan2(rho sin S, 1 + rho cos S) while |S| <= pi/2 + pi/n.
+    At S = 0 a pin is on the line of centres, nearest to the other axis in an external drive and farthest from it in an
+    internal drive. With rho = sin(pi/n), the driven angle of an external drive is atan2(rho sin S, 1 - rho cos S) while
+    |S| <= pi/2 - pi/n, and pi/n during the rest. The driven angle of an internal drive is atan2(rho sin S, 1 + rho cos
+    S) while |S| <= pi/2 + pi/n.
 
     slots      number of slots n, 3 or more
     pins       number of pins of the driver, evenly spaced
@@ -64,7 +65,7 @@ class _GenevaDeviation(PeriodicFunction):
         self.breakpoints, self.resolution = np.array(kinks), period / 32
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of an order from 0 (the function) to 3 at any positions."""
+        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
         x = np.asarray(x, dtype=float)
         u = x - self.period * np.rint(x / self.period)
         # at rest the angle is the angle at the end of the step

@@ -81,7 +81,7 @@ class Geneva(SteppingCoupling):
     def _check_pins(self) -> Geneva:
         most = int(1 / (Fraction(1, 2) + Fraction(1 if self.internal else -1, self.slots)))
         if self.pins > most:
-            what = f"{self.pins} pins would meet {self.slots} slots at once: at most {most}"
+            what = f"with {self.pins} pins and {self.slots} slots, two pins would be in slots at the same time"
             raise bad("geneva", what, f"give `pins: {most}` or fewer, or another number of slots")
         return self
 
@@ -144,7 +144,7 @@ class Step(SteppingCoupling):
             raise bad("step", what, f"give `moves` of at most {self.teeth}")
         if self.moving_angle * self.times > 1:
             most = 360 / self.times
-            what = f"over {self.over} it would still be moving when the next engagement begins"
+            what = f"with `over: {self.over}` the wheel would still be moving when the next engagement begins"
             raise bad("step", what, f"give `over` of at most {most:g} deg for `times: {self.times}`")
         return self
 

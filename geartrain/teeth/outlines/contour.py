@@ -1,6 +1,4 @@
-"""Closed curves of straight edges and circular arcs, stored as in DXF: vertices with the bulge of the edge that
-follows.
-"""
+"""Closed curves of straight edges and circular arcs, stored as in DXF: vertices, each with the bulge of an edge."""
 
 from __future__ import annotations
 
@@ -125,7 +123,7 @@ class Contour(Shown):
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Return the points of a flattened arc, without its end point."""
+    """Return the points of a flattened arc, without the end point of the arc."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)

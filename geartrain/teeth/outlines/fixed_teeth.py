@@ -54,8 +54,8 @@ CUP = 0.25
 def escape_tooth(z: int, sense: int) -> FixedTooth:
     """Return the tooth of an escape wheel of z teeth, 3 or more, with its tip on the pitch circle.
 
-    The middle of the tooth's root is on the x axis. The proportions are those of clockmakers, after G. Graham's anchor
-    of about 1715: faces undercut by 6 degrees, straight backs.
+    The middle of the tooth's root is on the x axis. The proportions follow clockmakers' practice, after G. Graham's
+    anchor of about 1715: the faces are undercut by 6 degrees, and the backs are straight.
 
     sense   direction of rotation and of lean: 1 counter-clockwise, -1 clockwise
     """

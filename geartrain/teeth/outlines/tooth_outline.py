@@ -140,9 +140,7 @@ class ToothOutline:
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """Return the vertices of one tooth about the x axis from root to root; the last edge lies on the root
-        circle.
-        """
+        """Return the vertices of one tooth about the x axis from root to root; the last edge is on the root circle."""
         half = self._half()
         x, y, _ = half[-1]
         land = bulge_about(complex(x, -y), complex(x, y))
@@ -204,9 +202,11 @@ class FlankCurve:
     angle: Floats
     """Half the angular tooth thickness at each vertex minus its value at the pitch circle [rad]."""
     curve: Floats
-    """Radii and angles of densely spaced points of the true flank, shape (2, n)."""
+    """Radii [module] and angles [rad] of densely spaced points of the true flank, shape (2, n)."""
     tangent: tuple[float, float]
-    """Unit tangent at the root end towards the root: component along the radius, component towards the tooth space."""
+    """Unit tangent at the root end towards the root, as its component along the radius and its component towards the
+    tooth space.
+    """
     R: float
     """Pitch radius of the wheel [module]."""
     outward: int
@@ -291,7 +291,7 @@ def _with_vertices(found: Floats, bends: Floats) -> Floats:
 
 
 def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return radii and angles of a polyline inside the tooth.
+    """Return the radii [module] and angles [rad] of a polyline inside the tooth.
 
     Its vertices are points of the flank where it is convex, and intersections of tangents where it is concave.
     """
@@ -323,8 +323,8 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the unit tangent towards the root, normal to the contact normal: radial component, and component towards
-    the tooth space.
+    """Return the unit tangent towards the root, normal to the contact normal, as its radial component and its component
+    towards the tooth space.
     """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi

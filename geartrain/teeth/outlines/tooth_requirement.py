@@ -30,7 +30,7 @@ _MARGIN = 1e-3  # modules: minimum gap at the fillet, more than a tip moves betw
 MatePassage = tuple["Floats", "Floats"]
 """Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel.
 
-Radii about the wheel's axle [module], and angles from the centre line of the nearest tooth [rad].
+They are radii about the wheel's axle [module], and angles from the centre line of the nearest tooth [rad].
 """
 
 
@@ -111,7 +111,7 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle [module]; for pins, radius of their outermost points."""
+        """Radius of the tip circle [module], or of the outermost points of pins."""
         if self.pins is not None and self.has_pins:
             return self.pins.circle + self.pins.radius
         return self.pair.path.radii(self.gear)[1]

@@ -46,12 +46,12 @@ class BlankSizes:
     clearance: float | None = None
     """Bottom clearance between a root and the mate's tip [mm], 0 or more; by default a quarter of a module."""
     fillet: float | None = None
-    """Radius of the root fillet [mm], 0 or more; by default 0.38 modules, or the largest possible radius."""
+    """Radius of the root fillet [mm], 0 or more; by default 0.38 modules, or the largest radius that fits."""
     bore: float | None = None
     """Diameter of the central hole [mm]; by default the wheel has no hole."""
     rim: float | None = None
-    """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; by default two modules, or the
-    diameter of a pin.
+    """Width of the rim around the roots of a ring gear, by default two modules, or around the pins of a lantern, by
+    default a pin diameter [mm].
     """
     tolerance: float = 0.001
     """Maximum deviation of a chord from a flank [mm]."""
@@ -107,7 +107,7 @@ class WheelOutline(Result):
     thickness: float
     """Thickness of a tooth along the pitch circle [mm]."""
     fillet: float
-    """Radius of the root fillet [mm]; 0 without a fillet."""
+    """Radius of the root fillet [mm]; 0 if the root has no fillet."""
     relief: float
     """Angle by which the root flank deviates from the tangent of the flank, for clearance to the mate's tip [rad]."""
     clearance: float
@@ -224,7 +224,7 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
 
 
 def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> list[Contour]:
-    """Return the contours of a toothed wheel [mm]: teeth and bore, or for a ring gear rim and teeth.
+    """Return the contours of a toothed wheel [mm]: teeth and bore, or rim and teeth for a ring gear.
 
     teeth, root   contour of the teeth and radius of the root circle [module]
     """
@@ -246,7 +246,9 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """Return the hole of a wheel with the root radius `root` [mm] as a list of contours, empty without a bore."""
+    """Return the hole of a wheel with the root radius `root` [mm] as a list of contours, which is empty if the wheel
+    has no bore.
+    """
     if cut.bore is None:
         return []
     most = 2 * (root - _THIN * cut.module)

@@ -43,9 +43,7 @@ class CutTooth:
 
 
 class WheelRequirement(ABC):
-    """Requirement of one pair on the teeth of one of its wheels, compared with other requirements before the wheel is
-    cut.
-    """
+    """Requirement of one pair on the teeth of one of its wheels, which is compared with others before cutting."""
 
     @property
     @abstractmethod
@@ -58,7 +56,7 @@ class WheelRequirement(ABC):
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return a tooth that satisfies this requirement and `others`. Raises `GearTrainError` if no such tooth
+        """Return a tooth that satisfies this requirement and `others`; raise `GearTrainError` if no such tooth
         exists.
         """
 
@@ -82,7 +80,9 @@ class FixedTooth(CutTooth, WheelRequirement):
 
 @dataclass(frozen=True)
 class PairRequirement:
-    """Requirement of a pair on a wheel: name of the pair, name of its tooth form, the form in words, required teeth."""
+    """Requirement of a pair on a wheel, with the name of the pair, the name of its tooth form, the form in words, and
+    the required teeth.
+    """
 
     pair: str
     form: str

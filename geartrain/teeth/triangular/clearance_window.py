@@ -55,16 +55,14 @@ class TriangularContact:
         return y - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio while the driver's apex is at the angle x [rad] from the line of centres; 0 during a
+        """Return the speed ratio while the driver's apex is at the angle x [rad] from the line of centres; 0 in a
         dwell.
         """
         return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals in which a contact limits the driven wheel, including contacts that cannot drive it; gaps are
-        possible.
-        """
+        """Intervals in which a contact limits the driven wheel, even if it cannot drive it; gaps are possible."""
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
@@ -113,8 +111,8 @@ class TriangularContact:
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict: the first failed check in the order valley, range of contact, overhang, coast flanks, entry, exit;
-        "runs" if no check fails.
+        """Verdict of the first failed check, in the order valley, range of contact, overhang, coast flanks, entry,
+        exit; "runs" if no check fails.
         """
         sizes = self.sizes
         if not sizes.has_valleys:
@@ -164,8 +162,8 @@ class TriangularContact:
 
     @cached_property
     def overhang(self) -> str:
-        """Message about an overhanging flank that touches, or that would turn the driven wheel back; empty without such
-        a flank.
+        """Message about an overhanging flank that touches, or that would turn the driven wheel back; empty if no such
+        flank exists.
         """
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1

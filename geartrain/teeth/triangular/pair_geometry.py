@@ -30,9 +30,7 @@ def depth(z: int, beta: float) -> float:
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq.
-    (2).
-    """
+    """Return the length of a flank divided by the tip radius for z teeth with half angle `beta` [rad], Eq. (2)."""
     return sin(pi / z) / sin(beta + pi / z)
 
 
@@ -49,8 +47,8 @@ def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
 
 
 def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
-    """Return the direction psi [rad] of a flank of wheel 1 almost tangent to the tip circle of wheel 2, and sin(psi
-    + alpha_2), where alpha_2 is the angle of the touching apex of wheel 2 from the line of centres.
+    """Return the direction psi [rad] of a flank of wheel 1 that is almost tangent to the tip circle of wheel 2, and
+    sin(psi + alpha_2), where alpha_2 is the angle of the touching apex of wheel 2 from the line of centres.
     """
     sine = min(1.0, (_GRAZING * R2 + R1 * sin(beta)) / D)
     return asin(sine), (D * sine - R1 * sin(beta)) / R2
@@ -135,12 +133,12 @@ class TriangularSizes(Shown):
 
     @property
     def signed_radii(self) -> tuple[float, float]:
-        """Tip radii of both wheels, negative for a ring gear."""
+        """Tip radii of both wheels, in the common length unit; negative for a ring gear."""
         return self.signs[0] * self.R1, self.signs[1] * self.R2
 
     @property
     def radii(self) -> tuple[float, float]:
-        """Tip radii of both wheels."""
+        """Tip radii of both wheels, in the common length unit."""
         return self.R1, self.R2
 
     @property
@@ -179,9 +177,7 @@ class TriangularSizes(Shown):
 
     @property
     def surrounds(self) -> bool:
-        """True if the tip circles of an internal pair overlap at every angle. The pinion's teeth then have no free
-        space.
-        """
+        """True if the tip circles of an internal pair overlap at every angle, so that the pinion has no free space."""
         return bool(self.ring) and sum(self.signed_radii) >= self.D
 
     @property
@@ -238,8 +234,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def matching(self) -> float:
-        """Matching position: angle alpha_1m of the driver's apex from the line of centres at which the flanks of both
-        teeth coincide [rad], Eq. (10). It is also defined for unequal aperture angles.
+        """Angle alpha_1m of the driver's apex from the line of centres in the matching position, in which the flanks of
+        both teeth coincide [rad], Eq. (10). It is also defined for unequal aperture angles.
 
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The expression for the
         sine of alpha_1m avoids the difference of nearly equal angles. The value is infinite if no such position exists.
@@ -291,7 +287,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def maximum_excess(self) -> float:
-        """Maximum excess at which the teeth can touch; beyond it tips never touch or, in an internal pair, the tip
+        """Maximum excess at which the teeth can touch. Beyond it, tips never touch or, in an internal pair, the tip
         circles overlap at every angle.
         """
         apart = min(self.depths) / self.deepest_distance

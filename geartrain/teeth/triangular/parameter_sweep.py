@@ -142,9 +142,7 @@ class VerdictChange:
 
 
 def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list[VerdictChange]:
-    """Return every change of verdict or phases along a sweep of one parameter, located by bisection; at most 100
-    changes.
-    """
+    """Return every change of verdict or phases along a sweep of one parameter, by bisection; at most 100 changes."""
     values = found.parameters[name].tolist()
     labels = [_label(v, p) for v, p in zip(found.verdicts.tolist(), found.phases.tolist(), strict=True)]
     seen: list[VerdictChange] = []

@@ -54,7 +54,8 @@ class DriveInterval:
     """
 
     phase: str
-    """Phase of contact: approach, recess or dwell; slip or return in a path that includes contacts that cannot drive.
+    """Phase of contact: approach, recess or dwell; also slip or return in a path that includes contacts that cannot
+    drive.
     """
     start: float
     """Angle alpha_1 of the driver's apex from the line of centres at the start [rad]."""
@@ -63,9 +64,7 @@ class DriveInterval:
     tooth_pair: int
     """Number of the tooth pair that drives, or that drove last before a dwell."""
     held: float | None = None
-    """Angle alpha_2 of the driven apex from the line of centres during a dwell [rad]; None while a tooth pair
-    drives.
-    """
+    """Angle alpha_2 of the driven apex from the line of centres during a dwell [rad]; None while a pair drives."""
 
     @property
     def width(self) -> float:
@@ -85,8 +84,8 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag of the driven wheel behind its mean motion [rad] while the driver's apex is at the angle x
-        [rad]: g(x) = f(x) - (z1/z2) x, with f the angle of the driven apex.
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] while the driver's
+        apex is at the angle x [rad]; f is the angle of the driven apex.
         """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
@@ -96,8 +95,8 @@ class RealPath:
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Monotone pieces of the path of contact, divided where the curvature of the driven angle changes sign: recess,
-        then approach.
+        """Monotone pieces of the path of contact, first of recess and then of approach, divided where the curvature of
+        the driven angle changes sign.
 
         With `slips`, the contacts beyond the exit come first. Empty for teeth without valleys.
         """
@@ -125,8 +124,8 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return the values of the lag g [rad] at its extrema between `low` and `high`, where the speed ratio is
-        monotonic: at most one value.
+        """Return the value of the lag g [rad] at its extremum, if there is one, between `low` and `high`, where the
+        speed ratio is monotonic.
         """
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
@@ -377,9 +376,7 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum of the lag g over an interval [rad], which the driven wheel reaches from any initial
-    position.
-    """
+    """Return the minimum of the lag g over an interval [rad], which the driven wheel reaches from any position."""
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 

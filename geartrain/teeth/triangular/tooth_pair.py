@@ -97,21 +97,21 @@ class ToothPair:
         square = self.R2 * self.R2 - W
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
-    def _apex_directions(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return values of a contact in recess: arm, cosine and sine of beta2 - x - y, sine and cosine of beta2 - y,
-        and sine of x.
+    def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
+        """Return values of a contact in recess: the arm, the cosine and sine of beta2 - x - y, the sine and cosine of
+        beta2 - y, and the sine of x.
 
         The angles of the apices are x and y, and beta2 is the half aperture angle of the driven wheel.
         """
-        sine, cosine, arm, sin_y, cos_y = self._driven_apex(x, m)
+        sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
         return arm, cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine, sin_psi, cos_psi, sine
 
     # -------------------------------------------------------------------------------------------- motion and friction
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad] in a phase: Eq. (7) in approach, Eq.
-        (17) in recess and slip.
+        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad] by Eq. (7) in approach and by Eq. (17)
+        in recess and slip.
 
         In the return phase it is the second root of Eq. (7).
         """
@@ -133,16 +133,31 @@ class ToothPair:
         if phase == APPROACH:
             u, _, cos_psi, _, q, _ = self._flank_line(x, m)
             return self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
-        arm, q, *_ = self._apex_directions(x, m)
+        arm, q, *_ = self._apex_directions(self._driven_apex(x, m))
         return self.mirror * self.R1 * q, self.sign2 * arm
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau = d alpha_2 / d alpha_1, Eqs. (12) and (19); negative in the return phase."""
+        """Return the speed ratio tau = d alpha_2 / d alpha_1 by Eqs. (12) and (19); it is negative in the
+        return phase.
+        """
         if phase == RETURN:
             _, _, cos_psi, _, q, _ = self._flank_line(-x, m)
             return -1 - self.D * cos_psi / (self.R2 * q)
         first, second = self.normal_arms(phase, x, m)
         return first / second
+
+    def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
+        """Return `angle` and `speed` at the same x, with one evaluation of the contact, in half the time."""
+        if phase == RETURN:
+            return self.angle(phase, x, m), self.speed(phase, x, m)
+        if phase == APPROACH:
+            u, _, cos_psi, _, q, sin_y = self._flank_line(x, m)
+            first, second = self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
+            return self.side * m.asin(sin_y), first / second
+        apex = self._driven_apex(x, m)
+        *_, sin_y, cos_y = apex
+        arm, q, *_ = self._apex_directions(apex)
+        return self.side * m.atan2(sin_y, cos_y), self.mirror * self.R1 * q / (self.sign2 * arm)
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the derivative of the speed ratio tau with respect to alpha_1 [1/rad].
@@ -159,7 +174,7 @@ class ToothPair:
             u, sin_psi, cos_psi, s, q, _ = self._flank_line(x, m)
             more = 1 + self._driver_arm(u, cos_psi, q) / (self.R2 * q)
             return self.side * more * (more * s / q - sin_psi / cos_psi)
-        arm, q, s, sin_psi, cos_psi, _ = self._apex_directions(x, m)
+        arm, q, s, sin_psi, cos_psi, _ = self._apex_directions(self._driven_apex(x, m))
         tau = self.R1 * q / arm
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
@@ -174,11 +189,11 @@ class ToothPair:
             u, _, cos_psi, s, q, sin_y = self._flank_line(x, m)
             side = self.side * m.copysign(1.0, sin_y)
             return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
-        arm, q, s, _, _, sine = self._apex_directions(x, m)
+        arm, q, s, _, _, sine = self._apex_directions(self._driven_apex(x, m))
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:
-        """Return the sliding efficiency at the friction coefficient f, Eqs. (32) and (33), corrected."""
+        """Return the sliding efficiency at the friction coefficient f by the corrected Eqs. (32) and (33)."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
 
@@ -197,7 +212,7 @@ class ToothPair:
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
         """Return the distances b1 and b2 of both wheel centres from the line of the contact force at the friction
-        coefficient f, Eqs. (28) to (31), corrected.
+        coefficient f, by the corrected Eqs. (28) to (31).
 
         That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
         centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).

@@ -124,7 +124,7 @@ class Triangular(ToothForm):
                 raise bad("length", f"{name} {length.text} is out of range", "give a length above 0")
         if len({length.unit is None for length in given.values()}) > 1:
             what = f"{', '.join(given)} mix numbers without a unit and lengths with a unit"
-            raise bad("length", what, "give all with a unit, or all without")
+            raise bad("length", what, "give all lengths with a unit, or all without one")
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
@@ -261,7 +261,7 @@ class Triangular(ToothForm):
         return TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0, ring)
 
     def _sizes_at_clearance(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
-        """Return the sizes at the declared clearance, in m if a pitch distance is given."""
+        """Return the sizes at the declared clearance, with lengths in m if a pitch distance is given."""
         from geartrain.teeth.triangular.clearance_window import excess_of_backlash
 
         if not sizes.has_valleys:
@@ -287,7 +287,7 @@ class Triangular(ToothForm):
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _declared_excess(self, sizes: TriangularSizes) -> float:
-        """Return the declared excess, subtracted exactly before rounding. Raises `GearTrainError` if it is not
+        """Return the declared excess, subtracted exactly before rounding; raise `GearTrainError` if it is not
         positive.
         """
         if self.excess is not None or self.clearance_factor is None:
@@ -326,7 +326,7 @@ class Triangular(ToothForm):
         direction : {1, -1}
             Direction of rotation; with -1 the coast flanks are in contact.
         pitch_distance : float, optional
-            As in `sizes` [m].
+            Same as in `sizes` [m].
         ring : {0, 1, 2}
             Number of the wheel that is a ring gear; 0 for an external pair.
 

@@ -54,9 +54,7 @@ class TriangularDetails(NamedForm, Protocol):
 
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
-    """Gear pair with triangular teeth in a train, with the clearance window that explains why such a pair does not
-    turn.
-    """
+    """Gear pair with triangular teeth in a train, with the clearance window that explains why it does not turn."""
 
     tooth_form: TriangularDetails
     transmission: TriangularTransmission
@@ -95,9 +93,7 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """Size from the declaration if its lengths are in metres; otherwise the size at which the pitch circles
-        touch.
-        """
+        """Size from the declaration if its lengths are in metres; otherwise the size for touching pitch circles."""
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):
             return self.size({})

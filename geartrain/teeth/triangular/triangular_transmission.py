@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.arrays import blocks, remainder
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
 from geartrain.teeth.tooth_transmission import ToothTransmission
@@ -120,7 +121,7 @@ class TriangularTransmission(ToothTransmission):
         Parameters
         ----------
         phase, x
-            As in `sliding`.
+            Same as in `sliding`.
         by : PairFriction or None
             Friction as a function of sliding speed; None for the constant coefficient of this function.
         """
@@ -139,7 +140,7 @@ class TriangularTransmission(ToothTransmission):
         """Return the transmission error [rad of the driven wheel] and the speed ratio tau, with one search of the path
         for both.
         """
-        lag, tau = self._map_all(S, lambda interval, x: (self._lag(interval, x), self._tau(interval, x)), 2)
+        lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
     def _driven(self, driver: int, direction: int) -> TriangularTransmission:
@@ -176,18 +177,25 @@ class TriangularTransmission(ToothTransmission):
         and alpha_1.
         """
         S = np.asarray(S, dtype=float)
+        flat = S.ravel()
+        found = [np.empty_like(flat) for _ in range(count)]
+        for block in blocks(len(flat)):
+            self._map_block(flat[block], what, [each[block] for each in found])
+        return [each.reshape(S.shape) for each in found]
+
+    def _map_block(
+        self, S: Floats, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], found: Sequence[Floats]
+    ) -> None:
         edges = self._edges
-        gone = np.mod(self.direction * S, self.period) + self._start
+        gone = remainder(self.direction * S, self.period) + self._start
         # both terms are within one period, so one subtraction is sufficient
         gone -= np.where(gone < self.period, 0.0, self.period)
         which = np.searchsorted(edges[1:-1], gone, side="right")
-        found = [np.empty_like(S) for _ in range(count)]
         for at, interval in enumerate(self.intervals):
-            chosen = which == at
+            chosen = np.flatnonzero(which == at) if len(self.intervals) > 1 else slice(None)
             x = interval.start - (gone[chosen] - edges[at])
             for each, value in zip(found, what(interval, x), strict=True):
                 each[chosen] = value
-        return found
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
@@ -199,7 +207,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle of the driver's tooth from the line of centres at the start of the first interval, modulo the pitch
+        """Angle of the driver's tooth from the line of centres at the start of the first interval, within a pitch
         [rad].
         """
         first = self._drive_intervals[0]
@@ -222,12 +230,18 @@ class TriangularTransmission(ToothTransmission):
     def _tau(self, interval: DriveInterval, x: Any) -> Any:
         return self.contact.speed(interval, x, np)
 
+    def _lag_and_tau(self, interval: DriveInterval, x: Any) -> tuple[Any, Any]:
+        if interval.held is not None:
+            return self._lag(interval, x), 0.0
+        alpha2, tau = self.contact.path.tooth_pair.angle_and_speed(interval.phase, x, np)
+        return alpha2 - self.sizes.ratio * x, tau
+
     # ----------------------------------------------------------------------------------------- values over the pitch
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals of the path (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of
-        the speed ratio and the line of centres.
+        """Smooth intervals of the path, each as (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks,
+        extrema of the speed ratio and the line of centres.
         """
         return [
             (interval, high, low)
@@ -330,9 +344,7 @@ class TriangularTransmission(ToothTransmission):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of contact over one pitch in order of time, with one row for each sample; ends of intervals are
-    included.
-    """
+    """Table of contact over one pitch in order of time, one row for each sample; ends of intervals are included."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -357,9 +369,7 @@ class ContactCourse(Result):
     driven_arm: Floats
     """Moment arm b2 of the force about the driven wheel's axis, in the unit of the sizes; NaN during a dwell."""
     efficiency: Floats
-    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN during a dwell and where friction
-    locks.
-    """
+    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell and where friction locks."""
 
 
 def contact_course(

@@ -40,8 +40,9 @@ function wheelLabels(scene) {
     const { id, parent } = scene.bodies[wheel.body];
     const at = (world) => {
       const axis = vector(wheel.direction).transformDirection(world.nodes[wheel.body].matrixWorld);
-      const up = vector([0, 1, 0]).addScaledVector(axis, -axis.y);
-      return world.placed(vector(wheel.centre), wheel.body).addScaledVector(up.normalize(), 0.9 * wheel.radius);
+      const ring = wheel.kind === "ring"; // where it is not cut open
+      const way = ring ? world.quarter.right.clone().negate() : vector([0, 1, 0]).addScaledVector(axis, -axis.y).normalize();
+      return world.placed(vector(wheel.centre), wheel.body).addScaledVector(way, ring ? (wheel.radius + rimOf(wheel)) / 2 : 0.9 * wheel.radius);
     };
     return { name: parent === null ? wheel.id : id, order: null, at, faces: () => true };
   });

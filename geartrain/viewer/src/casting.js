@@ -20,10 +20,10 @@ export class Casting {
   }
 
   /**
-   * Creates the meshes of all added shapes: opaque, transparent, and cut open (slots with `canOpen`). `parts` gives the
-   * range of each shape in the geometry.
+   * Creates the meshes of all added shapes: opaque, transparent, and cut open, with their insides. `parts` gives the range
+   * of each shape in the geometry.
    */
-  cast([seen, ghosts, cut], canOpen) {
+  cast([seen, ghosts, cut, inside]) {
     const total = (key) => this.jobs.reduce((sum, job) => sum + job.count * key(job.shape), 0);
     const corners = total((shape) => shape.corners);
     const data = {
@@ -33,57 +33,53 @@ export class Casting {
       place: new BufferAttribute(new Uint16Array(2 * corners), 2),
       lift: new BufferAttribute(new Float32Array(corners), 1),
     };
-    const index = new Uint32Array(total((shape) => shape.indices.length));
+    this.index = new Uint32Array(total((shape) => shape.indices.length));
     this.parts = [];
     let [first, next] = [0, 0];
     for (const job of this.jobs) {
       const [from, began] = [next, first];
       for (let n = 0; n < job.count; n += 1) {
         set(data, job, n, first);
-        for (const at of job.shape.indices) index[next++] = first + at;
+        for (const at of job.shape.indices) this.index[next++] = first + at;
         first += job.shape.corners;
       }
       this.parts.push({ body: job.body, slot: job.slot, from, to: next, first: began, last: first, ball: around(data.position.array, began, first) });
     }
-    this.slots = [...new Set(this.jobs.map(({ slot }) => slot))];
     this.jobs = [];
-    const geometry = new BufferGeometry();
-    for (const [name, attribute] of Object.entries(data)) geometry.setAttribute(name, attribute);
-    geometry.setIndex(new BufferAttribute(index, 1));
-    this.geometry = geometry;
-    this.meshes = [seen, ghosts, cut].map((material) => Object.assign(new Mesh(geometry, material), { frustumCulled: false, matrixAutoUpdate: false }));
-    this.canOpen = canOpen;
+    const drawn = new BufferAttribute(this.index.slice(), 1);
+    const made = (geometry, material) => Object.assign(new Mesh(geometry, material), { frustumCulled: false, matrixAutoUpdate: false });
+    this.meshes = [seen, ghosts, cut].map((material) => {
+      const geometry = new BufferGeometry().setIndex(drawn);
+      for (const [name, attribute] of Object.entries(data)) geometry.setAttribute(name, attribute);
+      return made(geometry, material);
+    });
+    this.meshes[2].add(made(this.meshes[2].geometry, inside));
+    this.geometry = this.meshes[0].geometry;
     return this.meshes;
   }
 
-  /** The same vertices, with the triangles of parts that can be cut open, or of the other parts. */
-  only(opened) {
-    const { attributes, index } = this.geometry;
-    const shape = new BufferGeometry();
-    for (const [name, attribute] of Object.entries(attributes)) shape.setAttribute(name, attribute);
-    const own = this.parts.filter(({ slot }) => this.canOpen(slot) === opened);
-    const to = new Uint32Array(own.reduce((sum, part) => sum + part.to - part.from, 0));
+  /** Distributes the parts: each mesh draws those for which `meshOf(slot)` is its number. */
+  distribute(meshOf) {
+    const { index } = this.geometry;
     let next = 0;
-    for (const part of own) {
-      to.set(index.array.subarray(part.from, part.to), next);
-      next += part.to - part.from;
-    }
-    return shape.setIndex(new BufferAttribute(to, 1));
-  }
-
-  /** Shows the parts cut open, or closed. */
-  open(opened) {
-    if (opened) this.halves ??= [false, true].map((each) => this.only(each));
-    this.meshes[0].geometry = opened ? this.halves[0] : this.geometry;
-    if (opened) this.meshes[2].geometry = this.halves[1];
-    this.meshes[2].visible = opened;
+    this.meshes.forEach((mesh, at) => {
+      const start = next;
+      for (const { slot, from, to } of this.parts) {
+        if (meshOf(slot) !== at) continue;
+        index.array.set(this.index.subarray(from, to), next);
+        next += to - from;
+      }
+      mesh.geometry.setDrawRange(start, next - start);
+      mesh.visible = next > start;
+    });
+    index.needsUpdate = true;
   }
 
   /** Intersections of a ray, unordered: [distance, part]. `seenBy(body)`: the ray in the frame of a body; `shift(lift)`: mm. */
   *met(seenBy, shift) {
     if (!this.geometry) return;
     const { position, lift } = this.geometry.attributes;
-    const index = this.geometry.index.array;
+    const { index } = this;
     const [corners, hit] = [[new Vector3(), new Vector3(), new Vector3()], new Vector3()];
     const ball = new Sphere();
     for (const part of this.parts) {
@@ -99,7 +95,7 @@ export class Casting {
   }
 
   dispose() {
-    for (const shape of [this.geometry, ...(this.halves ?? [])]) shape?.dispose();
+    for (const { geometry } of this.meshes ?? []) geometry.dispose();
   }
 }
 

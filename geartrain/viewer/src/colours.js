@@ -9,7 +9,7 @@ export const HANDLE = SERIES[0];
 export const CHOSEN = SERIES[6]; // distinct from the colours of high speeds
 // metals and other materials
 export const BRASS = ["#cfa652", "#d9b56b", "#c49848", "#d2ac62", "#c9a047", "#dcbb78"];
-export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d" };
+export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", case: "#755d38", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d" };
 
 const mix = (one, other, share) =>
   `#${[1, 3, 5].map((at) => {
@@ -37,7 +37,7 @@ function speedColours({ bodies }) {
   return speeds.map((speed) => speedColour(speed, fastest));
 }
 
-const OF_BRASS = [PARTS.arm, PARTS.plate, PARTS.pipe, PARTS.bezel]; // colours that could be mistaken for values
+const OF_BRASS = [PARTS.arm, PARTS.plate, PARTS.case, PARTS.pipe, PARTS.bezel]; // colours that could be mistaken for values
 
 /** Colours of the structural parts in a mode. */
 export function partColours(scene, mode) {

@@ -18,7 +18,7 @@ const STILL = () => new Vector3();
  * shiftOf   displacement of a body as a whole in the exploded view, in its zero pose
  */
 export function circlesOf(scene, shiftOf = STILL) {
-  const dials = scene.dials.map(({ body, centre, normal, radius }) => ({ at: vector(centre).add(shiftOf(body)), direction: normal, radius: 1.08 * radius, body }));
+  const dials = scene.dials.map(({ body, centre, normal, radius }) => ({ at: vector(centre).add(shiftOf(body)), direction: normal, radius: 1.08 * radius, body, faces: normal }));
   const wheels = scene.wheels.flatMap((wheel) => bothFaces(rimOf(wheel), wheel, shiftOf(wheel.body)).flatMap((face) => carriedRound(scene, wheel, face, shiftOf)));
   return [...wheels, ...dials];
 }
@@ -66,10 +66,11 @@ export function ballOf(scene, circles, corners = []) {
   return box.getBoundingSphere(new Sphere());
 }
 
-/** Points that a picture of the whole train must include, in its present exploded state. */
-export function outlineOf(scene, poses) {
+/** Points that a picture of the whole train must include, in its present exploded state; with `towards`, without dials that face away from it. */
+export function outlineOf(scene, poses, towards) {
+  const isSeen = ({ faces }) => !(towards && faces && vector(faces).dot(towards) < 0);
   const lifted = (point, body) => (poses.skewed[body] ? point : poses.apart(point, poses.height(point)));
-  return circlesOf(scene, (body) => poses.shift(body)).flatMap((circle) => pointsOf(circle).map((point) => lifted(point, circle.body)));
+  return circlesOf(scene, (body) => poses.shift(body)).filter(isSeen).flatMap((circle) => pointsOf(circle).map((point) => lifted(point, circle.body)));
 }
 
 /**

@@ -5,8 +5,8 @@ import { Color } from "three";
 import { BROKEN, CHOSEN, colours, partColours } from "./colours.js";
 import { vector } from "./space.js";
 
-const GHOST = 0.14; // opacity of parts that are not highlighted
-const GLASS = 0.07; // opacity of a plate or a pillar in front of the wheels
+const GHOST = 0.26; // opacity of parts that are not highlighted
+const GLASS = 0.1; // opacity of a plate or a pillar in front of the wheels
 const HIDDEN = 0.05; // fraction of the wheels hidden by a plate, above which the plate is transparent
 const GLOSS = 0.75;
 

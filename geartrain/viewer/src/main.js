@@ -87,13 +87,9 @@ async function begin(build) {
   await painted();
   app.interface.openStages();
   await painted();
-  performance.mark("first picture");
   for (const stage of app.stages) stage?.cut();
   app.interface.begin?.();
-  globalThis.geartrain.firstPicture = performance.getEntriesByName("first picture")[0].startTime;
   globalThis.geartrain.ready = true;
-  await painted();
-  performance.mark("teeth");
 }
 
 const way = Showcase.asked(location.hash, options.shown);

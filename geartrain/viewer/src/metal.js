@@ -3,7 +3,7 @@
 // Each vertex has its body and its slot; the pose of the body and the appearance of the slot are read from two small
 // textures, so that a train is drawn in one call, whatever its number of parts; parts that are cut open need a second.
 
-import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
+import { BackSide, Color, DataTexture, FloatType, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
 
 import { SECTION } from "./colours.js";
 
@@ -16,7 +16,6 @@ uniform mat4 viewMatrix, projectionMatrix;
 uniform sampler2D poses, palette;
 uniform vec3 axis, middle;
 uniform float share;
-uniform bool ghosts; // whether what is half seen is drawn now, or what is seen
 in vec3 position;
 in vec3 normal;
 in vec3 grain;
@@ -35,23 +34,21 @@ void main() {
   int slot = 2 * int(place.y + 0.5);
   ivec2 at = ivec2(slot % 256, slot / 256);
   paint = texelFetch(palette, at, 0);
-  if (paint.a < 0.004 || (paint.a < 0.99) != ghosts) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   vec2 kind = texelFetch(palette, at + ivec2(1, 0), 0).rg;
   gloss = kind.r;
   int body = 4 * int(place.x + 0.5);
   mat4 model = mat4(pose(body), pose(body + 1), pose(body + 2), pose(body + 3));
-  mat4 stands = viewMatrix * model;
-  vec4 place_now = vec4(position + axis * (share * lift), 1.0);
-  vec4 eye = stands * place_now;
+  vec4 world = model * vec4(position + axis * (share * lift), 1.0);
+  vec4 eye = viewMatrix * world;
 #ifdef CUT
-  vec3 off = (model * place_now).xyz - edge;
+  vec3 off = world.xyz - edge;
   quarter = vec3(dot(off, right), dot(off, up), kind.g);
   vec3 from = -(transpose(mat3(viewMatrix)) * viewMatrix[3].xyz) - edge;
   reader = vec2(dot(from, right), dot(from, up));
 #endif
   seen = eye.xyz;
-  facing = mat3(stands) * normal;
-  brushed = mat3(stands) * grain;
+  facing = mat3(viewMatrix) * (mat3(model) * normal);
+  brushed = mat3(viewMatrix) * (mat3(model) * grain);
   deep = eye.z - (viewMatrix * vec4(middle, 1.0)).z;
   gl_Position = projectionMatrix * eye;
 }`;
@@ -64,14 +61,6 @@ in vec4 paint;
 in float gloss, deep;
 #ifdef CUT
 in vec3 quarter;
-flat in vec2 reader;
-uniform vec3 section;
-// whether the way from the reader to a point leads through the quarter
-bool through(vec2 a, vec2 b) {
-  vec2 at = a / (a - b); // where it goes in or out, as a part of the way
-  vec2 low = mix(vec2(0.0), at, lessThanEqual(a, vec2(0.0))), high = mix(vec2(1.0), at, lessThanEqual(b, vec2(0.0)));
-  return all(greaterThan(max(a, b), vec2(0.0))) && max(low.x, low.y) < min(high.x, high.y);
-}
 #endif
 out vec4 colour;
 const vec3 KEY = vec3(-0.45, 0.68, 0.58), FILL = vec3(0.75, 0.1, 0.65);
@@ -97,12 +86,8 @@ void main() {
   vec3 v = normalize(-seen);
   vec3 n = normalize(facing);
 #ifdef CUT
-  // one who looks into a body sees its inside where it is cut: as much of the picture as the face of the cut has
-  bool inside = quarter.z > 0.5 && paint.a > 0.99 && dot(n, v) < -0.1 && through(reader, quarter.xy);
   if (quarter.z > 0.5 && quarter.x > 0.0 && quarter.y > 0.0) discard;
-  if (inside) { colour = vec4(sqrt(section * clamp(1.0 + 0.62 * deep / size, 0.62, 1.1)), paint.a); return; }
 #endif
-  if (dot(n, v) < 0.0) n = -n;
   vec3 own = paint.rgb * paint.rgb;
   float lit = 0.30 + 0.16 * n.y + 0.62 * max(dot(n, KEY), 0.0) + 0.22 * max(dot(n, FILL), 0.0);
   vec3 light = own * lit * mix(1.22, 0.62, gloss);
@@ -119,8 +104,25 @@ void main() {
   colour = vec4(sqrt(light), paint.a);
 }`;
 
+// One who looks through the quarter into a body sees its back faces: as much of the picture as the face of the cut has.
+const within = `
+precision highp float;
+uniform float size;
+uniform vec3 section;
+in vec3 facing, seen, quarter;
+in float deep;
+flat in vec2 reader;
+out vec4 colour;
+void main() {
+  vec2 a = reader, b = quarter.xy, at = a / (a - b); // where the way from the reader goes in or out, as a part of the way
+  vec2 low = mix(vec2(0.0), at, lessThanEqual(a, vec2(0.0))), high = mix(vec2(1.0), at, lessThanEqual(b, vec2(0.0)));
+  bool through = all(greaterThan(max(a, b), vec2(0.0))) && max(low.x, low.y) < min(high.x, high.y);
+  if (!through || all(greaterThan(b, vec2(0.0))) || dot(facing, -seen) > -0.1 * length(facing) * length(seen)) discard;
+  colour = vec4(sqrt(section * clamp(1.0 + 0.62 * deep / size, 0.62, 1.1)), 1.0);
+}`;
+
 /**
- * Materials of opaque parts, of transparent parts, and of parts that are cut open, which are drawn on both sides.
+ * Materials of opaque parts, of transparent parts, of parts that are cut open, and of their insides, which are seen where they are cut.
  *
  * count          number of bodies
  * main, middle   direction in which layers move in the exploded view, and the point that stays fixed
@@ -140,12 +142,9 @@ export function metals(count, main, middle, size, quarter) {
     size: { value: size },
     ...(quarter && { edge: { value: quarter.at }, right: { value: quarter.right }, up: { value: quarter.up }, section: { value: new Color(SECTION) } }),
   };
-  const material = (ghosts, side, defines = {}) => {
-    const uniforms = { ...shared, ghosts: { value: ghosts } };
-    const about = { defines, glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, side };
-    return new RawShaderMaterial({ ...about, uniforms, transparent: ghosts, depthWrite: !ghosts });
-  };
-  return [material(false, FrontSide), material(true, DoubleSide), material(false, DoubleSide, { CUT: "" })];
+  const material = (about) => new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, uniforms: shared, ...about });
+  const [seen, ghosts, cut] = [{}, { transparent: true, depthWrite: false }, { defines: { CUT: "" } }].map(material);
+  return [seen, ghosts, cut, material({ defines: { CUT: "" }, fragmentShader: within, side: BackSide })];
 }
 
 /** Shows transparent parts cut open, or whole. */

@@ -22,12 +22,7 @@ export class Palette {
     this.stale = true;
   }
 
-  /** True if one of the slots is partly transparent. */
-  hasGhosts(slots) {
-    return slots.some((slot) => this.looks[slot].shown && this.looks[slot].opacity < 1);
-  }
-
-  /** Writes two texels for each slot: colour and opacity (0 if hidden), then gloss and whether it is cut open. */
+  /** Writes two texels for each slot: colour and opacity, then gloss and whether it is cut open. */
   refresh() {
     const height = Math.max(1, Math.ceil((2 * this.looks.length) / WIDTH));
     if (!this.texture) {
@@ -35,10 +30,10 @@ export class Palette {
       this.texture.minFilter = this.texture.magFilter = NearestFilter;
     } else if (!this.stale) return this.texture;
     const { data } = this.texture.image;
-    this.looks.forEach(({ colour, gloss, opened, opacity, shown }, slot) => {
+    this.looks.forEach(({ colour, gloss, opened, opacity }, slot) => {
       // square roots of linear values, which distinguish dark colours in eight bits
       const [r, g, b] = [colour.r, colour.g, colour.b].map((part) => 255 * Math.sqrt(part));
-      data.set([r, g, b, shown ? 255 * opacity : 0, 255 * gloss, 255 * opened], 8 * slot);
+      data.set([r, g, b, 255 * opacity, 255 * gloss, 255 * opened], 8 * slot);
     });
     this.texture.needsUpdate = true;
     this.stale = false;

@@ -8,7 +8,7 @@ import { Shape, swept } from "./shape.js";
 import { barOf, paneOf } from "./sight.js";
 import { along, endsOf, frameAt, isParallel, offAxis, vector } from "./space.js";
 
-const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.pipe, nut: BRASS[4], guide: PARTS.slot, road: PARTS.arm, nave: PARTS.arm, figure: PARTS.bezel };
+const COLOURS = { plate: PARTS.plate, frame: PARTS.case, carrier: PARTS.plate, dial: PARTS.case, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin, belt: PARTS.mark, cord: PARTS.mark, wheel: BRASS[0], pulley: BRASS[1], star: BRASS[2], cross: BRASS[2], rack: BRASS[3], pinion: BRASS[0], drum: PARTS.case, box: PARTS.slot, lid: PARTS.pin, nut: BRASS[4], guide: PARTS.slot, road: PARTS.arm, nave: PARTS.arm, figure: PARTS.bezel };
 const SMOOTH = ["figure"]; // turned parts whose bands are joined by cones
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // wall of a cup, which continues a flexible wheel
@@ -128,13 +128,13 @@ export function rodsOf(scene, index) {
     });
 }
 
-/** Points whose convex hull contains all parts in the zero pose: {point, body, at}, with `at` of the part. */
+/** Points whose convex hull contains all parts in the zero pose: {point, body, kind, at}, with `at` of the part. */
 export function cornersOf(parts, main) {
-  return parts.flatMap(({ body, place, direction, across, bands, outlines, height }) => {
+  return parts.flatMap(({ body, kind, place, direction, across, bands, outlines, height }) => {
     const matrix = frameAt(place, direction, across);
     const flat = (outlines[0] ?? []).flatMap((x, n, all) => (n % 2 ? [] : [[x, all[n + 1], height / 2], [x, all[n + 1], -height / 2]]));
     const round = bands.flatMap(([low, high, r]) => [low, high].flatMap((z) => [[r, 0, z], [-r, 0, z], [0, r, z], [0, -r, z]]));
     const at = bands.length && isParallel(direction, main.toArray()) ? null : vector(place);
-    return [...flat, ...round].map((point) => ({ point: vector(point).applyMatrix4(matrix), body, at }));
+    return [...flat, ...round].map((point) => ({ point: vector(point).applyMatrix4(matrix), body, kind, at }));
   });
 }

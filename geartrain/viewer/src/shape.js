@@ -45,7 +45,10 @@ export function swept(shape, outline, count, first = 0, turns = 1) {
       normals.push(outward * c, outward * s, upward, outward * c, outward * s, upward);
       grains.push(-s, c, 0, -s, c, 0);
     }
-    for (let at = corner; at < corner + 2 * count; at += 2) indices.push(at, at + 1, at + 2, at + 1, at + 3, at + 2);
+    for (let at = corner; at < corner + 2 * count; at += 2) {
+      if (r >= 1e-12) indices.push(at, at + 1, at + 2); // else its edge on the axis is a point
+      if (r1 >= 1e-12) indices.push(at + 1, at + 3, at + 2);
+    }
   });
   return shape;
 }

@@ -35,7 +35,6 @@ export class Stage {
     this.onCrank = () => {};
     this.onOrbit = () => {};
     this.onDraw = () => {};
-    this.frameMilliseconds = 0;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
     this.renderer.debug.checkShaderErrors = false; // a check would wait for the GPU
     this.world = new World(machine);
@@ -251,7 +250,7 @@ export class Stage {
 
   /** The camera position, as near as the extent allows, in the current direction or another one. */
   framed(towards = this.camera.position.clone().sub(this.controls.target).normalize()) {
-    return { towards, ...frame(this.world.outline(), towards, ...this.slopes) };
+    return { towards, ...frame(this.world.outline(this.from === "free" ? towards : null), towards, ...this.slopes) };
   }
 
   /** Upward direction, and tangents of half the field of view, horizontally and vertically, reduced by a margin. */
@@ -291,16 +290,12 @@ export class Stage {
     cancelAnimationFrame(this.waiting);
     this.waiting = 0;
     if (!this.width || this.disposed) return;
-    const began = performance.now();
     if (this.turned) this.world.turn();
     this.turned = false;
     this.world.glaze(this.camera.position);
     this.world.refresh();
     this.renderer.render(this.setting, this.camera);
     this.onDraw();
-    const took = performance.now() - began;
-    this.frameMilliseconds = this.drawn ? 0.9 * this.frameMilliseconds + 0.1 * took : took;
-    this.drawn = true;
   }
 
   /** Turns of the driving link for a rotation of the crank (rad) relative to its parent. */

@@ -20,6 +20,7 @@ import { Sparks } from "./sparks.js";
 import { WheelPart } from "./wheels.js";
 
 const REACH = 0.12; // length of a crank relative to the size of the train
+const CASE = ["frame", "dial", "foot"]; // kinds of parts of a case, whose plates have the size of its dials
 const LONGEST = 1.1; // maximum length of a pendulum as drawn, in the same way
 
 export class World {
@@ -156,7 +157,8 @@ export class World {
   }
 
   cast(at) {
-    return this.castings[at].cast(this.materials, (slot) => this.palette.looks[slot].opened);
+    this.arranged = false;
+    return this.castings[at].cast(this.materials);
   }
 
   /** Adds the teeth, after the other parts are visible. */
@@ -185,6 +187,7 @@ export class World {
   /** Cuts a quarter out of rings, drums and plates, or closes it. */
   cutOpen(opened) {
     this.opened = opened && Boolean(this.quarter);
+    this.arranged = false;
     cutOpen(this.materials, this.opened);
   }
 
@@ -196,8 +199,12 @@ export class World {
     this.ground.fit(this.outline());
   }
 
-  /** Points that a picture of the train must include, in its current exploded view. */
-  outline() {
+  /**
+   * Points that a picture of the train must include, in its current exploded view; seen from a direction `towards`, without
+   * the plates of a case and the dials on its far side.
+   */
+  outline(towards = null) {
+    const cased = towards && this.scene.dials.some(({ placed }) => placed);
     const { crank, poses } = this;
     const swing = crank ? pointsOf({ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }) : [];
     const moved = (point, body, at) => {
@@ -205,8 +212,8 @@ export class World {
       return poses.apart(point, typeof lift === "number" ? lift : lift(point)).add(poses.shifts[body]);
     };
     const hangs = (body) => poses.bodies[body].hangs !== undefined; // now lower than at 0 turns
-    const held = this.corners.map(({ point, body, at }) => (hangs(body) ? this.placed(point, body, at ?? point) : moved(point, body, at)));
-    return [...outlineOf(this.scene, poses), ...swing.map((point) => moved(point, crank.body, crank.at)), ...held];
+    const held = this.corners.filter(({ kind }) => !(cased && CASE.includes(kind))).map(({ point, body, at }) => (hangs(body) ? this.placed(point, body, at ?? point) : moved(point, body, at)));
+    return [...outlineOf(this.scene, poses, cased && towards), ...swing.map((point) => moved(point, crank.body, crank.at)), ...held];
   }
 
   /** Current position of a point of the crank (its foot or its knob). */
@@ -241,14 +248,18 @@ export class World {
     this.looks.glaze(eye, this.ball.center);
   }
 
-  /** Updates the textures that the materials read. */
+  /** Updates the palette that the materials read, and which parts each of them draws. */
   refresh() {
+    if (!this.palette.stale && this.arranged) return;
     this.uniforms.palette.value = this.palette.refresh();
-    for (const casting of this.castings) {
-      if (!casting.meshes) continue;
-      casting.meshes[1].visible = this.palette.hasGhosts(casting.slots);
-      casting.open(Boolean(this.opened));
-    }
+    for (const casting of this.castings) if (casting.meshes) casting.distribute((slot) => this.meshOf(this.palette.looks[slot]));
+    this.arranged = true;
+  }
+
+  /** The mesh of a casting that draws parts of an appearance: opaque, transparent, or cut open; -1 if they are hidden. */
+  meshOf({ shown, opacity, opened }) {
+    if (!shown) return -1;
+    return opacity < 1 ? 1 : opened && this.opened ? 2 : 0;
   }
 
   dispose() {

@@ -1,4 +1,4 @@
-"""Chart of error budgets: a row for each pointer, with a mark for the size of each cause of its error."""
+"""Chart of error budgets: a row for each pointer, with a mark for the error due to each cause."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _LOOKS: dict[str, dict[str, Any]] = {
 }
 _OPEN: dict[str, Any] = {"markersize": 11, "markerfacecolor": WHITE}
 _SMALL = 1e-4
-"""Size relative to the largest cause in the chart; smaller causes have no mark, as they would stretch the axis."""
+"""Size relative to the largest cause in the chart. Smaller causes have no mark, because they would stretch the axis."""
 
 
 def budget_figure(found: TrainBudget) -> Figure:
-    """Draw a chart with a row for each pointer, and a mark for the size of each cause of its error. The pointer with
-    the largest error is at the top.
+    """Draw a chart with a row for each pointer, and a mark for the error due to each cause. The pointer with the
+    largest error is at the top.
     """
     pointers = [found[name] for name in found.shown]
     ranked = sorted((each for each in pointers if each.total > 0), key=lambda each: -each.total)

@@ -74,16 +74,16 @@ class WeightDrive(Result):
     link: str
     """Name of the link that carries the drum, or of the link that represents the weight itself."""
     torque: float
-    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts; for a link
-    that represents the weight itself, its force [N].
+    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts. For a link
+    that represents the weight itself, it is the force of the weight [N].
     """
     needed: float | None = None
     """Torque required at the drum to start the train from its worst position under the declared loads [N m].
 
-    The value is None without declared loads, or if friction locks the train.
+    The value is None if no loads are declared, or if friction locks the train.
     """
     wheel: str | None = None
-    """Name of the escape wheel's link; None without an escapement, or if loads are declared."""
+    """Name of the escape wheel's link; None if there is no escapement or if loads are declared."""
     mean: float | None = None
     """Mean torque at the escape wheel over the run, driven by the weight only [N m]."""
     minimum: float | None = None
@@ -105,7 +105,7 @@ def find_weight_drive(
     """Return the torques of the weight that drives a train in one state; None if no weight drives the train.
 
     link           link that carries the drum; `driving_link` is the input link
-    under_load     torque over the run under the declared loads; None without loads
+    under_load     torque over the run under the declared loads; None if no loads are declared
     """
     drive = train.declaration.case(state).drive
     if drive is None or drive.pull is None:
@@ -144,22 +144,22 @@ class CrankLoad(Result):
     link: str
     """Name of the driving link: the crank or the input."""
     torque: float | None
-    """Torque under the declared loads [N m, or the unit of the loads]; None without loads.
+    """Torque under the declared loads [N m, or the unit of the loads]; None if no loads are declared.
 
     The torque is positive if it acts in the sense of rotation of the link and therefore supplies power, as in
     `over_turn`.
     """
     efficiency: float | None
-    """Output power divided by input power; None if undetermined, or without declared friction or efficiency."""
+    """Output power divided by input power; None if it is undetermined, or if no friction or efficiency is declared."""
     note: str
     """Note on the loads that apply, or on missing data."""
     pointers: Mapping[str, float] = field(default_factory=dict)
     """Mapping from pointer to the efficiency of the train if only this pointer is driven.
 
-    Pointers that cannot be driven are omitted. The mapping is empty without friction.
+    Pointers that cannot be driven are omitted. The mapping is empty if there is no friction.
     """
     over_turn: TorqueCycle | None = None
-    """Torque over the standard run of the train (`natural_turns`); None without loads, or if it cannot be computed."""
+    """Torque over the standard run (`natural_turns`); None if no loads are declared or if it cannot be computed."""
     weight: WeightDrive | None = None
     """Torques of the weight that drives the train; None if no weight drives it, or if they cannot be computed."""
 

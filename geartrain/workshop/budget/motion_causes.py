@@ -66,7 +66,7 @@ class ToothMotion:
     lost: Mapping[str, tuple[float, float]]
     """Maximum and rms of the lag of each output after a reversal of the crank [rad], by output."""
     pairs: Mapping[str, Mapping[str, float]]
-    """Peak-to-peak error due to each single pair [deg], by output and pair."""
+    """Peak-to-peak output error due to each pair [deg], by output and pair."""
     declared: Mapping[str, DeclaredPairs]
     """Pairs in the path of each output, and which of them have declared tooth forms or dimensions."""
     reversing_drivers: tuple[str, ...]
@@ -99,7 +99,8 @@ def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return the peak-to-peak error that each gear pair causes [deg]: its own error times its sensitivity.
+    """Return the peak-to-peak output error due to each gear pair [deg]: the pair error times the sensitivity of the
+    output.
 
     The errors are grouped by output, in descending order. Pins and pairs without influence are omitted.
     """
@@ -243,7 +244,7 @@ def find_bodies(
     The body is given by `named`, or inferred from a word in the name of the output or link and a target within 2 % of
     the body's period. Outputs that are not relative to the frame are ignored.
 
-    named   body that an output represents, whatever its name, by output; None for no body
+    named   body that an output represents regardless of its name, by output; None if it represents no body
     """
     found: dict[str, Body] = {}
     for output in outputs:

@@ -39,7 +39,7 @@ class BudgetCause(Result):
     degrees: float | None = None
     """Size of this contribution as defined by `measure` [deg]; None if it is unknown."""
     rms: float | None = None
-    """Root mean square [deg] of the contribution; for a drift and for cutting, of its deviation from the mean."""
+    """Root mean square of the contribution [deg]. For the ratio and for cutting, the mean is subtracted first."""
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 

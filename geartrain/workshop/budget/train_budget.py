@@ -86,9 +86,12 @@ class BudgetQuestion:
     jam_trials: int = 64
     """Number of trials at each clearance, from which the probability of jams is estimated."""
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
-    """Clearances at which jams are counted: fractions of each pair's clearance window, or clearance factors above 1."""
+    """Clearances at which jams are counted. A value of 1 or more is a clearance factor; a value below 1 is a relative
+    position between the limits of each pair's clearance factor.
+    """
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Body whose true motion an output represents, by output, unless its name indicates it; None if there is none."""
+    """Celestial body whose motion an output represents, by output, if its name does not identify it; None for no body.
+    """
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:
@@ -225,8 +228,8 @@ def _float(value: Fraction | None) -> float | None:
 def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
-    """Return the errors of each pointer's link and of its reference link relative to their celestial bodies, by
-    pointer.
+    """Return the errors of each pointer's link and of its reference link relative to the true motion of their celestial
+    bodies, by pointer.
     """
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
@@ -272,7 +275,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def _is_observed(target: Target) -> bool:
-    """Return True if a target is an observed period of geartrain's table, not a period intended by the makers."""
+    """Return True if a target is an observed period of the table of periods, not a period intended by the makers."""
     return target.name is not None and period_table()[target.name].kind == "period"
 
 

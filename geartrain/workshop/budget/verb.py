@@ -108,7 +108,7 @@ def run(
 
 
 def _days(text: str) -> float:
-    """Convert a time, or the name of a period of geartrain's table, to days."""
+    """Convert a time, or the name of a period listed by `geartrain periods`, to days."""
     from geartrain.train.periods import period_table
 
     row = period_table().get(text.strip())

@@ -55,9 +55,9 @@ class CutWheel:
     tip: Floats
     """Height of each tip above the nominal tip radius [unit of `radius`]."""
     leading: Floats
-    """Angle by which each leading flank, rotated about the tip, is flatter than the half angle [rad]."""
+    """Half angle of each leading flank minus the nominal half angle [rad]; the flank is rotated about the tip."""
     trailing: Floats
-    """Angle by which each trailing flank, rotated about the tip, is flatter than the half angle [rad]."""
+    """Half angle of each trailing flank minus the nominal half angle [rad]; the flank is rotated about the tip."""
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
@@ -107,7 +107,9 @@ class CutWheel:
         return CutWheel(self.radius, self.half_angle, *some)
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return the wheel cut about a centre at a distance e from the axis [unit of `radius`] in a direction [rad]."""
+        """Return the wheel with teeth cut about a centre at distance e from the axis [unit of `radius`] in the
+        direction `towards` [rad].
+        """
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         # the flanks keep their directions, but the radius through the tip turns
@@ -123,7 +125,7 @@ class CutWheel:
     def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
         """Return the wheel with flanks lowered along their normals; each tip moves down along the opposite flank.
 
-        leading, trailing   depths of filing, 0 or more, (..., z) [unit of R]
+        leading, trailing   depths of filing, 0 or more, (..., z) [unit of `radius`]
         """
         ahead, behind = self.half_angle + self.leading, self.half_angle + self.trailing
         # length along the other flank down to its intersection with the lowered flank
@@ -137,7 +139,7 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """Return the mirror image, which turns in the opposite sense; its tooth i is tooth `first` - i of this one."""
+        """Return the mirror image, which turns in the opposite sense: tooth i is tooth `first` - i of this wheel."""
         # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
@@ -175,7 +177,7 @@ def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return radial displacement [unit of radius] and rotation about the origin [rad] of shifted points, exactly.
+    """Return the exact radial displacement [unit of `radius`] and rotation about the origin [rad] of shifted points.
 
     radius, angle   polar coordinates of the points (angle in rad)
     e, towards      length and direction (rad) of the shift
@@ -248,7 +250,7 @@ class CutToothPairs(ToothPair):
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
-        """Return selected tooth pairs, or all in another order; the function `pick` is applied to every array."""
+        """Return selected or reordered tooth pairs; the function `pick` is applied to every array."""
         # without __init__, which would recompute every constant
         found = CutToothPairs.__new__(CutToothPairs)
         found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
@@ -298,7 +300,9 @@ class CutGearPair:
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
     def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
-        """Return the pair with material removed from its flanks: depths `low`, (trials, 2 sides, z), for each wheel."""
+        """Return the pair with material removed from its flanks. `low` contains the depths for each wheel, shape
+        (trials, 2 sides, z) [unit of the radii].
+        """
         wheels = zip((self.first, self.second), low, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return CutGearPair(self.sizes, first, second, self.shift)

@@ -26,7 +26,7 @@ OF_WHEELS = ("pitch_deviation", "stepping", "eccentricity", "tip", "aperture_dev
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
 _ANGLES = {"pitch_deviation": "its pitch", "stepping": "its pitch", "aperture_deviation": "its tooth angle"}
-"""Nominal values of which errors of angles are fractions."""
+"""Nominal value by which an error of an angle is divided, by kind of error."""
 _OF_PITCHES = ("pitch_deviation", "stepping", "eccentricity")
 """Kinds of errors that the measured angles of the teeth of a wheel contain."""
 MOST = {kind: 1.0 if kind in _ANGLES else 2.0 for kind in ERROR_KINDS}
@@ -35,7 +35,9 @@ MOST = {kind: 1.0 if kind in _ANGLES else 2.0 for kind in ERROR_KINDS}
 
 @dataclass(frozen=True, slots=True)
 class ErrorSpecification:
-    """Error as a fraction: fixed value `size`, or random with the standard deviation or half width `size`."""
+    """Error as a fraction of a nominal value: a fixed value `size`, or random with the standard deviation or half width
+    `size`.
+    """
 
     size: float = 0.0
     way: ErrorDistributionKind = "value"
@@ -55,12 +57,12 @@ class ErrorOverride:
 class WheelErrors:
     """Errors of one wheel.
 
-    pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth divided by its tip radius
+    pitch, half_angle  angular pitch, and half angle of the teeth, of the perfect wheel (rad)
     ring               True for an internal wheel
     errors             by kind: pitch_deviation and stepping in pitches, aperture_deviation in half angles, lengths in
                        depths
     towards            direction of the eccentricity from the first tooth (rad); None for a random direction
-    tables             values measured tooth by tooth, by kind, in the same fractions; one value of an eccentricity
+    tables             measured values of all teeth by kind, in the same fractions; a single value for an eccentricity
     displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth
     """
 
@@ -92,8 +94,8 @@ class WheelErrors:
 
     @property
     def angle_radius(self) -> float:
-        """Radius of measured angles, in the unit of `depth`: of the tips for triangular teeth, else of the pitch
-        circle.
+        """Radius at which angles are measured, in the unit of `depth`: the tip radius for triangular teeth, otherwise
+        the pitch radius.
         """
         return self.z / (2 * self.displaced.modules) if self.displaced else 1.0
 
@@ -204,8 +206,8 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelErrors:
     """Return the wheel with the pitch deviations and the eccentricity that follow from measured angles of its teeth.
 
-    The eccentricity is either part of the pitch deviations, or separate and removed from them. Missing teeth have no
-    deviation from the fitted eccentricity, if that is significant, else none from an even division.
+    The eccentricity is either part of the pitch deviations, or separate and removed from them. Missing teeth are
+    assumed to follow the fitted eccentricity if it is significant, otherwise an even division.
     """
     found = estimate_measured(measured, wheel.z)
     depth = wheel.depth / wheel.angle_radius
@@ -258,7 +260,9 @@ def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the unit of each fraction by kind, an angle [rad] or a length [m]; None for lengths without a module."""
+    """Return the unit of each fraction by kind, an angle [rad] or a length [m]; None for a length if there is no
+    module.
+    """
     deep = None
     module = wheel.transverse_module
     if module is not None:

@@ -51,9 +51,9 @@ class DisplacedWheel:
     tip: Floats
     """Height of each tip above nominal [module]."""
     leading: Floats
-    """Angle by which each leading flank is flatter, rotated about its pitch point [rad]."""
+    """Rotation of each leading flank about its pitch point [rad], positive if the flank becomes flatter."""
     trailing: Floats
-    """Angle by which each trailing flank is flatter, rotated about its pitch point [rad]."""
+    """Rotation of each trailing flank about its pitch point [rad], positive if the flank becomes flatter."""
     leading_low: Floats
     """Depth of material removed from each leading flank along its normal [module]."""
     trailing_low: Floats
@@ -107,7 +107,7 @@ class DisplacedWheel:
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """Return the mirror image, which turns in the opposite sense; its tooth i is tooth `first` - i of this one."""
+        """Return the mirror image, which turns in the opposite sense: tooth i is tooth `first` - i of this wheel."""
         order = (first - np.arange(self.z)) % self.z
         return DisplacedWheel(
             -self.place[..., order],
@@ -135,12 +135,12 @@ class SideTerms:
     """
 
     driver: Any
-    """Contribution of the driver to the lag [rad of the driven wheel], shape (trials, z), by pitches n that it has
-    passed.
+    """Contribution of the driver to the lag [rad of the driven wheel], shape (trials, z), where the second index is the
+    number n of pitches that the driver has passed.
     """
     driven: Any
-    """Contribution of the driven wheel to the lag [rad of this wheel], shape (trials, z), by pitches n that it has
-    passed.
+    """Contribution of the driven wheel to the lag [rad], shape (trials, z), where the second index is the number n of
+    pitches that the driven wheel has passed.
     """
     pitches: int
     """Offset of the tooth numbers: entry n of the driver's term belongs to its tooth n - `pitches`."""
@@ -236,9 +236,10 @@ class DisplacedPair:
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the contributions of both wheels to the lag at x [rad], docs/cut-by-hand.md (2), for n = tooth + j.
+        """Return the contributions of both wheels to the lag at x [rad], indexed by n = tooth + j; docs/cut-by-hand.md
+        (2).
 
-        late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
+        late    (trials, z): angle by which the driver is later for each n (rad); tips are then assumed to be nominal
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two = self.first, self.second
@@ -324,7 +325,9 @@ class DisplacedPair:
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """Return the pair with more material removed from its flanks: (trials, 2 sides, z) for each wheel [module]."""
+        """Return the pair with more material removed from its flanks. `low` contains the depths for each wheel, shape
+        (trials, 2 sides, z) [module].
+        """
         first, second = (
             wheel.filed(each[:, 0], each[:, 1]) for wheel, each in zip((self.first, self.second), low, strict=True)
         )
@@ -336,7 +339,7 @@ class DisplacedPair:
         return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged())
 
     def disengaged(self) -> Bools:
-        """Return a mask of losses of contact, shape (trials,): at some position no tooth pair can touch."""
+        """Return a mask, shape (trials,): True if at some position no tooth pair can touch (loss of contact)."""
         at = self.contact
         whole = (at.end + at.leaving.most) - (at.start - at.entering.most)
         gap = at.pitches[0] + np.roll(self.first.place, -1, -1) - self.first.place
@@ -393,7 +396,7 @@ class DisplacedPair:
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
         """Return the minimum lag of the driven wheel [rad] at driver angles S [rad], and the number of the tooth pair
-        that causes it; inf without contact.
+        that causes it; inf if no teeth touch.
         """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)

@@ -21,10 +21,11 @@ if TYPE_CHECKING:
 def measured_motion(
     train: GearTrain, state: str | None = None, outputs: Sequence[str] = (), without: Sequence[str] = ()
 ) -> Motion:
-    """Return the motion of a train with its wheels as measured: tables, fixed errors and filing, no random errors.
+    """Return the motion of a train with its wheels as measured: with tables, fixed errors and filing, but without
+    random errors.
 
-    The other arguments are those of `GearTrain.motion`. Raises `QuestionError` if no wheel has measured teeth or fixed
-    errors, and `RangeError` if a pair jams or disengages.
+    The other arguments are described in `GearTrain.motion`. Raises `QuestionError` if no wheel has measured teeth or
+    fixed errors, and `RangeError` if a pair jams or disengages.
     """
     plan = find_trial_plan(train, (), outputs, state, without)
     # an eccentricity without a direction is random

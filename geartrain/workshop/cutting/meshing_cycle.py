@@ -66,7 +66,7 @@ class MeshingVerdicts:
 
     @property
     def jams(self) -> Bools:
-        """Mask of jams: the pair cannot turn, whatever the position of the driven wheel within its backlash."""
+        """Mask of jams: the pair cannot turn at any position of the driven wheel within its backlash."""
         stuck: Bools = self.backlash < 0
         return stuck
 
@@ -124,8 +124,8 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Drive-flank (front) tooth pair and coast-flank (back) pair n before it, at the minimum backlash of perfect
-    wheels.
+    """Drive-flank (front) tooth pair, and the coast-flank (back) pair that is n pairs before it, at the minimum
+    backlash of perfect wheels.
 
     Each pair is in one given phase, approach or recess.
     """
@@ -207,7 +207,7 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
     """Return the minima of backlash of perfect wheels, for coast-flank pairs up to `most` tooth pairs before a
     drive-flank pair.
 
-    For each distance n, these are the phases whose minimum is within `SLACK` of the smallest.
+    For each distance n, the result contains the phases whose minimum is within `SLACK` of the smallest minimum.
     """
     tooth_pair = even_tooth_pair(sizes)
     candidates = []
@@ -236,7 +236,7 @@ def farthest(pair: CutGearPair) -> int:
 def steepest(tooth_pair: CutToothPairs) -> float:
     """Return the maximum speed ratio of a tooth pair, which occurs where tips meet at entry.
 
-    The result is 0 without contact, and inf if the ratio is undefined.
+    The result is 0 if the teeth never touch, and inf if the ratio is undefined.
     """
     if not tooth_pair.reach > 0:
         return 0.0
@@ -296,11 +296,11 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------- positions
 
     def ahead(self, n: int) -> Any:
-        """Return the angle of each driving tooth behind the driving tooth n tooth pairs before it [rad]."""
+        """Return the angle by which each driving tooth is behind the driving tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p1 + (self.driver - np.roll(self.driver, n, -1))
 
     def apart(self, n: int) -> Any:
-        """Return the angle of each driven tooth behind the driven tooth n tooth pairs before it [rad]."""
+        """Return the angle by which each driven tooth is behind the driven tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p2 + (self.driven - np.roll(self.driven, n, -1))
 
     def _all(self, found: Any) -> Any:
@@ -359,14 +359,14 @@ class MeshingCycle:
             return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
     def _driven_term(self, n: int) -> Any:
-        """Return the term of the driven teeth [rad] in the backlash of each front (drive-flank) pair and the back
-        (coast-flank) pair n before it.
+        """Return the term of the driven teeth [rad] in the backlash between each front (drive-flank) pair and the back
+        (coast-flank) pair n pairs before it.
         """
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the exact backlash [rad] of selected front (drive-flank) pairs and the back (coast-flank) pairs n
-        before them.
+        """Return the exact backlash [rad] between selected front (drive-flank) pairs and the back (coast-flank) pairs n
+        pairs before them.
 
         `rows` and `columns` are the indices of the trials and of the front pairs.
         """
@@ -392,7 +392,9 @@ class MeshingCycle:
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask (trials,) of dwells: a tooth pair leaves before a later pair touches its driven tooth."""
+        """Return a mask, shape (trials,): True if some tooth pair leaves before a later pair touches its driven tooth
+        (dwell).
+        """
         front = self.front
         dwelling: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
@@ -407,7 +409,9 @@ class MeshingCycle:
         return found
 
     def clashes(self) -> Bools:
-        """Return a mask of clashes, shape (trials,): a tooth pair enters while its driven tooth is behind the tip."""
+        """Return a mask, shape (trials,): True if some tooth pair enters while its driven tooth is behind the tip
+        (clash).
+        """
         tip = self._all(-self.front.exit_angle) + ROUNDING * self.sizes.p2
         y = np.where(self._all(self.front.reach > -inf), inf, -inf)
         for n in range(1, self._pairs_in_reach() + 2):
@@ -433,8 +437,8 @@ class MeshingCycle:
     def _before(self, n: int, reach: Any) -> Any:
         """Return the driven tooth's angle from the line of centres at which the tooth pair n before holds it [rad].
 
-        The driving tooth of the driven tooth's own pair is then at the angle `reach`. The result is inf without
-        contact.
+        The driving tooth of the driven tooth's own pair is then at the angle `reach`. The result is inf if the teeth do
+        not touch.
         """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
@@ -445,14 +449,14 @@ class MeshingCycle:
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
         """Return the driven tooth's angle from the line of centres [rad] in contact at driver angle x [rad].
 
-        After contact it is the angle at which the tooth left.
+        After the loss of contact it is the angle at which contact ended.
         """
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask (trials,) of losses of contact: somewhere no drive flanks or no coast flanks can touch."""
+        """Return a mask, shape (trials,): True if no drive flanks or no coast flanks touch at some position."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -475,7 +479,9 @@ class MeshingCycle:
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """Return the events of each trial with pitch deviations only; doubtful trials are computed pair by pair."""
+    """Return the events of each trial with pitch deviations only; trials with uncertain events are computed pair by
+    pair.
+    """
     teeth, never = _EntriesAndExits(pair), np.zeros(pair.trials, bool)
     found = MeshingVerdicts(backlash_of_pitch_errors(pair), never, never.copy(), teeth.disengaged)
     backlash, size = found.backlash, max(1, chunk // pair.count)
@@ -529,7 +535,8 @@ def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Return a table of the minimum backlash J_n [rad] between a drive-flank pair and the coast-flank pair n before it.
+    """Return a table of the minimum backlash J_n [rad] between a drive-flank pair and the coast-flank pair n pairs
+    before it.
 
     The distance of the two driving teeth deviates by up to `spread` from nominal [rad].
     """
@@ -553,7 +560,7 @@ class _EntriesAndExits:
         self.driver, self.driven = (np.atleast_2d(wheel.place) for wheel in (pair.first, pair.second))
 
     def _between(self, n: int) -> tuple[Any, Any]:
-        """Return the angle of the tooth n later behind each tooth, for the driver and the driven wheel [rad]."""
+        """Return the angle from each tooth to the tooth n teeth later, for the driver and the driven wheel [rad]."""
         driver = n * self.sizes.p1 + np.roll(self.driver, -n, -1) - self.driver
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
@@ -561,7 +568,7 @@ class _EntriesAndExits:
         """Return the driven tooth's angle from the line of centres at its entry [rad], as a sum of terms of both
         wheels.
 
-        The pair n before determines the angle, and both terms are indexed by the tooth n before.
+        The tooth pair n pairs earlier determines the angle, and both terms are indexed by its teeth.
         """
         driver, driven = self._between(n)
         return self._held(self.reach - driver), driven
@@ -569,7 +576,7 @@ class _EntriesAndExits:
     def _leaving(self, n: int) -> tuple[Any, Any]:
         """Return the driven tooth's angle from the line of centres at its exit [rad], as a sum of terms of both wheels.
 
-        The pair n later determines the angle.
+        The tooth pair n pairs later determines the angle.
         """
         driver, driven = self._between(n)
         return self._held(driver - self.reach), -driven
@@ -598,7 +605,9 @@ class _EntriesAndExits:
         return found
 
     def events(self) -> tuple[Bools, Bools, Floats]:
-        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (or inf)."""
+        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (inf in
+        others).
+        """
         dwelling = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
         y = self._minimum(self._entering)
         clash = (y > self.tip + self.small).any(axis=1)
@@ -606,7 +615,7 @@ class _EntriesAndExits:
         return clash, dwelling, np.where(dwelling, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum over neighbouring tooth pairs for each tooth pair of the cycle (trials, tooth pairs)."""
+        """Return the minimum over neighbouring tooth pairs, for each tooth pair of the cycle (trials, tooth pairs)."""
         k = np.arange(self.pair.count)
         coming = terms == self._entering
         spread = float(np.ptp(self.driver))

@@ -31,8 +31,8 @@ class TrialTransmissionFunction(TransmissionFunction):
     """Transmission function of a pair of cut wheels in many trials.
 
     even     mean transmission error of wheels without errors (rad)
-    rows     number of the trial at each angle, or the number of one trial for any angles
-    count    number of tooth pairs in a full meshing cycle; `pitches` of both wheels (rad)
+    rows     number of the trial at each angle, or the number of one trial for all angles
+    count    number of tooth pairs in a full meshing cycle; `pitches` are the angular pitches of both wheels (rad)
     last     errors (rad of the driven wheel) of the last evaluation of each trial
     """
 
@@ -90,13 +90,13 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean error of perfect wheels [rad], and 0 as rms deviation, which superposition of errors
-        requires; of a single trial, mean and rms deviation of samples.
+        """Return the mean error of perfect wheels [rad] and the rms deviation 0, as superposition of errors requires;
+        for a single trial, the mean and the rms deviation of samples.
         """
         return (float(self._samples.mean()), float(self._samples.std())) if self.measured else (self.even, 0.0)
 
     def error_range(self) -> tuple[float, float]:
-        """Return infinite limits, because the range is unknown before all trials are evaluated; of a single trial, the
+        """Return infinite limits, because the range is unknown before all trials are evaluated; for a single trial, the
         limits of samples [rad].
         """
         return (float(self._samples.min()), float(self._samples.max())) if self.measured else (-inf, inf)
@@ -112,7 +112,9 @@ class TrialTransmissionFunction(TransmissionFunction):
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth; a wheel of `pair` has arrays (trials, z), or (z,) for all trials."""
+    """Transmission function of triangular teeth; arrays of a wheel of `pair` have shape (trials, z), or (z,) for all
+    trials.
+    """
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)

@@ -1,13 +1,13 @@
 """Eccentricity and pitch deviations of a wheel, estimated from measured angles of its teeth.
 
-Let y_j be the angle of tooth j minus j pitches, positive towards later teeth, and gamma_j = 2 pi j / z. Evenly divided
-teeth about a centre at the distance e from the axis, in the direction psi, have exactly the first of
+Let y_j be the angle of tooth j minus j pitches, positive towards later teeth, and gamma_j = 2 pi j / z. Teeth that are
+evenly divided about a centre at the distance e from the axis, in the direction psi, satisfy the first of the equations
 
     y = c + atan2(E sin(psi - gamma), 1 + E cos(psi - gamma)),      y = c + A cos gamma + B sin gamma + delta,
 
-where E = e / R, and R is the radius of the measured points. The second is its first order: E = hypot(A, B) and
-psi = atan2(A, -B). A and B are estimated by least squares. The deviations delta are independent, or follow from
-division by stepping (`closed_steps`).
+where E = e / R, and R is the radius of the measured points. The second equation is its first-order approximation with
+deviations delta: E = hypot(A, B) and psi = atan2(A, -B). A and B are estimated by least squares. The deviations delta
+are independent, or follow from division by stepping (`closed_steps`).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _ROUNDING = 1e-15  # rad: minimum standard deviation, that of the angles of a pe
 
 
 def closed_steps(steps: Any) -> Floats:
-    """Return the deviations of teeth set off from one another with errors of the steps, shape (..., z).
+    """Return the deviations of teeth that are marked one from another by steps with the errors `steps`, shape (..., z).
 
     The sum of all steps is a full turn, so their mean error is divided evenly (Brownian bridge). The mean deviation is
     0. The covariance is equation (5) of docs/cut-by-hand.md.
@@ -88,7 +88,7 @@ class WheelEstimate(Result):
     covariance: Floats
     """Covariance matrix of A and B [rad^2]."""
     eccentricity: IntervalEstimate
-    """Root of the unbiased estimate of the square of the eccentricity [1], at least 0, with its interval."""
+    """Eccentricity [1], the square root of the unbiased estimate of its square (at least 0), with its interval."""
     eccentricity_error: float
     """Standard error of the eccentricity [1]."""
     direction: IntervalEstimate
@@ -96,11 +96,12 @@ class WheelEstimate(Result):
     direction_error: float
     """Standard error of the direction [rad]."""
     deviation: IntervalEstimate
-    """Standard deviation of the pitch deviations, or of a step of the dividers [rad], with its chi-square interval."""
+    """Standard deviation of the pitch deviations, or of the steps of the dividers [rad], with its chi-square interval.
+    """
     deviation_error: float
     """Standard error of the standard deviation [rad]."""
     cutting_deviation: float
-    """Standard deviation without the measurement error [rad]."""
+    """Standard deviation as in `deviation`, with the variance of the measurement error subtracted [rad]."""
     residuals: Floats
     """Deviation of each measured tooth from the fit [rad], positive for a tooth behind its fitted position."""
     F: float
@@ -113,7 +114,7 @@ class WheelEstimate(Result):
     """Von Neumann's ratio of the residuals [1]: about 2 for independent deviations, smaller for division by stepping.
     """
     q_limit: float
-    """Value below which q is for 5 % of wheels with independent deviations [1]."""
+    """Five per cent quantile of q for wheels with independent deviations [1]."""
 
     def _summary(self) -> str:
         found = f"eccentricity {self.eccentricity.value:.3g} of the radius" if self.eccentric else "not eccentric"
@@ -126,7 +127,7 @@ class WheelEstimate(Result):
 
     @property
     def off(self) -> Floats:
-        """Angle of each measured tooth minus that of an even division with the same mean [rad]."""
+        """Angle of each measured tooth minus its angle in an even division with the same mean [rad]."""
         gamma = 2 * pi * self.numbers / self.teeth
         found: Floats = self.residuals + self.coefficients[1:] @ [np.cos(gamma), np.sin(gamma)]
         return found
@@ -163,7 +164,7 @@ def estimate_wheel(
     error : float
         Standard deviation of the measurement error of an angle [rad].
     law : {"independent", "stepped"}, optional
-        Assumed deviations of the teeth; by default those that von Neumann's ratio indicates.
+        Assumed deviations of the teeth; by default chosen by von Neumann's ratio.
 
     Returns
     -------
@@ -199,7 +200,9 @@ def estimate_wheel(
 
 
 def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
-    """Return the estimates from the angles declared for a wheel, by the law that von Neumann's ratio indicates."""
+    """Return the estimates from the angles declared for a wheel, with the deviation law that von Neumann's ratio
+    indicates.
+    """
     angles = [None if each is None else each.si for each in measured.angles or ()]
     return estimate_wheel(angles, count, 0.0 if measured.error is None else measured.error.si)
 

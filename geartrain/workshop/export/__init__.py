@@ -1,6 +1,6 @@
 """Export of trains for makers and for other tools: outlines to cut, plates, solids, graphs, tables.
 
-Lengths are in mm (in GLB in m). The outlines are described in docs/shapes.md. The motion in GLB uses exact speeds.
+Lengths are in mm (m in GLB). The outlines are described in docs/shapes.md. The motion in GLB uses exact speeds.
 
 file_set         files of an export, and tables as CSV
 triangle_files   STL and GLB

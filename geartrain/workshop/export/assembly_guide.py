@@ -14,8 +14,8 @@ import numpy as np
 
 from geartrain.errors import Problem, install_command, printable
 from geartrain.kinematics.buildability import BuildFinding
-from geartrain.numerics.markdown_text import markdown_text
 from geartrain.numerics.results import Shown
+from geartrain.report.text import markdown_text
 from geartrain.scene.palette import THEMES, series_colour
 from geartrain.scene.parts.arbor_columns import SHAKE, AxisBearing, AxisColumn
 from geartrain.scene.parts.turned_parts import rod_name

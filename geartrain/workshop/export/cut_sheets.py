@@ -205,7 +205,8 @@ def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
     """Return a drawing compensated for a kerf [mm]: outer edges are offset outwards by half a kerf, holes inwards.
 
     Circles remain circles. Other curves are replaced by chords within the tolerance of the drawing, and then offset.
-    Raises `GearTrainError` if a hole or slot is narrower than the cut, `MissingExtraError` without shapely.
+    Raises `GearTrainError` if a hole or slot is narrower than the cut, and `MissingExtraError` if shapely is not
+    installed.
     """
     if not kerf:
         return drawing

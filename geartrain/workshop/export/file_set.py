@@ -37,7 +37,7 @@ SUFFIXES = {
     **{".graphml": "graphml", ".dot": "dot", ".gv": "dot", ".rexsj": "rexs", ".json": "rexs"},
     **{".rexs": "rexs-xml", ".urdf": "urdf", ".xml": "mjcf"},
 }
-"""Kind of a file with a whole train, by suffix."""
+"""Format of an export file of a whole train, by the suffix of the file."""
 
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
 """Suffixes of files with a single wheel."""
@@ -114,7 +114,7 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
     'graph "planetary-24-18-60" {'
     """
     if kind in ("stl", "step") and not work.parts:
-        why = "only wheels, pins and plates have solids, and it declares none"
+        why = "only wheels, pins and plates have solids, and this train declares none"
         fix = "declare the wheels of its links, or choose another format, such as .graphml"
         raise GearTrainError(Problem(f"'{work.train.name}' has no parts to make", why, fix))
     if kind == "glb":
@@ -224,7 +224,7 @@ def export_files(
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         what = f"'{unknown[0]}' is not an export format"
-        why = "geartrain does not export files in this format"
+        why = "an export writes files in predefined formats"
         raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
     files += [ExportFile(*each) for each in (*maker_sheets(work), *step_pictures(work))] if "svg" in kinds else []

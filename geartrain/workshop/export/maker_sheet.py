@@ -153,7 +153,7 @@ def _marks(plate: FlatPlate, origin: tuple[float, float], page: tuple[float, flo
 
 
 def _table(header: Sequence[str], rows: Rows, left: float, top: float) -> tuple[list[str], float]:
-    """Return the texts and rules of a table, and its width [mm]; its first column is flush left."""
+    """Return the texts and rules of a table, and its width [mm]; the first column is flush left."""
     every = [header, *rows]
     widths = [WIDE * _SIZE * max(map(len, column)) + _SIZE for column in zip(*every, strict=True)]
     ends = left + np.cumsum(widths)

@@ -10,7 +10,7 @@ import numpy as np
 
 from geartrain.numerics.files import csv_text
 from geartrain.numerics.results import Shown
-from geartrain.train.wheel_stock import material_named
+from geartrain.train.declaration import material_named
 
 if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel
@@ -129,7 +129,7 @@ def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
 
 
 def _eccentric_of(work: SolidModel, wheel: str) -> str:
-    """Return a phrase on the eccentric on which a wheel turns or by which it is bent; empty without an eccentric."""
+    """Return a phrase on the eccentric on which a wheel turns or by which it is bent; empty if there is none."""
     own = () if work.frame is None else work.frame.plan.stack.eccentrics
     on = next((each for each in own if wheel in each.wheels), None)
     return "" if on is None else f"{'turns on' if on.wave is None else 'bent by'} {on.name}"

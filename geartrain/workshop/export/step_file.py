@@ -162,7 +162,7 @@ def _revolved(part: TurnedPart) -> Any:
 
 
 def _wire(contour: Contour, height: float) -> Any:
-    """Return a counter-clockwise wire, like all contours; edges share their vertices."""
+    """Return a contour as a counter-clockwise wire whose edges share their vertices."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex, BRepBuilderAPI_MakeWire
     from OCP.GC import GC_MakeArcOfCircle
     from OCP.gp import gp_Pnt

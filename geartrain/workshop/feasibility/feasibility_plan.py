@@ -1,4 +1,4 @@
-"""Input data of feasibility trials: cutting errors, friction, the hand at the crank, and the strength of loaded parts.
+"""Input data of feasibility trials: cutting errors, friction, torque limit at the crank, strength of loaded parts.
 
 Stresses are proportional to the torques of gear pairs. They are computed once, under the declared loads, and scaled by
 the torques of each trial.
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.errors import GearTrainError
-from geartrain.train.wheel_stock import material_named
+from geartrain.train.declaration import material_named
 from geartrain.workshop.cutting.declared_errors import ErrorOverride, ErrorSpecification
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction, friction_spreads
 from geartrain.workshop.monte_carlo.trial_block import BLOCK, HAND, STRENGTH, RandomStreams
@@ -32,8 +32,9 @@ _SAMPLES = 2_000  # positions of the input in a run
 
 
 def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, float]) -> float:
-    """Return the torque on the driven wheel of each flank of a jammed pair [unit of `torque`]; 0 if the pair releases
-    itself: docs/cut-by-hand.md, equation (7). Equal ratios without friction give an infinite torque.
+    """Return the torque that the flanks of a jammed pair exert on its driven wheel [unit of `torque`],
+    docs/cut-by-hand.md, equation (7); 0 if the pair releases itself. Equal ratios without friction give an infinite
+    torque.
 
     torque        torque on the driver
     front, back   ratio of driven to driver speed, and efficiency, of each flank; at the back the driven wheel drives
@@ -47,7 +48,9 @@ def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, f
 
 
 def _pivot_stress(sizes: ArborSizes, pressure: float) -> float:
-    """Return the bending stress of a pivot [MPa] from the pressure on its projected area [MPa]: 16 F l / (pi d^3)."""
+    """Return the bending stress [MPa] of a pivot with diameter d and length l, 16 F l / (pi d^3), where the force F is
+    d l times the pressure on the projected area [MPa].
+    """
     diameter = 1e3 * (sizes.pivot or sizes.diameter).si
     length = diameter if sizes.pivot_length is None else 1e3 * sizes.pivot_length.si
     return 16 * pressure * length**2 / (pi * diameter**2)
@@ -66,7 +69,8 @@ class LoadedPart:
     """Tooth of a wheel, or arbor with its pivots, that may break.
 
     strength   median of the strength [MPa]; `spread` is the standard deviation of its logarithm
-    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels then [N m], by pair
+    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels under these loads [N
+               m], by pair
     """
 
     name: str
@@ -77,7 +81,9 @@ class LoadedPart:
     loads: Mapping[str, float]
 
     def stresses(self, torques: Mapping[str, Floats | float]) -> Floats:
-        """Return the stress [MPa] under other torques of the pairs [N m]; for several pairs an upper bound."""
+        """Return the stress [MPa] under other torques of the pairs [N m]; an upper bound if several pairs load the
+        part.
+        """
         ratios = [np.asarray(torques[name]) / own for name, own in self.loads.items() if own and name in torques]
         found: Floats = self.stress * np.max(ratios, axis=0) if ratios else np.zeros(1)
         return found
@@ -110,7 +116,7 @@ class FeasibilityPlan:
 
     @cached_property
     def nominal(self) -> PairLoads | None:
-        """Torques without spreads; None without loads with a unit, or if the loads do not determine them."""
+        """Torques without spreads; None if no loads with a unit are declared, or if they do not give the torques."""
         known = self.declared.is_loaded(self.state) and self.declared.has_torque_units(self.state)
         return self.loads(self.train) if known else None
 
@@ -132,14 +138,14 @@ class FeasibilityPlan:
         return PairLoads(inf if run.maximum is None else run.maximum.torque, {**driven, **maxima}, shares)
 
     def drawn_loads(self, seed: int, trial: int) -> PairLoads | None:
-        """Return the torques with the friction of one trial; None without loads."""
+        """Return the torques with the friction of one trial; None if no loads are declared."""
         if self.nominal is None or not friction_spreads(self.declared):
             return self.nominal
         return self.loads(_train(draw_friction(self.declared, seed, trial, self.per_part)))
 
     @cached_property
     def parts(self) -> tuple[LoadedPart, ...]:
-        """Teeth and arbors whose stress and strength are known; empty without loads."""
+        """Teeth and arbors whose stress and strength are known; empty if no loads are declared."""
         return tuple(self._parts(self.nominal.driven)) if self.nominal is not None and self.nominal.driven else ()
 
     def _parts(self, driven: Mapping[str, float]) -> Iterator[LoadedPart]:
@@ -181,7 +187,7 @@ class FeasibilityPlan:
 
     def held(self, pair: str) -> Mapping[str, float]:
         """Return the torque on the driven wheel of each pair for a unit torque at the crank while the driven link of
-        one pair is held, without losses; empty if it does not follow.
+        one pair is held, without losses; empty if the torques are not determined.
         """
         gear = self.torques.pairs.get(pair)
         if gear is None or gear.driver not in self.declared.wheels:
@@ -198,7 +204,7 @@ class FeasibilityPlan:
         return {name: each / abs(float(torque)) for name, each in _driven_torques(train, found) if each}
 
     def at_accuracy(self, degrees: float) -> TrialPlan:
-        """Return the plan of the cutting with normal pitch deviations of another standard deviation [deg]."""
+        """Return the plan of the trials with normal pitch deviations of another standard deviation [deg]."""
         wheels = tuple(
             replace(w, errors={**w.errors, "pitch_deviation": ErrorSpecification(radians(degrees) / w.pitch, "normal")})
             for w in self.cutting.wheels

@@ -77,7 +77,7 @@ def _torque_text(figure: IntervalEstimate) -> str:
 
 
 def feasibility_figure(found: FeasibilityResult) -> Figure:
-    """Draw the probability that a train turns against its accuracy. Raises `QuestionError` without a curve."""
+    """Draw the probability that a train turns against its accuracy. Raises `QuestionError` if there is no curve."""
     from geartrain.drawing.style import headed, name_axes
     from geartrain.workshop.monte_carlo.monte_carlo_plots import probability_figure
 

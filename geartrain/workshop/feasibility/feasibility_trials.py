@@ -1,6 +1,6 @@
-"""Trials of feasibility: one trial has one cutting of all wheels, one friction, one strength of each metal, one hand.
+"""Trials of feasibility. Each trial draws errors of all wheels, friction, strengths of metals, and the torque limit.
 
-Cutting and pointer errors are equal to those of `run_trials` with the same seed.
+Cutting and pointer errors are equal to the errors in `run_trials` with the same seed.
 """
 
 from __future__ import annotations
@@ -64,10 +64,10 @@ class FeasibilityResult(Pictured, Result):
     plan: FeasibilityPlan
     """Input data of the trials."""
     trials: TrialResults
-    """Trials of the cutting: events of the pairs, and pointer errors."""
+    """Trials with cutting errors: events of the pairs, and pointer errors."""
     torque: Floats | None
-    """Torque at the crank in each trial, shape (trials,) [N m]; infinite if friction locks the train; None without
-    loads.
+    """Torque at the crank in each trial, shape (trials,) [N m]; infinite if friction locks the train; None if no loads
+    are declared.
     """
     driven: Mapping[str, Floats]
     """Torque on the driven wheel of each pair in each trial, shape (trials,) [N m]."""
@@ -81,7 +81,9 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def hand(self) -> Floats | None:
-        """Maximum torque of the hand or drive in each trial, shape (trials,) [N m]; None if it is not declared."""
+        """Maximum torque that the hand or the drive can exert on the crank in each trial, shape (trials,) [N m]; None
+        if it is not declared.
+        """
         return self.plan.hands(self.trials.seed, self.trials.done)
 
     @cached_property
@@ -91,7 +93,7 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def stiff(self) -> Bools:
-        """Mask of the trials in which friction locks the train or the crank torque exceeds its limit, (trials,)."""
+        """Mask of the trials in which friction locks the train or the crank torque is too large, shape (trials,)."""
         if self.torque is None:
             return np.zeros(self.trials.done, dtype=bool)
         return np.isinf(self.torque) if self.hand is None else self.torque > self.hand
@@ -137,8 +139,9 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def forced(self) -> Mapping[str, ProbabilityEstimate] | None:
-        """Probability that the hand breaks a tooth, in the trials in which the train jams; None without strengths or a
-        hand. `torque` is a lower bound from the torque of the hand; `wedge` includes the squeezed flanks of the pair.
+        """Probability that the maximum torque at the crank breaks a tooth, in the trials in which the train jams; None
+        if no strengths or no maximum torque is declared. `torque` is a lower bound from this torque; `wedge` includes
+        the squeezed flanks of the pair.
 
         Jams of pairs that the crank does not press, or whose driven wheel is fixed, are not counted.
         """
@@ -162,8 +165,8 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def causes(self) -> Mapping[str, Mapping[str, ProbabilityEstimate]]:
-        """Probability of an outcome with each cause, most frequent first: the pairs that cannot be cut or jam (several
-        may jam in a trial), and the part whose stress is highest in proportion to its strength.
+        """Probability of each cause of each outcome, the most frequent cause first. Causes are the pairs that cannot be
+        cut or that jam (several may jam in a trial), and the part with the highest ratio of stress to strength.
         """
         names = [pair.name for pair in self.plan.cutting.pairs]
         masks = dict(zip(OUTCOMES, (self._marked(UNCUT), self._marked(JAM)), strict=False))
@@ -179,7 +182,7 @@ class FeasibilityResult(Pictured, Result):
     @property
     def crank_torque(self) -> Mapping[float, IntervalEstimate] | None:
         """Percentiles 5, 50 and 95 of the torque at the crank over all trials in which friction does not lock the
-        train, with 95 % confidence intervals [N m]; None without loads.
+        train, with 95 % confidence intervals [N m]; None if no loads are declared.
         """
         known = np.zeros(0) if self.torque is None else np.sort(self.torque[np.isfinite(self.torque)])
         return {percent: percentile_of(known, percent) for percent in (5.0, 50.0, 95.0)} if known.size else None
@@ -228,7 +231,7 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def perfect(self) -> bool:
-        """True if no wheel has a cutting error, so that the cutting of all trials is the same."""
+        """True if no wheel has a cutting error, so that the wheels of all trials are the same."""
         return all(wheel.true for wheel in self.plan.cutting.wheels)
 
     @property
@@ -252,7 +255,7 @@ class FeasibilityResult(Pictured, Result):
 
 
 def _estimate(event: Bools, of: Bools) -> ProbabilityEstimate:
-    """Return the probability of an event in the trials of a mask."""
+    """Return the probability of an event in the trials selected by the mask `of`."""
     return ProbabilityEstimate(int(np.count_nonzero(event & of)), int(np.count_nonzero(of)))
 
 
@@ -348,7 +351,9 @@ def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None
 
 
 def work_feasibility(plan: FeasibilityPlan, seed: int, accuracies: tuple[float, ...], task: Sequence[int]) -> Any:
-    """Return the results of some trials as plain data: records and loads, or for an accuracy whether they stop."""
+    """Return the results of some trials as plain data: records and loads or, for a given accuracy, whether the trials
+    stop.
+    """
     at, first, trials = task
     if at < 0:
         loads = [plan.drawn_loads(seed, trial) for trial in range(first, first + trials)]

@@ -71,9 +71,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Estimate the probability that a train turns, jams, is too stiff for the hand, or breaks, by Monte Carlo trials.
+    """Estimate the probability that a train turns, jams, needs too much torque at the crank, or breaks, by Monte Carlo
+    trials.
 
-    Spreads of friction, strength and hand are used as declared.
+    The declared spreads of friction, strength and crank torque are used.
 
     Example: `geartrain feasibility moon-triangular --accuracy 0.02:0.3:6`.
     """

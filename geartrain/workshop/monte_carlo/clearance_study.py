@@ -25,12 +25,16 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Probability of a jam, clash, dwell and loss of contact in a train at one clearance and factor of the errors."""
+    """Probabilities of a jam, clash, dwell and loss of contact in a train at one clearance and one factor of the
+    errors.
+    """
 
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 
     clearance: float | None
-    """Clearance factor (1 or more), or fraction of each pair's clearance window; None for the declared clearance."""
+    """Clearance factor (1 or more), or relative position between the limits of each pair's clearance factor (below 1);
+    None for the declared clearance.
+    """
     scale: float
     """Factor by which manufacturing errors are multiplied, except errors measured tooth by tooth."""
     events: Mapping[str, ProbabilityEstimate]
@@ -51,7 +55,7 @@ _SWEPT = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0), "accuracy": (0.
 def read_sweep(text: str, option: str = "--vary") -> list[float]:
     """Parse a sweep such as `window=0.1:0.9:9` or `accuracy=0.02:0.3:6` into equally spaced values.
 
-    Fractions of a clearance window are below 1, clearance factors are at least 1, and accuracies are in degrees.
+    Values of `window` are below 1, clearance factors are at least 1, and accuracies are in degrees.
     """
     name, _, rest = text.partition("=")
     bounds = _SWEPT.get(name.strip())
@@ -89,8 +93,8 @@ def jamming_map(
         Train with its cutting and fitting errors.
     clearances : sequence of float or None
         Values of 1 or more are factors of the minimum centre distance, at which teeth touch the bottom; values below 1
-        are fractions of the clearance window of each pair; None is the declared clearance. The clearance varies in the
-        outer loop.
+        are relative positions between the limits of each pair's clearance factor; None is the declared clearance. The
+        clearance varies in the outer loop.
     scales : sequence of float
         Factors, 0 or more, by which all errors except measured tables are multiplied; by default 1.
     trials : int
@@ -110,7 +114,7 @@ def jamming_map(
     QuestionError
         If the number of trials is out of range.
     RangeError
-        If a fraction of a window is given and a pair has no clearance window.
+        If a value below 1 is given and a pair has no limits of its clearance factor.
 
     Examples
     --------

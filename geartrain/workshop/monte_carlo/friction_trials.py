@@ -208,7 +208,7 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: int) -> CoulombFriction:
-    """Return the friction with the coefficient drawn for trial number `row` of a block, which is not below 0."""
+    """Return the friction with the coefficient drawn for trial `row` of a block; negative values are set to 0."""
     spread = _spread(friction)
     # a whole block is drawn, so that a trial does not depend on the trials computed with it
     if spread.range is not None:
@@ -245,8 +245,8 @@ class TrialFigure(Result):
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentiles of the result with 95 % confidence intervals, by percentage; the outer two enclose 95 % of the
-        values.
+        """Percentiles of the result with 95 % confidence intervals, by percentage. The two outermost percentiles
+        enclose 95 % of the values.
         """
         return percentiles_of(self.values)
 
@@ -360,7 +360,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
     """Return the results of some trials as plain data: mean, maximum and starting torque, and efficiency of each trial;
-    None if not defined, as for a train that locks.
+    None if undefined, for example if the train locks.
     """
     from geartrain.analysis.gear_train import GearTrain
 

@@ -122,7 +122,7 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
     """Draw median, central 50 and 95 % ranges and extremes of each pointer's error over turns of the driving link.
 
     The thin dashed line is one trial; trials without a finite error at every position are excluded. Raises
-    `QuestionError` without a pointer to draw.
+    `QuestionError` if there is no pointer to draw.
     """
     given = {each.name: each for each in courses}
     errors = {name: np.degrees(each.errors[np.isfinite(each.errors).all(axis=1)]) for name, each in given.items()}
@@ -214,7 +214,7 @@ def _no_errors(why: str) -> QuestionError:
 def jam_map_figure(clearances: ArrayLike, scales: ArrayLike, probabilities: ArrayLike) -> Figure:
     """Draw the probability of a jam as a shaded map, with contour lines at 1, 10 and 50 %.
 
-    clearances     ascending clearance factors, or fractions of clearance windows, (n,)
+    clearances     ascending clearance factors, or relative positions between their limits, (n,)
     scales         ascending factors of the errors, (m,)
     probabilities  probabilities of a jam, 0 to 1, (n, m); NaN for missing data
     """
@@ -252,7 +252,7 @@ def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = 
     """Draw a chart with the first-order and the total share of each cause, with confidence intervals as lines.
 
     Only the `MOST_ROWS` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
-    `QuestionError` without a cause.
+    `QuestionError` if there is no cause.
 
     shares   first-order share of the variance by cause, and the total share with all interactions if it is known
     """
@@ -280,10 +280,10 @@ def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = 
 
 
 def probability_figure(steps: Sequence[tuple[float, ProbabilityEstimate]], name: str, missing: str, fix: str) -> Figure:
-    """Draw a probability with its 95 % interval as a curve. Raises `QuestionError` without steps.
+    """Draw a probability with its 95 % interval as a curve. Raises `QuestionError` if there are no steps.
 
     steps          ascending abscissas with their estimates
-    missing, fix   reason and remedy without steps
+    missing, fix   reason for missing steps, and remedy
     """
     _require(steps, missing, fix)
     x = np.array([float(each) for each, _ in steps])
@@ -298,7 +298,7 @@ def probability_figure(steps: Sequence[tuple[float, ProbabilityEstimate]], name:
 def convergence_figure(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> Figure:
     """Draw the probability of a jam in any pair with its 95 % interval over the number of trials.
 
-    Raises `QuestionError` without trials.
+    Raises `QuestionError` if there are no trials.
 
     steps   ascending numbers of trials with their estimates
     """

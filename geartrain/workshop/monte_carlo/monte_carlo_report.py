@@ -58,7 +58,9 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Return a probability with its confidence interval as a string, such as `1.2 % (0.9..1.6)`; "-" without trials."""
+    """Return a probability with its confidence interval as a string such as `1.2 % (0.9..1.6)`; "-" if there are no
+    trials.
+    """
     if not each.of:
         return "-"
     low, high = each.interval

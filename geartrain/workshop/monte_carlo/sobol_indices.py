@@ -76,7 +76,8 @@ class SobolIndices(Result):
     trials: int
     """Number of base samples in which the pointer error is finite."""
     indices: tuple[SobolIndex, ...]
-    """Indices of all input variables in descending order of the total; "position" is the position of the train's input.
+    """Indices of all input variables in descending order of the total index; "position" is the position of the train's
+    input.
     """
 
 
@@ -199,7 +200,7 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Task function: errors of an output in some base samples [rad], one row each with the columns A, AB(i), B."""
+    """Task function: errors of an output in base samples [rad], with one row per sample and the columns A, AB(i), B."""
 
     plan: TrialPlan
     seed: int

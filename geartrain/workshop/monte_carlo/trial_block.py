@@ -1,8 +1,8 @@
 """One block of trials: wheels are drawn, pairs evaluated and pointer errors computed, reproducibly in any process.
 
 Random errors come from independent streams, each keyed by seed, block, wheel and kind of error. A trial therefore has
-the same errors in any process, whatever else is computed. Errors scaled by a factor are the same random numbers times
-that factor, and a study of clearances uses the same wheels at every clearance.
+the same errors in any process, regardless of other computations. Errors scaled by a factor are the same random numbers
+times that factor, and a study of clearances uses the same wheels at every clearance.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ NUMBER = {
 """Number of the random stream of each kind of error. Results depend on these numbers, so they must never change."""
 TOWARDS, POSITION, FRICTION, HAND, PIVOT, RADIUS, STRENGTH = 2, 7, 8, 10, 11, 12, 13
 """Numbers of the streams of the direction of an eccentricity, the position of the input, the friction of teeth, the
-hand at the crank, the friction and the radii of pivots, and the strength of metals.
+torque limit at the crank, the friction and the radii of pivots, and the strength of metals.
 """
 Streams = tuple[Container[int], Container[int]]
 EVERY = range(1 << 31)
@@ -146,7 +146,9 @@ STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of cuttable wheels."""
+    """Drawn wheels of some trials: `wheels` contains the wheels by number, with tip radius 1, and `good` masks of
+    cuttable wheels.
+    """
 
     plan: TrialPlan
     streams: RandomStreams
@@ -172,7 +174,9 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """Filing of each pair that is filed to fit, at the minimum distance of its bearings, by index of the pair."""
+        """Filing of each pair that is filed to fit, at the minimum distance that its bearings allow, by index of the
+        pair.
+        """
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
@@ -253,8 +257,8 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the first-order approximation of `errors` [rad]: the error of each pair is evaluated at its driver's
-        mean angle and multiplied by the mean ratios of the following pairs and pins.
+        """Return the first-order approximation of `errors` [rad]. The error of each pair is evaluated at its driver's
+        mean angle and multiplied by the mean ratios of the pairs and pins that follow.
         """
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
@@ -263,7 +267,8 @@ class TrialPointers:
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Return the motion of the outputs (default all) with the sampled wheels; `rows` has the trial at each position.
+    """Return the motion of the outputs (by default all) with the drawn wheels; `rows` contains the trial at each
+    position.
 
     The transmission functions of all pairs and pins are composed exactly, for every trial at its own position.
     """

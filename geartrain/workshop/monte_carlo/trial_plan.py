@@ -82,7 +82,7 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [unit of the radii; module; rad for bevel gears]."""
+        """Smaller tooth depth of the two wheels [unit of the radii, module, or rad for bevel gears]."""
 
     @property
     @abstractmethod
@@ -114,8 +114,8 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """Return the pair with another clearance: a clearance factor (1 or more), or its relative position between the
-        limits of the factor (below 1).
+        """Return the pair with the given clearance. A value of 1 or more is a clearance factor; a value below 1 is a
+        relative position between the limits of the clearance factor.
         """
 
     def jamming_bound(self, sigma: float) -> float:
@@ -193,7 +193,7 @@ class TriangularTrialPair(TrialPair):
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair with another clearance factor, or relative position between the limits of the factor."""
+        """Return the pair with another clearance factor (1 or more), or position between its limits (below 1)."""
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window
@@ -347,7 +347,7 @@ class TrialPlan(Shown):
         Parameters
         ----------
         clearance : float
-            Factor of the minimum centre distance (1 or more), or fraction of the clearance window of each pair (below
+            Clearance factor (1 or more), or relative position between the limits of each pair's clearance factor (below
             1).
         """
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
@@ -522,7 +522,7 @@ class _RotationSenses:
         self.first: dict[str, int] = {}
 
     def mirrored(self, pair: str, wheel: str) -> bool:
-        """Return True if a wheel turns in this pair in the opposite sense to that in its first pair."""
+        """Return True if the sense of rotation of a wheel in this pair is opposite to its sense in its first pair."""
         circuit = self.circuits[pair]
         link = circuit.i if wheel == circuit.wheels[0] else circuit.j
         sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1

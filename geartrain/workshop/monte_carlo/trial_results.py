@@ -185,7 +185,8 @@ class TrialResults(Tabular):
         return FirstOrderError(*(sqrt(np.mean(each[good] ** 2)) for each in (off, exact)))
 
     def _shares(self, at: int, runs: Bools) -> dict[str, float]:
-        """Return the variance share of each pair: covariance of its part with the total, divided by the total variance.
+        """Return the variance share of each pair: covariance of its contribution with the total error, divided by the
+        variance.
 
         runs   mask of the trials that are used, shape (trials,)
         """
@@ -319,7 +320,7 @@ class ConvergenceStep:
     KEYS = ("trials", Key("", "share"))
 
     trials: int
-    """Number of trials used, from the first one."""
+    """Number of trials used, beginning with the first trial."""
     share: ProbabilityEstimate
     """Probability estimated from the first `trials` trials."""
 
@@ -362,7 +363,7 @@ class PointerErrorStatistics(Result):
     name: str
     """Name of the output."""
     errors: Floats
-    """Pointer errors [rad] in the trials in which no pair that moves the output jams or disengages, in their order."""
+    """Pointer errors [rad] in the trials in which no pair that moves the output jams or disengages, in trial order."""
     all: Floats
     """Pointer errors of all trials in which teeth touch [rad]. If a pair jams, the value is the error with the drive
     flanks of that pair in contact.
@@ -424,7 +425,8 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer errors of one output in each trial over one revolution of the output, or of the input if that is fixed.
+    """Pointer errors of one output in each trial over a revolution of the output, or of the input if the output is
+    fixed.
 
     See Also
     --------

@@ -237,7 +237,7 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     positions : int
         Number of positions along the revolution, including both ends.
     seed : int
-        Random seed. The random numbers are independent of those in `run_trials`.
+        Random seed. The random numbers are independent of the random numbers in `run_trials`.
     trials : int
         Number of trials, at most 256.
 

@@ -1,6 +1,6 @@
 """REXS files in JSON (.rexsj) and in XML (.rexs): writers of both from one structure, and a reader of both.
 
-The structure is that of the JSON file: components with attributes, relations of components, and load cases. See the
+The structure follows the JSON file: components with attributes, relations of components, and load cases. See the
 specification of REXS 1.4, "Interface structure" and "JSON as an alternative file format" (www.rexs.info).
 """
 

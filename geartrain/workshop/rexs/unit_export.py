@@ -1,6 +1,6 @@
 """Gear unit as a REXS model (FVA's Reusable Engineering Exchange Standard, version 1.4).
 
-Component types, attributes, units and relations are those of the REXS 1.4 database; see www.rexs.info. A carrier with
+Component types, attributes, units and relations are taken from the REXS 1.4 database; see www.rexs.info. A carrier with
 spur wheels on its axes is a planetary stage. A state of the train is a gear of the unit and a load case.
 """
 
@@ -34,7 +34,7 @@ _STAGES = {
     ("bevel_gear", "bevel_gear"): "bevel_stage",
     ("worm_gear", "worm_wheel"): "worm_stage",
 }
-"""Type of the stage of two gears, as REXS allows."""
+"""Type of stage that REXS defines for each pair of gear types."""
 _REACTIONS = ("torque_acting_on_inner_component_u", "torque_acting_on_outer_component_u")
 _FLANKS = {"bevel_gear": "bevel_gear_flank", "worm_gear": "worm_gear_flank", "worm_wheel": "worm_gear_flank"}
 

@@ -92,7 +92,7 @@ class _GearUnit:
         return self.parts[found[0]] if found else RexsComponent(_FRAME, kind, name, {})
 
     def declaration(self) -> dict[str, Any]:
-        """Return the declaration as data; problems and notes are collected."""
+        """Return the declaration as data, and collect problems and notes."""
         self._check_types()
         unread = Counter(each.type for each in self.parts.values() if each.type not in _READ)
         if unread:
@@ -141,7 +141,7 @@ class _GearUnit:
         self.problems.append(Problem(f"{part.name or part.type}: {what}", why, fix, place))
 
     def name(self, number: int) -> str:
-        """Return the name of a link, wheel or clutch, made unique among those of its kind."""
+        """Return the name of a link, wheel or clutch, made unique among the names of the same kind."""
         if number not in self._names:
             part = self.casing if number == _FRAME else self.parts[number]
             kind = part.type.rpartition("_")[2]
@@ -324,7 +324,9 @@ class _GearUnit:
 
     @cached_property
     def copies(self) -> dict[int, list[int]]:
-        """Equal planets by the first of them: evenly spaced, with equal wheels in mesh with the same central wheels."""
+        """Groups of equal planets, by the first planet of each group: evenly spaced, with equal wheels that mesh with
+        the same central wheels.
+        """
         meshes: dict[int, list[tuple[Any, ...]]] = defaultdict(list)
         for mesh in self.meshes:
             for own, other in (mesh, mesh[::-1]):

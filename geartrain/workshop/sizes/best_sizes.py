@@ -66,7 +66,8 @@ class BestToothSizes(Tabular, Pictured, Result):
     equal_depth: ToothSizes | None
     """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it cannot turn."""
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, other values as in `start`; None if it cannot turn."""
+    """Design with tip radii in the ratio of the tooth numbers, and other values as in `start`; None if it cannot turn.
+    """
     front: tuple[ToothSizes, ...]
     """Pareto front from the best design for the first objective to the best for the second; empty for one objective."""
     evaluations: int
@@ -124,9 +125,9 @@ def find_tooth_sizes(
         One or two of the objectives `loss`, `error` (transmission error), `impact` and `jam` (margin before a jam); two
         give a Pareto front.
     free : mapping of str to (float, float), optional
-        Bounds of the free parameters `radii` (tip radius ratio divided by tooth ratio), `window` (position in the
-        clearance window, 0 to 1) and `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By default only the
-        radii are free.
+        Bounds of the free parameters `radii` (tip radius ratio divided by tooth ratio), `window` (position of the
+        clearance factor between its limits, 0 to 1) and `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By
+        default only the radii are free.
     limits : sequence of SizeLimit
         Limits that the design must satisfy.
     probability : ProbabilityLimit, optional
@@ -209,7 +210,9 @@ class OutlineAgreement(Result):
     loss: tuple[float, float]
     """Loss computed from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Peak-to-peak error from the transmission function and from the outlines [rad of the driven wheel]."""
+    """Peak-to-peak transmission error computed from the transmission function and from the outlines [rad of the driven
+    wheel].
+    """
     impact: tuple[float, float]
     """Impact loss computed from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]
@@ -238,7 +241,7 @@ def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTran
 
 
 def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
-    """Compare the properties of a design with those from the contact of its outlines; the design must turn."""
+    """Compare the properties of a design with the properties from the contact of its outlines; the design must turn."""
     transmission = outline_transmission(design.sizes, design.friction)
     low, high = transmission.error_range()
     return OutlineAgreement(

@@ -68,7 +68,9 @@ class ToothSizes(Result):
     radii: float
     """Ratio of the tip radii R2/R1, divided by the ratio of the tooth numbers z2/z1 [1]; 1 for pitch-true radii."""
     window: float
-    """Position of the clearance factor in the clearance window [1]: 0 where the pair jams, 1 where it loses contact."""
+    """Relative position of the clearance factor between its limits [1]: 0 where the pair jams, 1 where it loses
+    contact.
+    """
     half_angles: tuple[float, float]
     """Half aperture angles of the teeth of both wheels [rad]."""
     friction: float
@@ -121,7 +123,7 @@ class ToothSizes(Result):
 
     @cached_property
     def limits(self) -> ClearanceWindow | None:
-        """Clearance window of the pair; None if no teeth with these half angles and radii exist."""
+        """Limits of the clearance factor; None if no teeth with these half angles and radii exist."""
         try:
             return find_window(self._unplaced) if self._unplaced.has_valleys else None
         except GearTrainError:
@@ -191,7 +193,7 @@ class ToothSizes(Result):
 
     @property
     def window_width(self) -> float:
-        """Width of the clearance window: maximum minus minimum clearance factor at which the pair turns [1]."""
+        """Maximum minus minimum clearance factor at which the pair turns [1]."""
         assert self.limits is not None
         return self.limits.run - self.limits.jam
 

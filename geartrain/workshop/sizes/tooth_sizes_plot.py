@@ -73,7 +73,7 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train by the best tooth sizes, the worst declared pair at the top."""
+    """Draw the improvement of each pair of a train by the best tooth sizes, with the worst declared pair at the top."""
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
     rows = []

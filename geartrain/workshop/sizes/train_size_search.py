@@ -148,7 +148,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train in which the clearance factor of every pair with a clearance window is in the middle of this window."""
+        """Train in which the clearance factor of every pair is midway between its limits, if the factor has limits."""
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
@@ -445,7 +445,9 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table of the sizes of each pair: declared (if the pair turns), optimised separately, and for the train."""
+        """Table of the sizes of each pair: as declared (if the pair turns), optimised separately, and optimised for the
+        train.
+        """
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs
@@ -459,7 +461,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
     """Return the sizes of a pair as declared, with the first wheel of the pair first.
 
-    If the pair does not turn, the clearance is in the middle of the window.
+    If the pair does not turn, its clearance factor is midway between the limits.
     """
     sizes, window = mesh.transmission.sizes, mesh.window
     driver = 1 + mesh.gear.pair.index(mesh.driver)

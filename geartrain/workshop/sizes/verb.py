@@ -43,7 +43,7 @@ _DESIGNS = {1: 60, 2: 500, 3: 900}
 """Approximate number of designs evaluated for each objective, by number of free parameters; for the progress bar."""
 
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
-"""Quantity in which each limit is given, a fraction or an angle; other limits are plain numbers."""
+"""Physical quantity of each limit, a fraction or an angle, by name; limits that are not listed are plain numbers."""
 
 
 def run(
@@ -143,7 +143,7 @@ class SizeQuestion:
                 )
 
     def answer(self, pair: PairRequest, to: Sink, picture: Sink, json: bool) -> NoReturn:
-        """Write the best sizes as report, data and plot, and exit."""
+        """Write the best sizes as a report, as data and as a plot, and exit."""
         from geartrain.workshop.sizes.best_sizes import find_tooth_sizes
         from geartrain.workshop.sizes.tooth_sizes_report import describe_tooth_sizes
 
@@ -187,7 +187,7 @@ def _is_probability(text: str) -> bool:
 
 
 def _start(pair: PairRequest) -> ToothSizes:
-    """Return the pair described by options; by default its clearance is in the middle of the clearance window."""
+    """Return the pair described by options; by default its clearance factor is midway between the limits."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     friction = read_pair_friction(pair.friction).number("--objective")

@@ -53,7 +53,7 @@ def prove_freedom(
 ) -> FreedomProof:
     """Return the freedom of links other than frame and inputs, and findings where it contradicts the result of `solve`.
 
-    pairs   meshes that were individually proved to turn; `names`, wheels 1 and 2 of each
+    pairs   meshes that were individually proved to turn; `names` are wheels 1 and 2 of each mesh
     """
     try:
         return _Motion(work, pairs, names).prove()
@@ -98,7 +98,9 @@ class _Motion:
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes at a pose, and the excess beyond the backlash by pair [mm]."""
+        """Return the constraints of all meshes at a pose, and the excess of the second wheel over the backlash by pair
+        [mm].
+        """
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
         for circuit in self.work.sized.circuits:
@@ -123,7 +125,9 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses (1 or -1) of both wheels and their carrier about the first axis; None if not parallel."""
+        """Return the senses (1 or -1) of both wheels and their carrier about the first axis; None if axes are not
+        parallel.
+        """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])
@@ -138,7 +142,9 @@ class _Motion:
         return senses[0], senses[1], senses[2]
 
     def _mesh_constraint(self, circuit: Circuit, turned: TurnedPair, angles: Floats) -> tuple[_Constraint, float]:
-        """Return the constraint of a mesh at a pose, and how far the second wheel exceeds the backlash [rad]."""
+        """Return the constraint of a mesh at a pose, and the angle by which the second wheel exceeds the backlash
+        [rad].
+        """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
         senses = self._axis_senses(circuit)
@@ -162,8 +168,8 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle of a wheel's first tooth in the zero pose, about the first axis from the side of the mesh
-        [rad].
+        """Return the angle of a wheel's first tooth in the zero pose [rad], about the first axis, from the direction of
+        the mesh.
         """
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
@@ -177,7 +183,7 @@ class _Motion:
 
     @cached_property
     def _fixed_equations(self) -> Floats:
-        """Coefficients of the equations of fixed links (without the inputs) and of links locked together, in rows."""
+        """Matrix of the equations of fixed links (except inputs) and of links locked together, one equation per row."""
         count = len(self.scene.bodies)
         rows = []
         frame = self.work.sized.declaration.frame
@@ -202,7 +208,9 @@ class _Motion:
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
     def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
-        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite without limit."""
+        """Return the maximum angle of a link in one direction, by linear programming [rad]; infinite if it is not
+        limited.
+        """
         from scipy.optimize import linprog
 
         cost = np.zeros(len(self.scene.bodies))

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 ALLOWED = 1e-3
-"""Amount by which the measured backlash may be below the declared one [mm]: the accuracy of the outlines."""
+"""Amount by which the measured backlash may be below the declared backlash [mm]: the accuracy of the outlines."""
 _CLEARANCE, _TIP = 0.1, 0.2  # modules: minimum clearance under a tip, and minimum tip width
 _AROUND = 32  # chords per quarter circle of the middle line of a cut around a corner
 _BUFFER = 0.01  # of a kerf: error of lines that shapely offsets
@@ -142,7 +142,9 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
 
 
 def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
-    """Return the measured values of a mesh whose outlines are turned through each other, with findings on the rules."""
+    """Return the measured values of a mesh whose outlines are turned through each other, with findings on violated
+    rules.
+    """
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
     # arc length on the pitch circle of the second wheel, as the declared backlash

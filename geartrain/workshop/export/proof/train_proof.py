@@ -193,7 +193,7 @@ class _Solids:
                 yield one, other
 
     def common(self, one: int, other: int, pose: ScenePose) -> float:
-        """Return the common volume of two parts in a pose [mm3]; 0 for a sliver."""
+        """Return the common volume of two parts in a pose [mm3]; 0 if it is below `SLIVER`."""
         bodies = [(at, self.parts[at].body) for at in (one, other)]
         moves = (np.column_stack([pose.turned[body], pose.moved[body]]) for _, body in bodies)
         solids = [self._made(at).transform(move) for (at, _), move in zip(bodies, moves, strict=True)]

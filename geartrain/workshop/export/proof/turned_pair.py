@@ -50,13 +50,13 @@ class FreeTurn:
     """Range of angles in which wheel 2 is free while wheel 1 turns; arrays with one item for each position."""
 
     low: Floats
-    """Minimum lag at which wheel 2 is free [rad]; NaN at positions without a free lag."""
+    """Minimum lag at which wheel 2 is free [rad]; NaN at positions where no lag is free."""
     high: Floats
-    """Maximum lag at which wheel 2 is free [rad]; NaN at positions without a free lag."""
+    """Maximum lag at which wheel 2 is free [rad]; NaN at positions where no lag is free."""
     overlap: Floats
     """Minimum common area over all lags [mm2]; 0 if wheel 2 is free."""
     place: tuple[float, float] | None
-    """Position of the largest overlap [mm], relative to the axis of wheel 1; None without overlap."""
+    """Position of the largest overlap [mm], relative to the axis of wheel 1; None if there is no overlap."""
 
 
 @dataclass(frozen=True)
@@ -161,7 +161,7 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Return the last free lag in one direction by bisection [rad]; infinite without a stop within a pitch."""
+        """Return the last free lag in one direction, by bisection [rad]; infinite if not limited within a pitch."""
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
         if loose.any():  # free at half a pitch: the tooth that stops it is nearer or farther than that
@@ -364,7 +364,7 @@ def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
 
 
 def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tolerance: float) -> list[Point]:
-    """Return the points of a circular arc after its start; the flags are large arc and left turn.
+    """Return the points of a circular arc after its start; the flags select a large arc and a left turn.
 
     The centre is computed as in appendix B.2.4 of SVG 2, for circles.
     """

@@ -46,7 +46,7 @@ Names = list[str] | None
 Without = Annotated[
     Names,
     typer.Option(
-        "--without", help="Omit a redundant gear pair, so that the teeth of a closed loop can turn; may be repeated."
+        "--without", help="Omit a redundant gear pair, so that the wheels of a closed loop can turn; may be repeated."
     ),
 ]
 Cutting = Annotated[

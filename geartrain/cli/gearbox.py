@@ -22,7 +22,7 @@ def run(
         typer.Option(
             "--gears",
             min=0,
-            help="Search for sequences of this number of forward gears, in order of ratio.",
+            help="Number of forward gears; lists gear sequences of this length, in order of ratio.",
         ),
     ] = 0,
     steps: Annotated[

@@ -115,8 +115,8 @@ def graph(
         typer.Option(
             "--as",
             metavar="FORMAT",
-            help="Format: labels, edges, matrix, dot, graphml or json; default: given by the suffix of -o, else "
-            "labels, or edges for more than 48 links.",
+            help="Format: labels, edges, matrix, dot, graphml or json. Default: given by the suffix of -o; without a "
+            "known suffix, labels (edges for more than 48 links).",
         ),
     ] = None,
     out: Out = None,

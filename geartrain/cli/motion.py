@@ -58,7 +58,9 @@ def run(
     without: Without = None,
     measured: Annotated[
         bool,
-        typer.Option("--measured", help="Use the measured teeth and the fixed errors of `cutting`, not perfect teeth."),
+        typer.Option(
+            "--measured", help="Use the measured teeth and fixed errors that are declared, instead of perfect teeth."
+        ),
     ] = False,
     phases: Annotated[
         int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of additional runs with random tooth phases.")
@@ -72,7 +74,7 @@ def run(
         Path | None,
         typer.Option("--plot", help="Plot the errors of pointers to this file, or the motion of one output (--of)."),
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run; requires its -o x.csv.")] = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,

@@ -166,7 +166,9 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         raise QuestionError(Problem(what, "it declares no `outputs`", "declare `outputs` and `dials`"))
     if len(faces) > _MOST:
         what = f"{len(faces)} dial faces do not fit on a page"
-        raise QuestionError(Problem(what, f"a page has space for {_MOST}", "select fewer outputs with --of"))
+        raise QuestionError(
+            Problem(what, f"a page has space for at most {_MOST} faces", "select fewer outputs with --of")
+        )
     return faces
 
 

@@ -6,7 +6,7 @@ all planets: docs/theory.md, 6.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import tau
@@ -48,6 +48,11 @@ def originals(train: Train) -> dict[str, str]:
     """Return the name of the declared link for each link of the expanded train."""
     own = {link: link for link in train.links}
     return own | {_copy_name(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
+
+
+def original(name: str, declared: Container[str]) -> str:
+    """Return the declared name of a part of the expanded train, given all declared names of its kind."""
+    return name if name in declared else name.rpartition(".")[0]
 
 
 def as_one(train: Train) -> Train:

@@ -278,7 +278,7 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
                 Problem(
                     f"the report has no section '{word}'",
                     f"its sections are {', '.join(titles)}",
-                    "use a word of one of these titles",
+                    "use a word from one of these titles",
                 )
             )
     if requested:

@@ -358,9 +358,9 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
         if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 1:
             raise QuestionError(
                 Problem(
-                    f"{count} is not a tooth number of kind '{kind}'",
-                    "tooth numbers are integers of 1 or more",
-                    "give a number such as 20",
+                    f"{count} is not a valid tooth count for gears of kind '{kind}'",
+                    "tooth counts are integers of 1 or more",
+                    "give a tooth count such as 20",
                 )
             )
     wide = {kind: int(given[name]) for name in given for kind in _matching_kinds(name, known)}

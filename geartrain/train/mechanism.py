@@ -117,16 +117,29 @@ class BearingFriction(Declared):
     radii: tuple[_Radius, _Radius] | None = Field(
         None, description="Minimum and maximum of the uniform distribution of `radius` in Monte Carlo runs"
     )
+    shared: tuple[Literal["coefficient", "radius"], ...] = Field(
+        ("coefficient", "radius"),
+        description="Quantities drawn once per trial for all bearings, in Monte Carlo runs; others are drawn for each",
+    )
     at: tuple[MeasuredLength, MeasuredLength] | None = Field(
         None,
         description="Positions of two bearings along the axis, as `along` of the wheels; default one bearing in the "
         "plane of all forces",
     )
 
+    shoulder: tuple[_Radius, _Radius] | None = Field(
+        None,
+        description="Inner and outer radius of a shoulder that carries the weight along the axis; it rubs "
+        "with `coefficient`; default none",
+    )
+
     @model_validator(mode="after")
     def _check_static(self) -> BearingFriction:
         check_range("bearing", self.coefficient, self.range)
         check_range("bearing", self.radius, self.radii)
+        if self.shoulder is not None and self.shoulder[0].si >= self.shoulder[1].si:
+            what = "the inner radius of the shoulder is not below its outer radius"
+            raise bad("bearing", what, "give inner and outer radius, such as `shoulder: [1 mm, 3 mm]`")
         if self.at is not None and self.at[0].si == self.at[1].si:
             raise bad(
                 "bearing", "two bearings have the same position", "give two positions, such as `at: [0 mm, 40 mm]`"
@@ -521,6 +534,16 @@ class Link(Declared):
         mu, radius = float(self.bearing.coefficient.value), self.bearing.radius
         pivot = None if self.arbor is None else self.arbor.pivot or self.arbor.diameter
         return mu / hypot(1.0, mu) * (radius.si if radius is not None else pivot.si / 2 if pivot is not None else 0.0)
+
+    @property
+    def shoulder_friction(self) -> float:
+        """Friction torque of the shoulder divided by its thrust [m], for a uniform pressure: 2/3 mu (r_o^3 -
+        r_i^3)/(r_o^2 - r_i^2); 0 without a shoulder.
+        """
+        if self.bearing is None or self.bearing.shoulder is None or self.bearing.coefficient is None:
+            return 0.0
+        inner, outer = (radius.si for radius in self.bearing.shoulder)
+        return 2 / 3 * float(self.bearing.coefficient.value) * (outer**3 - inner**3) / (outer**2 - inner**2)
 
     @model_validator(mode="after")
     def _check_pivot(self) -> Link:

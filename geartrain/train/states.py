@@ -244,22 +244,17 @@ class Drive(Declared):
         return None if self.drum is None else self.drum.si / self.falls
 
     @property
-    def pull(self) -> float | None:
-        """Constant torque [N m] of a weight (mass times gravity times descent per radian) or of a spring with an
-        equalising fusee; None for other drives.
+    def steady_torque(self) -> float | None:
+        """Constant torque of a drive [N m]: as declared, of an equalising fusee, or of a weight (mass times
+        gravity times descent per radian); None for other drives.
 
         For a weight that is a link of the train, it is the torque equivalent to its force; see `as_torque`.
         """
-        if self.spring is not None and self.spring.fusee is not None and self.spring.fusee.torque is not None:
-            return self.spring.fusee.torque.si
-        if self.weight is None:
-            return None
+        fusee = None if self.spring is None else self.spring.fusee
+        declared = [*self.torques, *([fusee.torque] if fusee is not None and fusee.torque is not None else [])]
+        if declared or self.weight is None:
+            return declared[0].si if declared else None
         return self.weight.si * GRAVITY * (float(TRAVEL_ARM) if self.arm is None else self.arm)
-
-    @property
-    def steady_torque(self) -> float | None:
-        """Torque of a drive by a constant torque, a weight or an equalising fusee [N m]; None for other drives."""
-        return next((torque.si for torque in self.torques), self.pull)
 
     @property
     def kind(self) -> str:

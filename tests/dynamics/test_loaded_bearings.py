@@ -10,6 +10,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 from math import cos, hypot, pi, radians, sin
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,9 @@ import geartrain
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.dynamics.torques.torque_results import TorqueVerdict
 from geartrain.dynamics.turn.train_turn import find_turn_balance
+from geartrain.simulation.steps.contact_solution import BEARINGS, IMPACT_COUNT, UNSOLVED, WORK_DRIVE
+from geartrain.simulation.steps.simulation import StepPlan, simulate
+from geartrain.simulation.time.train_in_time import model_in_time
 
 MU = 0.15
 STANDARD = 9.80665  # m/s2
@@ -80,6 +84,39 @@ def test_a_weight_that_relieves_the_bearing_frees_an_arbor_that_would_lock() -> 
     locked = arm("[0, 1, 0]", radius=radius).torques().verdict
     assert locked.kind == "self-locking"
     assert "bearings of b" in locked.text
+
+
+VERTICAL = """
+links: {frame: {}, a: {wheels: {w: 20}}, b: {wheels: {v: 20}, mass: MASS kg, BEARING}}
+revolutes: {A: [frame, a], B: [frame, b]}
+axes: {A: {position: [20 mm, 0 mm, 0 mm]}, B: {position: [0 mm, 0 mm, 0 mm]}}
+gears: [w ~ v]
+gravity: [0, 0, -1]
+inputs: {a: 1}
+loads: {b: 0 N mm}
+rate: 1 turn/s
+"""
+SHOULDER = "bearing: {coefficient: 0.15, radius: 1 mm, shoulder: [1 mm, 3 mm]}"
+
+
+def test_a_vertical_arbor_rubs_on_its_shoulder_as_in_case_a4() -> None:
+    train = geartrain.load(VERTICAL.replace("MASS", repr(2 / STANDARD)).replace("BEARING", SHOULDER))
+    (found,) = train.torques().bearings
+    pivot = friction_circle(MU, 1e-3) * found.load
+    assert 1e3 * (abs(float(found.torque)) - pivot) == pytest.approx(0.65, rel=1e-9)
+    # the force of the pair turns the arbor against both: the arm is 10 mm, and the pivot is pressed by it alone
+    assert found.load * 10e-3 * cos(radians(20)) == pytest.approx(0.65e-3 + pivot, rel=1e-9)
+    # the pressure 2 N/(area) times mu times the arm, summed over rings
+    edges = np.linspace(1, 3, 100_001)
+    middle, area = (edges[1:] + edges[:-1]) / 2, np.diff(edges**2)
+    assert np.sum(0.15 * 2 * middle * area) / 8 == pytest.approx(0.65, rel=1e-9)
+    run = with_inertia(train).dynamics(turns=0.1, skip=0.1, steps=200, fast=False)
+    assert run.torque == pytest.approx(0.65e-3 + pivot, rel=1e-9)
+
+
+def test_a_shoulder_with_exchanged_radii_is_refused() -> None:
+    with pytest.raises(geartrain.GearTrainError, match="inner radius"):
+        geartrain.load(VERTICAL.replace("MASS", "1").replace("BEARING", SHOULDER.replace("1 mm, 3 mm", "3 mm, 1 mm")))
 
 
 # ------------------------------------------------------------------------------------------------------- three arbors
@@ -585,12 +622,162 @@ def test_a_locked_bearing_locks_at_every_position() -> None:
     assert relieved.torques(turns=1, samples=10).mean == pytest.approx(20e-3 * 6.58536585, rel=3e-9)
 
 
-def test_friction_that_time_steps_leave_out_is_named() -> None:
-    declared = three_arbors().declaration
-    links = {name: link.changed(inertia="1 kg mm2") for name, link in declared.links.items() if name != "frame"}
-    train = geartrain.GearTrain(declared.changed(links={**declared.links, **links}))
-    run = train.dynamics("1 turn/s", turns=0.1)
-    assert any("bearings of A, B, C that grows with the load" in note for note in run.notes)
+# ------------------------------------------------------------------------------------------------------- in time steps
+
+
+def three_arbors_with_teeth() -> str:
+    """Triangular teeth, which collide, with bearings by load and a drag on the last arbor."""
+    return TRAIN.format(
+        m=[0, 0, 0], p=["0 mm, 0 mm, 0 mm", "25.5 mm, 0 mm, 0 mm", "25.5 mm, 18 mm, 0 mm"], mu=MU, eta=1, at="", way=1,
+        load=-1, gravity="tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\nfriction: 0.1",
+    ).replace(", efficiency: 1", "").replace("mass: 0 kg, ", "").replace("    mass: 0 kg\n", "")  # fmt: skip
+
+
+def with_inertia(train: geartrain.GearTrain, inertia: str = "1 g mm2", **links: str) -> geartrain.GearTrain:
+    """The train with a moment of inertia of every link but the frame."""
+    declared = train.declaration
+    heavy = {name: part.changed(inertia=links.get(name, inertia)) for name, part in declared.links.items()}
+    heavy[declared.frame] = declared.links[declared.frame]
+    return geartrain.GearTrain(declared.changed(links=heavy))
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "torque"),
+    [
+        ("A2a", {"c": (43.5, 0)}, 36.7948545),
+        ("A2b", {}, 35.9742775),
+        ("A2c", {"eta": 0.97}, 38.2580830655),
+        ("A2e", {"eta": 0.97, "at": True, "gravity": True}, 38.5982036398),
+        ("A2e without load", {"eta": 0.97, "at": True, "gravity": True, "load": 0}, 0.218575661226),
+    ],
+)
+def test_time_steps_settle_at_the_torque_of_statics(name: str, given: dict[str, Any], torque: float) -> None:
+    train = three_arbors(**given)
+    run = with_inertia(train).dynamics("0.1 turn/s", turns=0.05, skip=0.05, steps=200, fast=False)
+    assert 1e3 * run.torque == pytest.approx(torque, rel=2e-9), name
+    assert run.torque == pytest.approx(float(train.torques().external["A"]), rel=1e-11), name
+    assert run.energy.closure < 1e-12
+    assert run.unsolved == 0
+    assert run.notes == ()
+    lost = sum(float(abs(each.loss)) for each in train.torques().bearings)
+    assert run.energy.bearings == pytest.approx(lost * 2 * pi * 0.05, rel=1e-9), name
+
+
+@pytest.mark.parametrize("copies", [1, 3])
+def test_planets_in_time_steps_need_the_torque_of_the_closed_form(copies: int) -> None:
+    train = geartrain.load(planets(copies))
+    run = with_inertia(train).dynamics("0.1 turn/s", turns=0.1, skip=0.05, steps=200, fast=False)
+    # the load of 1 N m on the carrier, ratio 7/2, efficiency of case A3a
+    assert run.torque == pytest.approx(2 / 7 / 0.954407449, rel=2e-9)
+    assert run.energy.closure < 1e-12
+
+
+def test_forces_turn_with_their_carrier_in_time_steps() -> None:
+    train = geartrain.load(
+        planets(1, 0, 2, "carrier: {bearing: {coefficient: 0.15, radius: 3 mm}}")
+        .replace("planet: {copies", "planet: {mass: 0.5 kg, copies")
+        .replace("loads:", "gravity: [0, -1, 0]\nloads:")
+    )
+    run = with_inertia(train).dynamics("0.001 turn/s", turns=1.75, skip=0, steps=200, samples=350, fast=False)
+    cycle = train.torques(turns=1.75, samples=800)
+    # samples are means over an interval
+    middle = run.turns - (run.turns[1] - run.turns[0]) / 2
+    expected = np.interp(middle, cycle.turns, np.asarray(cycle.torque).ravel())
+    assert np.ptp(expected) > 1e-3
+    assert run.drive[2:] == pytest.approx(expected[2:], abs=2e-3 * np.ptp(expected))
+
+
+def test_every_step_loses_energy_in_bearings_and_its_energy_is_balanced() -> None:
+    train = with_inertia(geartrain.load(three_arbors_with_teeth()), "1e-6 kg m2")
+    model = model_in_time(train.mechanics, None, (), 20.0, 0.3).model
+    run = simulate(model, StepPlan(2e-5, 0, 3000, 1, 1))
+    energies = np.array([each.energy for each in run.blocks])
+    assert len(energies) == 3000
+    assert run.numbers[UNSOLVED] == 0
+    assert run.counts[:, IMPACT_COUNT].sum() > 10
+    assert energies[:, BEARINGS].min() >= 0
+    assert energies[:, BEARINGS].sum() > 1e-3 * energies[:, WORK_DRIVE].sum()
+    put_in, lost = energies[:, :3].sum(axis=1), energies[:, 3:].sum(axis=1)
+    kinetic = np.diff([0.5 * each @ model.mass @ each for each in run.speeds])
+    assert (put_in - lost)[1:] == pytest.approx(kinetic, abs=1e-12 * kinetic.max())
+
+
+def test_a_coefficient_of_0_gives_the_run_without_it_bit_for_bit() -> None:
+    plain = three_arbors(eta=0.97, mu=0).declaration
+    links = {name: part.changed(bearing=None) for name, part in plain.links.items()}
+    bare = geartrain.GearTrain(plain.changed(links=links))
+    runs = [
+        with_inertia(each).dynamics("1 turn/s", turns=0.1, skip=0, steps=200, fast=False)
+        for each in (geartrain.GearTrain(plain), bare)
+    ]
+    assert runs[0].to_csv() == runs[1].to_csv()
+    assert runs[0].energy == runs[1].energy
+
+
+FREE = """
+links: {frame: {}, a: {inertia: 1e-5 kg m2, mass: 2 kg, bearing: {coefficient: 0.15, radius: 1.5 mm}}}
+revolutes: {A: [frame, a]}
+axes: {A: {position: [0 mm, 0 mm, 0 mm]}}
+gravity: [0, -1, 0]
+inputs: {a: 1}
+rate: 1 turn/s
+drive: {torque: 20 N mm}
+"""
+
+
+def test_a_free_arbor_is_slowed_by_the_friction_of_its_weight_over_its_inertia() -> None:
+    friction = friction_circle(MU, 1.5e-3) * 2 * STANDARD
+    arbor = geartrain.load(FREE).simulation(step=1e-4, fast=False)
+    arbor.advance(0.1)
+    assert arbor.speed == pytest.approx(0.1 * (20e-3 - friction) / 1e-5, rel=1e-12)
+    start = arbor.speed
+    arbor.set_drive(0.0)
+    arbor.advance(0.05)
+    assert arbor.speed == pytest.approx(start - 0.05 * friction / 1e-5, rel=1e-12)
+    arbor.advance(0.5)
+    assert abs(arbor.speed) < 1e-6
+    # static friction by load holds what sliding friction would not move
+    arbor.set_drive(0.99 * friction)
+    arbor.advance(0.1)
+    assert abs(arbor.speed) < 1e-6
+    arbor.set_drive(1.01 * friction)
+    arbor.advance(0.1)
+    assert arbor.speed == pytest.approx(0.1 * 0.01 * friction / 1e-5, rel=1e-6)
+
+
+IMPACT = """
+links:
+  frame: {}
+  a: {inertia: 2e-6 kg m2, wheels: {w: {teeth: 24, module: 1 mm}}}
+  b: {inertia: 5e-6 kg m2, wheels: {v: {teeth: 24, module: 1 mm}}, bearing: {coefficient: 0.15, radius: 4 mm}}
+revolutes: {A: [frame, a], B: [frame, b]}
+axes: {A: {position: [0 mm, 0 mm, 0 mm]}, B: {position: [24 mm, 0 mm, 0 mm]}}
+gears: [{pair: [w, v], tooth_form: {form: involute, backlash: 0.2 mm}}]
+inputs: {a: 1}
+rate: 1 turn/s
+drive: {torque: 1 N mm}
+"""
+
+
+def test_the_impulse_of_an_impact_rubs_in_the_bearing() -> None:
+    """The force of the impulse P is P/(r cos 20 deg), and rubs against the rotation: both lose the same impulse."""
+    train = geartrain.load(IMPACT).simulation(step=1e-5, fast=False)
+    train.advance(0.02)
+    train.set_drive(-1e-3)
+    seen = []
+    while len(seen) < 1500:
+        own = train._of.speeds @ train._state.speed
+        seen.append([own[train._of.index[link]] for link in "ab"])
+        train.advance(1e-5)
+    speeds = np.array(seen)
+    # driver: reversed torque and impulse; driven wheel: only the impulse and its friction
+    jumps = np.diff(speeds, axis=0)
+    at = int(np.argmax(np.abs(jumps[:, 1])))
+    lost = 5e-6 * abs(jumps[at, 1])
+    impulse = 2e-6 * abs(jumps[at, 0] + 1e-3 * 1e-5 / 2e-6)
+    friction = friction_circle(MU, 4e-3) / (12e-3 * cos(radians(20)))
+    assert lost == pytest.approx(impulse * (1 + friction), rel=1e-6)
+    assert lost > 1e-4 * 5e-6
 
 
 # ---------------------------------------------------------------------------------------------- joints and directions

@@ -13,6 +13,7 @@ from sampling import all_but
 
 from geartrain import GearTrain
 from geartrain.dynamics import TorqueCycle
+from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.errors import GearTrainError, QuestionError
 
 _TWO_LINKS = """
@@ -310,3 +311,40 @@ def test_other_names_and_another_order_change_nothing() -> None:
 def test_a_run_goes_forward() -> None:
     with pytest.raises(QuestionError, match="turns = -1"):
         cycle(pin_train(10, 8, 0.3, "loads: {b: -10 N m}"), -1)
+
+
+# ---------------------------------------------------------------------------------------------------- period of a run
+
+
+DAYS = """
+links: {frame: {}, day: {wheels: {a: 10}}, slow: {wheels: {b: 10000}}, slot: {bearing: 1 N mm}}
+revolutes: [{pair: [frame, day], axis: A}, {pair: [frame, slow], axis: B}, {pair: [frame, slot], axis: C}]
+gears: [{pair: [a, b]}]
+couplings: [{kind: pin_and_slot, pin: slow, slot: slot, pin_radius: 10 mm, offset: 2 mm}]
+unit: {per: 1 d}
+inputs: {day: 1}
+outputs: {slot: {}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "period"),
+    [
+        # between weight and escape wheel 8, 60 and 420 teeth pass in an hour: a quarter of each in a quarter
+        ("extends: longcase-clock-bs978\nloads: {escape: -1 N mm}\n", Fraction(1, 4)),
+        # constant ratios and friction
+        ("extends: longcase-clock\nloads: {escape: -1 N mm}\n", None),
+        # a pin that comes round in a thousand days
+        (DAYS, 1000),
+    ],
+)
+def test_a_torque_repeats_after_the_common_period_of_its_pairs(text: str, period: Fraction | None) -> None:
+    assert find_torque_period(load(text).mechanics) == period
+
+
+def test_teeth_that_keep_their_ratio_repeat_too_where_their_friction_is_uneven() -> None:
+    train = load("extends: longcase-clock-cycloidal\nfriction: 0.2\nloads: {escape: -1 N mm}\n")
+    found = train.torques(turns=1, samples=200)
+    assert find_torque_period(train.mechanics) == found.period == 0.25
+    for turns in (0.0321, 0.2, 0.61):
+        assert found.at(turns) == pytest.approx(found.at(turns + 0.25), rel=1e-6)

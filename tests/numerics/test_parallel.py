@@ -187,7 +187,7 @@ def test_a_worker_killed_in_the_middle_costs_nothing_but_time(
 
 def test_a_task_that_always_kills_its_worker_is_named_and_no_other_is(processes: Executor, tmp_path: Path) -> None:
     with Journal(tmp_path / "journal", {}) as journal:
-        with pytest.raises(GearTrainError, match="task 5 kills its worker") as caught:
+        with pytest.raises(GearTrainError, match="task 5 terminated its worker") as caught:
             list(run(deadly, [(str(tmp_path), n, 99) for n in range(30)], processes, journal))
         assert "4 worker processes" in caught.value.problems[0].why
         assert "__main__" in caught.value.problems[0].fix
@@ -198,7 +198,7 @@ def test_a_task_that_always_kills_its_worker_is_named_and_no_other_is(processes:
 def test_a_cluster_gives_up_a_task_that_kills_its_workers(cluster: Any, dask: Executor, tmp_path: Path) -> None:
     before, cluster.scheduler.allowed_failures = cluster.scheduler.allowed_failures, 0
     try:
-        with pytest.raises(GearTrainError, match="task 5 kills its worker"):
+        with pytest.raises(GearTrainError, match="task 5 terminated its worker"):
             list(run(deadly, [(str(tmp_path), n, 99) for n in range(12)], dask))
     finally:
         cluster.scheduler.allowed_failures = before
@@ -219,7 +219,7 @@ def test_only_a_task_that_kills_is_blamed_and_one_accident_is_forgiven(
     with closing(Mortal(width, dict(deadly), seed)) as crew:
         results = run(abs, range(40), crew)
         if killers:
-            with pytest.raises(GearTrainError, match="kills its worker") as caught:
+            with pytest.raises(GearTrainError, match="terminated its worker") as caught:
                 list(results)
             assert int(caught.value.problems[0].what.split()[1]) in killers
         else:

@@ -11,7 +11,7 @@ from sampling import all_but
 import geartrain
 from geartrain.simulation import PairStrength
 from geartrain.simulation.strength.contact_pressure import loss_over_friction
-from geartrain.simulation.strength.iso_6336 import RackWheel, root_stress
+from geartrain.simulation.strength.iso_6336 import RackWheel, ToothLoad, ToothSide, root_stress
 
 TWENTY = radians(20)
 STEEL, BRASS, ACRYLIC = (206_000, 0.3), (100_000, 0.35), (3200, 0.35)  # Young's modulus [MPa], Poisson's ratio
@@ -110,6 +110,27 @@ def test_the_form_factor_of_40_teeth_worked_out_by_hand() -> None:
     assert by_hand == pytest.approx(0.3920, abs=2e-4)
     # with the force along the normal of the last chord of an outline of 0.001 modules it would be 0.389
     assert by_hand == pytest.approx(0.3890, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("depth", "stress"), [(0.1, None), (0.3, 16.2379763), (0.5, 9.74278579), (0.6, 7.86614770), (0.0, 38.2070031)]
+)
+def test_a_triangular_tooth_bends_as_in_closed_form(depth: float, stress: float | None) -> None:
+    """Case B4: 10 N normal to the flank at a depth below the apex; width 1.5, height 1.36, 30 degrees, sections from
+    half the height.
+    """
+    apex, height, lean, force, width = 50.0, 1.36, pi / 6, 10.0, 1.5
+    foot = apex - height
+    side = ToothSide(np.array([[apex, 0.0], [foot, height * tan(lean)]]), 1)
+    meets = apex - depth / cos(lean) ** 2
+    found = side.weakest_section(ToothLoad(apex - depth, meets, lean))
+    across = force * cos(lean)
+    if stress is None:
+        # the section of 48.7139290 at twice the depth of the line of action is above half the height
+        x = height / 2
+        stress = 3 * across * (x - depth / cos(lean) ** 2) / (2 * width * x**2 * tan(lean) ** 2)
+        assert 3 * force * cos(lean) ** 3 / (8 * width * depth * tan(lean) ** 2) == pytest.approx(48.7139290, rel=1e-8)
+    assert found.stress(across * meets, width, 1.0) == pytest.approx(stress, rel=3e-3)
 
 
 A = ((17, 51), 0.0, (2, 20), 20_000, (STEEL, STEEL))

@@ -12,7 +12,6 @@ from sorge import Pair, first_of_all
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
@@ -239,13 +238,11 @@ def test_questions_without_meaning_are_refused(requested: dict[str, float]) -> N
         BudgetQuestion(**requested)
 
 
-# ------------------------------------------------------------------------------------------------------ cutting, crank
+# ------------------------------------------------------------------------------------------------------------- cutting
 
 
 def cut(placement: str, trials: int = 64) -> PointerBudget:
-    requested = BudgetQuestion(
-        outputs=("sun",), cutting=(f"pitch_deviation={placement}",), trials=trials, clearances=(), **SHORT
-    )
+    requested = BudgetQuestion(outputs=("sun",), cutting=(f"pitch_deviation={placement}",), trials=trials, **SHORT)
     return find_budget(geartrain.load("moon-triangular"), requested)["sun"]
 
 
@@ -270,41 +267,9 @@ def test_cutting_of_one_pair_is_as_great_as_the_places_of_its_teeth() -> None:
     assert cause.degrees == pytest.approx(2 * 1.96 * (cause.rms or 0.0), rel=0.25)
 
 
-def test_jams_are_counted_over_clearance() -> None:
-    requested = BudgetQuestion(
-        outputs=("sun",), cutting=("pitch_deviation=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT
-    )
-    jams = find_budget(geartrain.load("moon-triangular"), requested).jams
-    assert [each.clearance for each in jams] == [0.1, 0.9]
-    assert jams[0].events["jam"].count > jams[1].events["jam"].count
-
-
 def test_cutting_that_is_requested_for_and_cannot_be_tried_is_refused() -> None:
     with pytest.raises(geartrain.GearTrainError, match="no tooth form"):
         find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("pitch_deviation=1 %",), **SHORT))
-
-
-def test_the_cranks_torque_is_the_loads_over_the_efficiency() -> None:
-    train = geartrain.load(
-        PAIRS + "gears: [{pair: [p, q], efficiency: 0.9}, {pair: [r, s], efficiency: 0.8}]\nloads: {c: -9}\n"
-    )
-    crank = find_budget(train, BudgetQuestion(**SHORT)).crank
-    assert crank.link == "a"
-    assert crank.torque == pytest.approx(9 / 9 / 0.72)
-    assert crank.efficiency == pytest.approx(0.72)
-    assert crank.pointers == pytest.approx({"c": 0.72})
-
-
-def test_a_pointer_driven_alone_loses_on_the_way_from_the_crank() -> None:
-    """The efficiency of the teeth depends on the direction of power."""
-    gears = "gears: [{pair: [p, q], efficiency: {forward: 0.9, backward: 0.5}}, {pair: [r, s], efficiency: 0.8}]\n"
-    crank = find_budget(geartrain.load(PAIRS + gears), BudgetQuestion(**SHORT)).crank
-    assert crank.pointers == pytest.approx({"c": 0.9 * 0.8})
-
-
-def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget) -> None:
-    assert freeth.crank.torque is freeth.crank.efficiency is None
-    assert freeth.crank.note == "neither loads nor friction are declared"
 
 
 # ------------------------------------------------------------------------------------------------------- picture, page
@@ -322,116 +287,3 @@ def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(fr
 def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
     with pytest.raises(geartrain.GearTrainError, match="nothing to draw"):
         find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on").plot()
-
-
-def test_the_crank_has_one_sign_though_it_turns_backwards() -> None:
-    train = geartrain.load("""
-links: {frame: {}, x: {wheels: {a: 24}}, y: {wheels: {b: 36}}}
-revolutes: {A: [frame, x], B: [frame, y]}
-gears: [a ~ b]
-inputs: {x: -1}
-outputs: {y: {}}
-loads: {y: -3 N m}
-unit: {per: 1 d}
-""")
-    crank = find_budget(train, BudgetQuestion(**SHORT)).crank
-    # no loss: 3 N m at two thirds of the speed of the crank
-    assert crank.torque is not None
-    assert crank.torque == pytest.approx(2)
-    assert crank.over_turn is not None
-    assert crank.over_turn.mean == pytest.approx(2)
-
-
-# ------------------------------------------------------------------------ over how many turns a budget tells the torque
-
-
-DAYS = """
-links: {frame: {}, day: {wheels: {a: 10}}, slow: {wheels: {b: 10000}}, slot: {bearing: 1 N mm}}
-revolutes: [{pair: [frame, day], axis: A}, {pair: [frame, slow], axis: B}, {pair: [frame, slot], axis: C}]
-gears: [{pair: [a, b]}]
-couplings: [{kind: pin_and_slot, pin: slow, slot: slot, pin_radius: 10 mm, offset: 2 mm}]
-unit: {per: 1 d}
-inputs: {day: 1}
-outputs: {slot: {}}
-"""
-TRIANGULAR = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\nfriction: 0.2\n"
-
-
-@pytest.mark.parametrize(
-    ("text", "period", "pointer", "turns"),
-    [
-        # a year of a crank that turns five times in it
-        (f"extends: pennestri-2002\n{TRIANGULAR}links: {{'5': {{bearing: 1 N mm}}}}\n", 95, "1", 5.0),
-        # between weight and escape wheel 8, 60 and 420 teeth pass in an hour: a quarter of each in a quarter
-        ("extends: longcase-clock-bs978\nloads: {escape: -1 N mm}\n", Fraction(1, 4), None, None),
-        # with constant ratios and friction, an hour gives the same result as a year
-        ("extends: longcase-clock\nloads: {escape: -1 N mm}\n", None, "minute", 1.0),
-        # a pin that comes round in a thousand days: a year is so many turns of a wheel that turns once a day
-        (DAYS, 1000, "slot", float(TROPICAL_YEAR)),
-    ],
-)
-def test_a_budget_takes_the_torque_over_a_period_or_a_year(
-    text: str, period: Fraction | None, pointer: str | None, turns: float | None
-) -> None:
-    train = geartrain.load(text)
-    assert find_torque_period(train.mechanics) == period
-    if pointer is None:  # the budget takes any period as it takes that of the first case
-        return
-    over_turn = find_budget(train, BudgetQuestion((pointer,), samples=4, trials=1)).crank.over_turn
-    assert over_turn is not None
-    assert over_turn.span == pytest.approx(turns, rel=1e-9)
-
-
-def test_teeth_that_keep_their_ratio_repeat_too_where_their_friction_is_uneven() -> None:
-    train = geartrain.load("extends: longcase-clock-cycloidal\nfriction: 0.2\nloads: {escape: -1 N mm}\n")
-    found = train.torques(turns=1, samples=200)
-    assert find_torque_period(train.mechanics) == found.period == 0.25
-    for turns in (0.0321, 0.2, 0.61):
-        assert found.at(turns) == pytest.approx(found.at(turns + 0.25), rel=1e-6)
-
-
-# ---------------------------- the torque at the crank over a train's natural run, and a clock's weight against its drum
-
-
-REQUESTED = BudgetQuestion(turns=1, samples=20, trials=4)
-CLOCK = """
-extends: longcase-clock
-name: clock
-gears:
-  - {pair: [g96, c8], efficiency: 0.9}
-  - {pair: [c60, t8], efficiency: 0.9}
-  - {pair: [t56, e7], efficiency: 0.9}
-"""
-PULL = 5.9 * 9.80665 * 0.0127
-
-
-def test_a_weight_gives_its_torque_at_the_drum_and_the_escape_wheel_gets_what_teeth_leave() -> None:
-    weight = find_budget(geartrain.load(CLOCK), REQUESTED).crank.weight
-    assert weight is not None
-    assert (weight.link, weight.wheel, weight.needed, weight.suffices) == ("great", "escape", None, None)
-    assert weight.torque == pytest.approx(PULL, rel=1e-12)
-    # 720 turns of the escape wheel to one of the drum's
-    assert [weight.mean, weight.minimum] == pytest.approx([PULL / 720 * 0.9**3] * 2, rel=1e-12)
-    assert weight.efficiency == pytest.approx(0.9**3, rel=1e-12)
-
-
-@pytest.mark.parametrize(("drag", "enough"), [("0.6 N mm", True), ("0.8 N mm", False)])
-def test_a_weight_is_set_against_what_the_train_needs(drag: str, enough: bool) -> None:
-    found = find_budget(geartrain.load(CLOCK + f"links: {{escape: {{bearing: {drag}}}}}"), REQUESTED)
-    weight, over_turn = found.crank.weight, found.crank.over_turn
-    assert weight is not None
-    assert over_turn is not None
-    assert weight.needed == over_turn.starting_torque == pytest.approx(float(drag[:3]) * 0.72 / 0.9**3, rel=1e-12)
-    assert weight.suffices is enough
-    page = str(found)
-    assert f"The drive gives {PULL:.4g} N m at 'great'." in page
-    assert ("the drive suffices" in page) == enough
-
-
-def test_a_year_of_the_crank_stands_in_the_budget() -> None:
-    """Saturn's bearing: on the mean over its period 2.07 times what the mean speed would take; in a year less."""
-    train = geartrain.load("extends: freeth-2021\nname: saturns\nlinks: {saturn: {bearing: 1 N mm}}\n")
-    crank = find_budget(train, BudgetQuestion(("saturn",), turns=1, samples=20)).crank
-    assert crank.over_turn is not None
-    assert (crank.link, crank.over_turn.span, crank.weight) == ("a", 1, None)
-    assert crank.over_turn.maximum_torque == pytest.approx(2.6959e-5, abs=5e-10)

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import isinf, sqrt
+from math import isinf, pi, radians, sin, sqrt
 from pathlib import Path
 from statistics import NormalDist
 from typing import Any
 
 import numpy as np
 import pytest
+from sorge import Pair
 
 from geartrain import GearTrain, load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.numerics import Execution, Journal
+from geartrain.numerics.arrays import Floats
 from geartrain.train.states import HandDrive
 from geartrain.workshop import FeasibilityResult, find_feasibility_plan, read_error_overrides, run_feasibility
 from geartrain.workshop.feasibility.feasibility_plan import LoadedPart, wedge_torque
+from geartrain.workshop.monte_carlo.friction_trials import draw_friction
 
 NORMAL = NormalDist()
 MOON = """
@@ -89,12 +92,26 @@ def test_a_held_train_yields_first_at_the_tooth_with_the_largest_force() -> None
 
 
 def test_a_pair_that_jams_is_a_wedge() -> None:
-    front, back = (0.533303317, 0.986484388), (0.477005708, 0.932847613)
-    assert wedge_torque(1, front, back) == pytest.approx(10.4562747, rel=1e-8)
-    assert wedge_torque(front[0], front, back) == pytest.approx(5.57636597, rel=1e-8)
-    front, back = (0.500747886, 0.965080391), (0.522902827, 0.9731)
-    opens = wedge_torque(1, (front[0], 1.0), (back[0], 1.0))
-    assert opens == 0, "without friction the pair releases itself where the backlash opens"
+    """Cases of triangular 48/96 at a clearance factor of 1.01, friction 0.2, by the closure equations of the source."""
+    lean, z = pi / 6, (48, 96)
+    depths = [1 - sin(lean) / sin(lean + pi / each) for each in z]
+    pair = Pair(*z, 1, depths[0] / depths[1], lean, lean, 0.01)
+
+    def front(degrees: float) -> tuple[float, float]:
+        x = radians(degrees)
+        return float(pair.speed(x)), float(pair.efficiency(x, 0.2))
+
+    def back(degrees: float) -> tuple[float, float]:
+        """The mirror image of a front flank; the driven wheel drives, so that friction has the opposite sign."""
+        x = radians(degrees)
+        return float(pair.speed(x)), 1 / float(pair.efficiency(x, -0.2))
+
+    assert back(-7) == pytest.approx((0.477005708, 0.932847613), abs=1e-9)
+    assert wedge_torque(1, front(-2), back(-7)) == pytest.approx(10.4562747, rel=1e-8)
+    assert wedge_torque(front(-2)[0], front(-2), back(-7)) == pytest.approx(5.57636597, rel=1e-8)
+    # past the narrowest place backlash opens: friction alone holds the pair
+    assert wedge_torque(1, front(-5), back(-3)) == pytest.approx(100.710907, rel=1e-8)
+    assert wedge_torque(1, (front(-5)[0], 1), (back(-3)[0], 1)) == 0
     for efficiency, gain in ((0.99, 49.748744), (0.97, 16.412860), (0.95, 9.743590), (0.9, 4.736842)):
         assert wedge_torque(1, (1, efficiency), (1, efficiency)) == pytest.approx(gain, abs=5e-7)
     assert isinf(wedge_torque(1, (1, 1), (1, 1)))
@@ -116,6 +133,112 @@ def test_the_mean_torque_is_that_of_gauss_quadrature_over_the_friction() -> None
     own = np.array([apart.drawn_loads(1, trial).crank for trial in range(48)])  # type: ignore[union-attr]
     assert own.mean() == pytest.approx(mean, abs=4 * sd / sqrt(48))
     assert own.std() / drawn.std() == pytest.approx(sqrt(np.sum(shares**2)) / shares.sum(), rel=0.25)
+
+
+FACTORS = (0.241249, 0.252230, 0.408495, 0.333820)
+"""Loss of each pair per unit of the coefficient of friction."""
+
+
+def crank_of_the_moon(mus: Floats, pivots: Floats, radii: Floats, angle: float = 20.0, exact: bool = True) -> Floats:
+    """Torque at the crank for 1 N mm on the Moon, from the forces of one pair after the other, shape (n,).
+
+    A pair with the efficiency eta has its force through the point of the line of centres that divides it by eta z2/z1;
+    without `exact` through the pitch point, and the torque of the driver is z1/z2 of that of the driven wheel over eta.
+
+    mus      coefficient of friction of each pair, shape (4, n)
+    pivots   coefficient of friction of each pivot, shape (5, n); `radii` of pivots in mm
+    """
+    axes = np.array([(-67.5, 0), (0, 0), (25.5, 0), (37.37867647, 13.52394341), (0, 0)])
+    circles, slope = radii * pivots / np.hypot(1, pivots), np.radians(angle)
+    torque, other = np.ones_like(mus[0]), np.zeros((2, len(mus[0])))
+    for pair, (z1, z2) in reversed([*enumerate(((45, 225), (64, 38), (48, 24), (127, 32)))]):
+        line = axes[pair + 1] - axes[pair]
+        length = np.hypot(*line)
+        across = (-1) ** pair * np.array([-line[1], line[0]]) / length
+        way = (np.cos(slope) * across + np.sin(slope) * line / length)[:, None]
+        eta = 1 - FACTORS[pair] * mus[pair]
+        ratio = z2 / z1 * (eta if exact else np.ones_like(eta))
+        force = np.zeros_like(eta)
+        for _ in range(60):
+            friction = circles[pair + 1] * np.hypot(*(force * way + other))
+            force = (torque + friction) / (length * ratio / (1 + ratio) * np.cos(slope))
+        other = -force * way
+        torque = force * length / (1 + ratio) * np.cos(slope) / (1 if exact else eta)
+    return torque + circles[0] * np.hypot(*other)
+
+
+def spread_of_the_crank(case: str, angle: float, exact: bool = True) -> tuple[float, float]:
+    """Mean and standard deviation over frictions U(.1, .3) of teeth, U(.1, .2) of pivots, and radii U(1, 3).
+
+    By Gauss's rule; with separate draws of all parts from 70,000 random draws.
+    """
+    if case == "B3b":
+        drawn, weight = np.random.default_rng(1).uniform(-1, 1, (14, 70_000)), np.full(70_000, 1 / 70_000)
+    else:
+        apart = 5 if case == "B2" else 1
+        nodes, weights = np.polynomial.legendre.leggauss(3)
+        grid = np.array(np.meshgrid(*[nodes] * (2 + apart))).reshape(2 + apart, -1)
+        weight = np.prod(np.array(np.meshgrid(*[weights / 2] * (2 + apart))).reshape(2 + apart, -1), axis=0)
+        drawn = np.concatenate([grid[[0] * 4], grid[[1] * 5], grid[2:] if apart == 5 else grid[[2] * 5]])
+    found = crank_of_the_moon(0.2 + 0.1 * drawn[:4], 0.15 + 0.05 * drawn[4:9], 2 + drawn[9:], angle, exact)
+    mean = float(weight @ found)
+    return mean, sqrt(weight @ (found - mean) ** 2)
+
+
+PIVOTS = """
+extends: moon-triangular
+name: moon-with-pivots
+links: {LINKS}
+axes:
+  A: {position: [-67.5 mm, 0 mm, 0 mm]}
+  B: {position: [0 mm, 0 mm, 0 mm]}
+  C: {position: [25.5 mm, 0 mm, 0 mm]}
+  D: {position: [37.37867647 mm, 13.52394341 mm, 0 mm]}
+  E: {position: [0 mm, 0 mm, 0 mm]}
+tooth_form: null
+friction: {sliding: 0.2, range: [0.1, 0.3]}
+loads: {moon: -1 N mm}
+"""
+
+
+@pytest.mark.parametrize(
+    ("case", "shared", "published", "digits"),
+    [
+        ("B2", "[coefficient]", (4.27470691, 0.38586384), 2e-6),
+        ("B3", "[coefficient, radius]", (4.28119635, 0.45488562), 3e-6),
+        ("B3b", "[]", (4.26319, 0.22242), 3e-3),
+    ],
+)
+def test_pivots_share_what_the_declaration_says(
+    case: str, shared: str, published: tuple[float, float], digits: float
+) -> None:
+    """With forces through pitch points the reference gives the published spread of the crank torque; geartrain has the
+    points at which both moments balance.
+    """
+    assert spread_of_the_crank(case, 30, exact=False) == pytest.approx(published, abs=digits)
+    mean, deviation = spread_of_the_crank(case, 20)
+    own = f"bearing: {{coefficient: 0.15, range: [0.1, 0.2], radius: 2 mm, radii: [1 mm, 3 mm], shared: {shared}}}"
+    links = ", ".join(f"{link}: {{{own}}}" for link in ("crank", "sun", "c", "d", "moon"))
+    declared, trials = load(PIVOTS.replace("LINKS", links)).declaration, 80
+    found = []
+    for trial in range(trials):
+        drawn = draw_friction(declared, 1, trial, per_part=case == "B3b")
+        bearings = [link.bearing for link in drawn.links.values() if link.bearing is not None]
+        pivots = np.array([[float(each.coefficient.value)] for each in bearings if each.coefficient is not None])
+        radii = np.array([[1e3 * each.radius.si] for each in bearings if each.radius is not None])
+        frictions = [gear.friction or drawn.friction for gear in drawn.gears]
+        mus = np.array([[float(each.sliding.value)] for each in frictions])  # type: ignore[union-attr]
+        counts = len(np.unique(mus)), len(np.unique(pivots)), len(np.unique(radii))
+        assert counts == {"B2": (1, 1, 5), "B3": (1, 1, 1), "B3b": (4, 5, 5)}[case]
+        gears = (
+            gear.changed(friction=None, efficiency=repr(1 - loss * mu))
+            for gear, loss, mu in zip(drawn.gears, FACTORS, mus[:, 0].tolist(), strict=True)
+        )
+        torques = GearTrain(drawn.changed(gears=tuple(gears))).torques()
+        found.append(1e3 * abs(float(torques.external["crank"])))
+        assert found[-1] == pytest.approx(crank_of_the_moon(mus, pivots, radii)[0], rel=1e-9)
+    assert np.mean(found) == pytest.approx(mean, abs=4 * deviation / sqrt(trials))
+    assert np.std(found) == pytest.approx(deviation, rel=4 / sqrt(2 * trials))
 
 
 # -------------------------------------------------------------------------------------------------------- probabilities

@@ -59,9 +59,9 @@ class PairErrors:
         if found is None:
             raise GearTrainError(
                 Problem(
-                    "the propagation of errors in this train cannot be solved",
-                    "some of its pairs are redundant, although they do not close a loop on one carrier",
-                    "omit a redundant pair with --without (`geartrain check` names the link at which they meet)",
+                    "the error propagation equations of this train are singular",
+                    "some gear pairs are redundant, in a loop that involves more than one carrier",
+                    "omit a redundant pair with --without (`geartrain check` names the link that these pairs share)",
                 )
             )
         return found

@@ -108,6 +108,10 @@ class BearingLoads:
             end = self.setting.tree.above(end)
         return end is not None
 
+    def _has_shoulder(self, end: str) -> bool:
+        links = self.setting.train.links
+        return any(links[link].shoulder_friction and self._inside(link, end) for link in self.links)
+
     def _pairs(self) -> Iterator[AxisForce]:
         setting, train = self.setting, self.setting.train
         for circuit in setting.circuits:
@@ -125,6 +129,13 @@ class BearingLoads:
                 continue
             first, second = (point for point in points if point is not None)
             # about the reference direction of parallel axes, as the signs of the torques
+            if any(
+                train.wheels[name][1].is_helical and self._has_shoulder(train.wheels[name][0])
+                for name in circuit.wheels
+            ):
+                self._left_out.setdefault("thrusts of helical teeth on shoulders are not included", []).append(
+                    circuit.id
+                )
             way = scaled((axes[0] or Axis()).way, setting.axes.sign(labels[0]))
             line = across(scaled(minus(second, first), _MM), way)
             i, j = (train.wheels[name][1] for name in circuit.wheels)
@@ -162,7 +173,7 @@ class BearingLoads:
     # -------------------------------------------------------------------------------------------------------- supports
 
     @cached_property
-    def _supports(self) -> tuple[tuple[int, float | None, float | None], ...]:
+    def supports(self) -> tuple[tuple[int, float | None, float | None], ...]:
         """Number of the link, own position and position of the other bearing [m], by bearing; None without `at`."""
         found: list[tuple[int, float | None, float | None]] = []
         for number, link in enumerate(self.links):
@@ -172,10 +183,10 @@ class BearingLoads:
         return tuple(found)
 
     @cached_property
-    def _shares(self) -> Floats:
+    def shares(self) -> Floats:
         """Fraction of each force that each bearing carries, shape (bearings, forces)."""
-        found = np.zeros((len(self._supports), len(self.forces)))
-        for row, (number, own, other) in enumerate(self._supports):
+        found = np.zeros((len(self.supports), len(self.forces)))
+        for row, (number, own, other) in enumerate(self.supports):
             for column, force in enumerate(self.forces):
                 for sign, end, place in zip((-1, 1), force.links, force.places, strict=True):
                     if self._inside(self.links[number], end):
@@ -190,15 +201,25 @@ class BearingLoads:
         return {link: None if mass is None else mass.si for link, mass in carried.items()}
 
     @cached_property
-    def _weights(self) -> Floats:
+    def weights(self) -> Floats:
         """Weight that each bearing carries [N], shape (bearings, 3, 1)."""
-        found = np.zeros((len(self._supports), 3, 1))
-        for row, (number, own, other) in enumerate(self._supports):
+        found = np.zeros((len(self.supports), 3, 1))
+        for row, (number, own, other) in enumerate(self.supports):
             mass = sum(mass or 0.0 for link, mass in self.masses.items() if self._inside(self.links[number], link))
             found[row, :, 0] = np.array(self._down or (0.0,) * 3) * GRAVITY * mass * _share(own, other, None)
         return found
 
-    def _ways(self, links: Iterable[str]) -> Floats:
+    @cached_property
+    def thrust(self) -> Floats:
+        """Friction torque of the shoulder of each link by the weights along its axis [N m], shape (links, 1)."""
+        down = self._down or (0.0,) * 3
+        along = np.abs(self.ways(self.links)[:, :, 0] @ down)
+        carried = [sum(m or 0.0 for end, m in self.masses.items() if self._inside(link, end)) for link in self.links]
+        shoulders = np.array([self.setting.train.links[link].shoulder_friction for link in self.links])
+        found: Floats = GRAVITY * shoulders * along * carried
+        return found[:, None]
+
+    def ways(self, links: Iterable[str]) -> Floats:
         """Return the reference directions of the axes of the given links, shape (links, 3, 1)."""
         labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
         ways = [scaled(self.setting.train.axes.get(label, Axis()).way, axes.sign(label)) for label in labels]
@@ -220,16 +241,16 @@ class BearingLoads:
         vectors = reactions[:, None] * along + (np.abs(reactions) * leans)[:, None] * apart
         if angles is not None:
             vectors = self._turned(vectors, angles)
-        total = np.einsum("bf,fdn->bdn", self._shares, vectors) + self._weights
-        ways = self._ways(self.links[number] for number, _, _ in self._supports)
+        total = np.einsum("bf,fdn->bdn", self.shares, vectors) + self.weights
+        ways = self.ways(self.links[number] for number, _, _ in self.supports)
         total = total - ways * (total * ways).sum(axis=1, keepdims=True)
         found = np.zeros((len(self.links), reactions.shape[1]))
-        np.add.at(found, [number for number, _, _ in self._supports], np.sqrt((total**2).sum(axis=1)))
+        np.add.at(found, [number for number, _, _ in self.supports], np.sqrt((total**2).sum(axis=1)))
         return found
 
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
         """Return forces rotated about the axes of their carriers by Rodrigues' formula, shape (forces, 3, n)."""
-        way = self._ways(force.carrier for force in self.forces)
+        way = self.ways(force.carrier for force in self.forces)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
         found: Floats = (vectors - inside) * np.cos(turn) + np.cross(way, vectors, axis=1) * np.sin(turn) + inside
@@ -240,7 +261,7 @@ class BearingLoads:
 
         Equal planets have equal torques, even if their loads differ due to weights or rounding.
         """
-        own = np.array([[self.setting.train.links[link].friction_radius] for link in self.links]) * loads
+        own = np.array([[self.setting.train.links[link].friction_radius] for link in self.links]) * loads + self.thrust
         like, row = equal_planets(balance), {link: at for at, link in enumerate(self.links)}
         return np.array([own[[row[peer] for peer in like.get(link, (link,))]].mean(axis=0) for link in self.links])
 

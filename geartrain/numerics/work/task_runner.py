@@ -328,10 +328,10 @@ def _killer_error(submission: _Submission) -> GearTrainError:
     shown = shown if len(shown) <= 200 else f"{shown[:200]}..."
     return GearTrainError(
         Problem(
-            f"task {submission.index} kills its worker: {shown}",
-            f"{submission.deaths} worker processes died during it, the last one without other tasks; possible causes: "
-            "too little memory, a signal from another process, or an error at the start",
-            "provide more memory, smaller tasks or fewer workers; a script that starts workers needs the line "
+            f"task {submission.index} terminated its worker: {shown}",
+            f"{submission.deaths} worker processes died while they ran this task, the last one without other tasks. "
+            "Possible causes are too little memory, a signal from another process, and an error at the start",
+            "provide more memory, or use smaller tasks or fewer workers. A script that starts workers needs the line "
             'if __name__ == "__main__": before its code',
         )
     )

@@ -406,12 +406,12 @@ def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) 
 def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     table, size = search.table, len(search.targets.periods)
     minimum, most = table.counts[0], table.counts[-1]
-    walked = f"all trees with up to {size + search.walked} pairs were enumerated; " if search.walked >= 0 else ""
-    stopped = "the search was interrupted; " if ended == "interrupted" else ""
+    walked = f"all trees with up to {size + search.walked} pairs were enumerated. " if search.walked >= 0 else ""
+    stopped = "the search was interrupted. " if ended == "interrupted" else ""
     return QuestionError(
         Problem(
             f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
-            f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
+            f"{walked}{stopped}these tooth counts give one pair {len(table)} ratios, the largest {most / minimum:.3g}",
             "increase the tolerance, the number of intermediate arbors or the beam width, or allow more tooth counts",
         )
     )

@@ -306,7 +306,7 @@ def _check_width(name: str, count: int, place: str = "") -> None:
     if count > MOST_COUNTS:
         what = f"wheel '{name}' has {count} possible counts"
         raise RangeError(
-            Problem(what, f"at most {MOST_COUNTS} counts of a wheel can be listed", "narrow the range", place)
+            Problem(what, f"at most {MOST_COUNTS} tooth counts per wheel are allowed", "narrow the range", place)
         )
 
 

@@ -270,7 +270,7 @@ def _check(question: StageProblem, tolerance: Fraction) -> None:
         raise RangeError(
             Problem(
                 f"about {pairs:.1g} candidates are within the tolerance",
-                f"the constraints or the order require a test of each candidate, and at most {_MOST:.0g} are tested",
+                f"with these constraints or this order, each is tested, and at most {_MOST:.0g} can be tested",
                 f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
             )
         )

@@ -361,8 +361,8 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
             what = f"a wheel has {count} possible counts"
             yield Problem(
                 what,
-                f"at most {_MOST_COUNTS} counts of a wheel can be searched",
-                "narrow the range",
+                f"at most {_MOST_COUNTS} tooth counts per wheel can be searched",
+                "narrow the range of tooth counts",
                 evidence.place(*place, "teeth"),
             )
     if why := teeth.fault_of_weights:

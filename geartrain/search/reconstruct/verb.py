@@ -69,7 +69,8 @@ def run(
         bool,
         typer.Option(
             "--seen",
-            help="With --lost: keep the meshes of surviving wheels, and add at most as many arbors as are lost.",
+            help="With --lost: keep the observed meshes of the surviving wheels, and add at most the number of "
+            "arbors that --lost gives.",
         ),
     ] = False,
     most: Annotated[
@@ -127,8 +128,8 @@ def run(
         Names,
         typer.Option(
             "--same",
-            help="Names of the same wheel or output in the ranked train and in the evidence, such as E4=e3; may be "
-            "repeated.",
+            help="Identify a wheel or output of the ranked train (--rank) with one of the evidence, such as E4=e3; may "
+            "be repeated.",
             metavar="ITS=OURS",
         ),
     ] = None,

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.simulation.contacts.loaded_bearings import LoadedBearings
 from geartrain.simulation.contacts.pair_tables import PairTables, TabledFunction, join_tables
 
 if TYPE_CHECKING:
@@ -71,6 +72,8 @@ class Bearing:
     speed: Form
     sliding: float
     sticking: float
+    radii: Mapping[str, float] = field(default_factory=dict)
+    """Radius of the friction circle of each link whose friction also depends on its load [m]."""
 
 
 @dataclass(frozen=True)
@@ -116,6 +119,8 @@ class ContactModel:
     bearings: Sequence[Bearing] = ()
     stops: Sequence[Stop] = ()
     springs: Sequence[Spring] = ()
+    loaded: LoadedBearings | None = None
+    """Forces on bearings whose friction depends on them; None if there are none."""
     start: Floats | None = field(default=None)
 
     @property
@@ -212,6 +217,7 @@ class ContactModel:
             np.array([each.stiffness for each in self.springs], dtype=np.float64),
             np.array([each.rest for each in self.springs], dtype=np.float64),
             np.array([each.rate for each in self.springs], dtype=np.float64),
+            self.loaded or LoadedBearings.none(n),
         )
 
     def _compliance(self, row: Floats) -> float:
@@ -290,6 +296,7 @@ class ContactSystem(NamedTuple):
     spring_stiffness: Floats
     spring_rest: Floats
     spring_rate: Floats
+    loaded: LoadedBearings
 
 
 class ToothCompliance(NamedTuple):

@@ -23,6 +23,7 @@ from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
+from geartrain.simulation.contacts.loaded_bearings import BearingForces
 from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
 from geartrain.simulation.contacts.rubbing_arms import Arms, efficiency_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.dynamics.torques.bearing_loads import BearingLoads
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.contact_model import ToothCompliance
@@ -85,6 +87,10 @@ class TrainModel:
     case: TimeCase
     tree: Tree
     state: str | None = None
+    loads: BearingLoads | None = None
+    """Loads of the bearings whose friction depends on them, with equal planets as separate links; None if there are
+    none.
+    """
 
     def typical(self, link: str) -> float:
         """Return the speed of a link in mean motion [rad/s]."""
@@ -111,11 +117,7 @@ class TrainModel:
         left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.computes_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
-        if loaded := [link for link, part in self.train.links.items() if part.friction_radius]:
-            found.append(
-                f"friction of the bearings of {', '.join(loaded)} that grows with the load: time steps include only "
-                "their constant `sliding` torques"
-            )
+        found += [] if self._bearing_forces is None else self._bearing_forces.notes
         found += unmodelled_properties(self.train.couplings)
         return tuple(found)
 
@@ -147,7 +149,8 @@ class TrainModel:
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:
-        if circuit.id in self._couplings:
+        # elimination loses the forces of ideal pairs, on which friction of bearings depends
+        if circuit.id in self._couplings or (self._bearing_forces and circuit.id in self._bearing_forces.pressing):
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
@@ -308,13 +311,17 @@ class TrainModel:
         declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
         return front, front, efficiency_arms(transmission, *declared, label), transmission
 
-    def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
-        """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""
+    def _senses(self, circuit: Circuit) -> tuple[int, int]:
+        """Return the senses in which driver and driven side of a pair turn forwards, about the reference direction."""
         source = self.sources.get(circuit.id)
         # forwards is the sense in which the input turns; front flanks are those that drive in this sense
         way = self.problem.way
         forward = way * (source.forward if source else 1)
-        sense = way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
+        return forward, way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
+
+    def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
+        """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""
+        forward, sense = self._senses(circuit)
         path = self.motion._path(circuit.id)
         signs, names = self.problem.signs, self.problem.system.links
         own, mate, base, driven_base = (
@@ -342,20 +349,27 @@ class TrainModel:
 
     def _bearings(self) -> Iterator[Bearing]:
         """Yield the dry friction of bearings; the bearings of links with proportional speeds are merged."""
-        joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float]]] = {}
+        joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
+            radius = 0.0 if self.loads is None else self.train.links[link].friction_radius
+            thrust = 0.0 if self._bearing_forces is None else self._bearing_forces.thrust.get(link, 0.0)
+            sliding, sticking = sliding + thrust, sticking + thrust
             form = self._form(link, self.tree.borne_by(link))
             scale = float(np.max(np.abs(form), initial=0.0))
-            if not scale or not sticking:
+            if not scale or not (sticking or radius):
                 continue
             first = form[np.argmax(np.abs(form) > 1e-12 * scale)]
             # bearings with proportional forms have one relative speed, so their friction adds up
             scale = float(first)
             key = tuple((at, round(value / scale, 12)) for at, value in _sparse(form).items())
-            joined.setdefault(key, []).append((link, abs(scale) * sliding, abs(scale) * sticking))
+            joined.setdefault(key, []).append((link, abs(scale) * sliding, abs(scale) * sticking, abs(scale) * radius))
         for key, parts in joined.items():
-            links = ", ".join(link for link, _, _ in parts)
-            yield Bearing(links, dict(key), sum(each[1] for each in parts), sum(each[2] for each in parts))
+            links, radii = ", ".join(part[0] for part in parts), {part[0]: part[3] for part in parts if part[3]}
+            yield Bearing(links, dict(key), sum(each[1] for each in parts), sum(each[2] for each in parts), radii)
+
+    @cached_property
+    def _bearing_forces(self) -> BearingForces | None:
+        return None if self.loads is None else BearingForces(self, self.loads)
 
     def _viscous(self) -> Floats:
         found = np.zeros((len(self.coordinates),) * 2)
@@ -394,6 +408,8 @@ class TrainModel:
         torque = self.torque_of(self.case.load, self.case.drive.torque)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
+        bearings, pressing = tuple(self._bearings()), self._bearing_forces
+        senses = {circuit.id: self._senses(circuit) for circuit in self.contacts} if pressing else {}
         return ContactModel(
             self.mass,
             self._viscous(),
@@ -401,9 +417,10 @@ class TrainModel:
             given,
             typical,
             tuple(self._pairs()),
-            tuple(self._bearings()),
+            bearings,
             tuple(self._stops()),
             tuple(self._springs()),
+            None if pressing is None else pressing.arrays(bearings, senses),
         )
 
 

@@ -11,7 +11,10 @@ speeds are known, have a compliance that is small compared with any inverse mass
 
 from __future__ import annotations
 
+from math import cos, sin, sqrt
 from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from geartrain.numerics.kernels import kernel
 from geartrain.simulation.contacts.contact_model import ContactSystem
@@ -32,6 +35,9 @@ speed of impacts; impulse, friction energy, maximum gap, and number of changes o
 """
 
 COUNTS = 9
+SAME_FRICTION = 1e-9
+"""Relative accuracy of the friction torques that grow with the loads of bearings."""
+
 IMPACT_COLUMNS = 5
 """Number of columns of the list of impacts: time, contact (stops after the pairs), closing speed, energy, impulse."""
 
@@ -135,6 +141,13 @@ class StepEquations(NamedTuple):
     stop_closing: Floats
     before: Ints
     """Touching flank of each contact before the step."""
+    forces: Floats
+    """Force of each pair on a bearing for a unit torque on its carrier, along and apart, shape (forces, 2, 3)."""
+    direction: Floats
+    """Direction of the load on each support, shape (supports, 2, 3), and friction torque of each bearing by its load
+    [N m], shape (bearings, 2): as used in the last solution, and as in that solution.
+    """
+    pressing: Floats
 
 
 class StepRules(NamedTuple):
@@ -185,7 +198,7 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
                 b[system.bearing_of[x]] -= step * system.sliding[m] * turning * system.bearing_c[x]
             else:
                 # a stuck bearing is viscous up to its sticking torque at the creep speed
-                stiff = step * system.sticking[m] / creep * system.bearing_c[x]
+                stiff = step * (system.sticking[m] + here.pressing[m, 1]) / creep * system.bearing_c[x]
                 for y in range(system.bearing_at[m], system.bearing_at[m + 1]):
                     A[system.bearing_of[x], system.bearing_of[y]] += stiff * system.bearing_c[y]
     for m in range(len(system.compliance)):
@@ -203,6 +216,8 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
             o = system.pair_of[x]
             A[n + m, o] = sign * (system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x])
             A[o, n + m] = -sign * (system.pair_driven[x] - here.arm[m, side] * system.pair_driver[x])
+    for support in range(len(system.loaded.bearing)):
+        press(system, state, here, step, support)
     for d in range(n):
         if system.given[d] != 0:
             # the speed is known, and the impulse of the drive is the unknown instead
@@ -210,6 +225,95 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
                 b[o] -= A[o, d] * state.speed[d]
                 A[o, d] = 0.0
             A[d, d] = -1.0
+
+
+@kernel
+def press(system: ContactSystem, state: ContactState, here: StepEquations, step: float, support: int) -> None:
+    """Add the friction of a turning bearing by the load R on one support: rho e.R, with the direction e of R in the
+    last solution.
+
+    This is the linearisation of rho |R| in Newton's method: its error is of second order in the change of direction.
+    """
+    loaded, e, n = system.loaded, here.direction[support, 0], len(here.v)
+    m, row = loaded.bearing[support], loaded.supports[support]
+    if state.turning[m] == 0:
+        return
+    for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
+        o, size = system.bearing_of[x], state.turning[m] * system.bearing_c[x] * row[6]
+        here.solution[o] -= step * size * (e[0] * row[0] + e[1] * row[1] + e[2] * row[2])
+        for f in range(len(loaded.pair)):
+            if loaded.share[support, f] != 0.0 and state.touching[loaded.pair[f]] != OPEN:
+                along, apart, torque = here.forces[f, 0], here.forces[f, 1], carrier_torque(system, state, here, f)
+                # a contact without backlash may pull
+                sign = -1.0 if here.P[loaded.pair[f]] < 0.0 else 1.0
+                on = torque * (e[0] * along[0] + e[1] * along[1] + e[2] * along[2])
+                on += sign * abs(torque) * (e[0] * apart[0] + e[1] * apart[1] + e[2] * apart[2])
+                here.matrix[o, n + loaded.pair[f]] += size * loaded.share[support, f] * on
+
+
+@kernel
+def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquations, f: int) -> float:
+    """Return the torque on the carrier per unit impulse of a touching pair, for the force `f` on bearings."""
+    m = system.loaded.pair[f]
+    side = state.touching[m] - 1
+    sides = system.loaded.forces[f]
+    return float((1.0 - 2.0 * side) * (sides[0] * here.arm[m, side] - sides[1]))
+
+
+@kernel
+def turn_forces(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
+    """Rotate the forces on bearings with their carriers (Rodrigues' formula), to the end of a step of length `step`."""
+    for f in range(len(system.loaded.pair)):
+        angle = 0.0
+        for d in range(len(here.v)):
+            angle += system.loaded.turn[f, d] * (state.angle[d] + step * state.speed[d])
+        c, s, k = cos(angle), sin(angle), system.loaded.about[f]
+        for part in range(2):
+            v = system.loaded.forces[f, 2 + 3 * part : 5 + 3 * part]
+            inside = (1.0 - c) * (v[0] * k[0] + v[1] * k[1] + v[2] * k[2])
+            for x in range(3):
+                y, z = (x + 1) % 3, (x + 2) % 3
+                here.forces[f, part, x] = v[x] * c + (k[y] * v[z] - k[z] * v[y]) * s + k[x] * inside
+
+
+@kernel
+def find_bearing_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> bool:
+    """Compute the loads on all bearings from the impulses; return True if their friction differs from that used."""
+    loaded, differs = system.loaded, False
+    for m in range(len(here.pressing)):
+        here.pressing[m, 0] = here.pressing[m, 1] if state.turning[m] == 0 else 0.0
+        here.pressing[m, 1] = 0.0
+    size = np.zeros(len(here.pressing))
+    R = np.zeros(3)
+    for support in range(len(loaded.bearing)):
+        m, row, e = loaded.bearing[support], loaded.supports[support], here.direction[support]
+        for x in range(3):
+            R[x] = step * row[x]
+            size[m] += abs(step * row[6] * row[x])
+        for f in range(len(loaded.pair)):
+            share = loaded.share[support, f]
+            if share != 0.0 and state.touching[loaded.pair[f]] != OPEN:
+                torque = share * carrier_torque(system, state, here, f) * here.P[loaded.pair[f]]
+                for x in range(3):
+                    own = torque * here.forces[f, 0, x] + abs(torque) * here.forces[f, 1, x] * (1 if share > 0 else -1)
+                    R[x] += own
+                    size[m] += abs(row[6] * own)
+        inside = R[0] * row[3] + R[1] * row[4] + R[2] * row[5]
+        for x in range(3):
+            R[x] -= inside * row[3 + x]
+        if state.turning[m] != 0:
+            here.pressing[m, 0] += row[6] * (e[0, 0] * R[0] + e[0, 1] * R[1] + e[0, 2] * R[2]) / step
+        length = sqrt(R[0] * R[0] + R[1] * R[1] + R[2] * R[2])
+        here.pressing[m, 1] += row[6] * length / step
+        if length > 0.0:
+            for x in range(3):
+                e[1, x] = R[x] / length
+    for m in range(len(here.pressing)):
+        # the forces of a train at rest are not determined: stuck bearings keep the loads of the last solution
+        off = abs(here.pressing[m, 1] - here.pressing[m, 0]) * step
+        if state.turning[m] != 0 and off > SAME_FRICTION * size[m]:
+            differs = True
+    return differs
 
 
 @kernel
@@ -295,9 +399,12 @@ def correct_bearings(
         now = state.turning[m]
         want = now
         if now == 0:
-            if rate > creep:
+            limit, used = creep, system.sticking[m] + here.pressing[m, 0]
+            if used > 0.0 and here.pressing[m, 0] != here.pressing[m, 1]:
+                limit *= (system.sticking[m] + here.pressing[m, 1]) / used
+            if rate > limit:
                 want = 1
-            elif rate < -creep:
+            elif rate < -limit:
                 want = -1
         elif rate * now < 0.0:
             # a fast reversal changes the sense at once; with `single` the bearing sticks first

@@ -97,7 +97,7 @@ def simulate(
     """
     system, n = model.system(plan.step, yields), len(model.torque)
     state = start_state(model, system)
-    here = empty_equations(n, len(model.pairs), len(model.stops))
+    here = empty_equations(model)
     samples = (plan.skip + plan.steps) // plan.stride
     record = empty_record(n, len(model.pairs) + len(model.stops), samples, _ROOM)
     teeth = compliant_teeth(len(model.pairs), yields)
@@ -236,12 +236,16 @@ def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
     return RunRecord._make([*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64)])
 
 
-def empty_equations(n: int, pairs: int, stops: int) -> StepEquations:
+def empty_equations(model: ContactModel) -> StepEquations:
     """Return empty arrays for the equations of one step."""
+    n, pairs, stops = len(model.torque), len(model.pairs), len(model.stops)
     contacts, flanks = pairs + stops, (pairs, 2)
     both, size = (contacts, 2), n + contacts
     shapes: list[Any] = [n, both, both, both, (size, size), size, n, contacts, n, n, n, flanks, flanks, stops]
-    return StepEquations._make([*(np.zeros(shape) for shape in shapes), np.zeros(contacts, dtype=np.int64)])
+    pressed = (0, 0) if model.loaded is None else (len(model.loaded.pair), len(model.loaded.bearing))
+    loads: list[Any] = [(pressed[0], 2, 3), (pressed[1], 2, 3), (len(model.bearings), 2)]
+    integers = np.zeros(contacts, dtype=np.int64)
+    return StepEquations._make([*map(np.zeros, shapes), integers, *map(np.zeros, loads)])
 
 
 def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeeth:

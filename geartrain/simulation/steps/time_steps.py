@@ -52,7 +52,9 @@ from geartrain.simulation.steps.contact_solution import (
     StepEquations,
     StepRules,
     correct_guess,
+    find_bearing_loads,
     solve_guess,
+    turn_forces,
 )
 from geartrain.simulation.steps.step_account import (
     count_contacts,
@@ -196,13 +198,21 @@ def solve_step(
     find_bounds(system, transmissions, state, here, rules, teeth)
     if len(system.stop_pitch) > 0:
         find_stop_bounds(system, state, here, rules.step)
-    rounds, again = 0, 0
+    turn_forces(system, state, here, rules.share * rules.step)
+    rounds, again, tried = 0, 0, 0
     while True:
         solve_guess(system, state, here, rules.step, rules.creep)
         rounds += 1
+        tried += 1
+        differs = len(system.loaded.bearing) > 0 and find_bearing_loads(system, state, here, rules.step)
         if rounds > rules.rounds:
             return rounds
-        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > AT_ONCE) > 0:
+        if correct_guess(system, state, here, rules.creep, rules.slack, tried > AT_ONCE) > 0:
+            continue
+        if differs:
+            # Newton's method: the contact states are solved again with the directions found
+            here.direction[:, 0] = here.direction[:, 1]
+            tried = 0
             continue
         if rules.share != 1.0 or again == _AGAIN:
             return rounds

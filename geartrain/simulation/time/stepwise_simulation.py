@@ -108,7 +108,7 @@ class Simulation(Shown):
             self._system.spring_rate[0] = self.drive
         self._state = start_state(model, self._system)
         self._names = list(self.restitution)
-        self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops))
+        self._room = empty_equations(model)
         self._rigid = compliant_teeth(len(model.pairs), None)
         self._run = run_steps.chosen(fast)
         self._torque = np.array(self._system.torque)
@@ -203,6 +203,8 @@ class Simulation(Shown):
 
     def set_drive(self, value: float) -> None:
         """Set the control value of the drive: a speed or a torque, which applies from the present time.
+
+        The line of a weight continues to press on bearings with its declared force.
 
         Parameters
         ----------

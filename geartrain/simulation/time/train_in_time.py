@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
+from geartrain.dynamics.torques.bearing_loads import BearingLoads
 from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.labelled_array import labelled_array
@@ -114,6 +115,10 @@ def model_in_time(
 
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
+    # vibration modes, for which no rate is needed, do not depend on friction
+    rubs = scale is None and any(part.friction_radius for part in train.declaration.links.values())
+    setting = train.unfolded.load_case(state) if rubs else None
+    loads = None if setting is None else BearingLoads(setting)
     train = train.planets_as_one
     declared, case, problem = (
         train.declaration,
@@ -132,8 +137,8 @@ def model_in_time(
     inertia = {each.link: each.value for each in find_link_inertias(train, state, with_inputs=True) if each.value}
     found = find_time_case(declared, case, problem, train.tree, inertia, rate, restitution, scale)
     if yields:
-        return CompliantTrain(declared, problem, found, train.tree, case.state, restitution=restitution)
-    return TrainModel(declared, problem, found, train.tree, case.state)
+        return CompliantTrain(declared, problem, found, train.tree, case.state, loads, restitution)
+    return TrainModel(declared, problem, found, train.tree, case.state, loads)
 
 
 def find_vibration_modes(

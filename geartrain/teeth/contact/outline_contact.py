@@ -169,9 +169,9 @@ def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> Non
     if not 0 < distance < limit:
         raise RangeError(
             Problem(
-                f"the distance {distance:.6g} between the axles is out of range",
-                "it must be finite and above 0" + (", and a shaft angle must be below 180 deg" if first.bevel else ""),
-                "give the distance from axle to axle (for bevel wheels, the shaft angle in rad)",
+                f"the {'shaft angle' if first.bevel else 'centre distance'} {distance:.6g} is out of range",
+                f"it must be above 0 and {'below pi rad' if first.bevel else 'finite'}",
+                f"give the {'shaft angle in rad' if first.bevel else 'distance between the axles'}",
             )
         )
 

@@ -325,7 +325,7 @@ def _too_many_stretches(tolerance: float) -> RangeError:
     return RangeError(
         Problem(
             f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
-            "it has too many kinks between which polynomials would be fitted",
+            "the function has too many kinks for a piecewise polynomial fit",
             "pass a larger tolerance, or describe measured teeth with fewer points",
         )
     )

@@ -62,8 +62,9 @@ class BlankSizes:
         for name in ("module", "bore", "rim", "tolerance", "fillet", "clearance"):
             value, may_be_0 = getattr(self, name), name in ("fillet", "clearance")
             if value is not None and not (isfinite(value) and (value > 0 or (may_be_0 and value == 0))):
-                fix = f"give a {name} {'of 0 or more' if may_be_0 else 'above 0'}"
-                problems.append(Problem(f"a {name} of {value:g} mm is out of range", "", fix, f"--blank {name}"))
+                rule = f"the {name} must be finite and {'0 or more' if may_be_0 else 'above 0'}"
+                fix = f"give a {name} such as 1"
+                problems.append(Problem(f"a {name} of {value:g} mm is out of range", rule, fix, f"--blank {name}"))
         if problems:
             raise QuestionError(problems)
 

@@ -111,10 +111,11 @@ class TriangularSizes(Shown):
         if min(self.z1, self.z2) < 1 or not (lengths and angles and -1 < self.side * self.excess < inf):
             raise RangeError(
                 Problem(
-                    f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half angles "
-                    f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} do not describe triangular teeth",
-                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half angles between 0 and pi/2, and "
-                    "the centre distance must be positive",
+                    f"these parameters do not describe triangular teeth: {self.z1} and {self.z2} teeth, outer radii "
+                    f"{self.R1:g} and {self.R2:g}, half angles {self.beta1:g} and {self.beta2:g} rad, clearance factor "
+                    f"{1 + self.side * self.excess:g}",
+                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half angles between 0 and pi/2 rad, and "
+                    "the clearance factor must be positive",
                     "give at least 3 teeth, radii and half angles above 0, and a clearance factor above 1",
                 )
             )

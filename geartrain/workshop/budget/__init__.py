@@ -2,7 +2,6 @@
 
 train_budget     options of a budget, collection of all causes, drift of ratios, cutting errors
 motion_causes    error of pins relative to the true motion of Moon and Sun; teeth and backlash
-crank_load       torque and efficiency at the crank: mean values, over a run, and with a driving weight
 pointer_budget   result types
-budget_report, budget_bars, verb   the report, the plot, the command
+budget_report, verb   the report and the chart, the command
 """

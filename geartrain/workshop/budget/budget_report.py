@@ -1,15 +1,16 @@
-"""Report on the error budgets of a train's pointers: causes in descending order, in degrees and in days."""
+"""Report and chart of the error budgets of a train's pointers: causes in descending order, in degrees and in days."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.report.document import Document, Section, Table, cut, ppm
-from geartrain.workshop.monte_carlo.monte_carlo_report import clearance_table
+from geartrain.workshop.budget.pointer_budget import CAUSES
 
 if TYPE_CHECKING:
-    from geartrain.workshop.budget.crank_load import CrankLoad
+    from geartrain.drawing.style import Figure, Row
     from geartrain.workshop.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
 
 NOT_DECLARED = "not declared"
@@ -53,8 +54,6 @@ def _sections(found: TrainBudget) -> Iterator[Section]:
     yield _drifts(found)
     for pointer in found.pointers:
         yield _pointer(pointer)
-    yield _crank(found)
-    yield _jams(found)
     if found.reversing_drivers:
         names = ", ".join(found.reversing_drivers)
         text = f"Drivers that reverse temporarily; the effect of a reversal is not included in lost motion: {names}."
@@ -123,68 +122,54 @@ def _pointer(pointer: PointerBudget) -> Section:
     return Section(f"Ranked: {pointer.name}", (), tables)
 
 
-def _crank(found: TrainBudget) -> Section:
-    crank = found.crank
-    tables = []
-    if crank.torque is not None or crank.over_turn is not None or crank.weight is None:
-        rows = [(crank.link, _or_undeclared(crank.torque), _efficiency(crank.efficiency), crank.note)]
-        tables = [Table(("link", f"torque{_unit(crank)}", "efficiency", "basis"), rows), *_over_turn(crank)]
-    alone = [(name, f"{each:.4g}") for name, each in crank.pointers.items()]
-    if alone:
-        tables.append(Table(("only this pointer driven", "efficiency"), cut(alone)))
-    return Section("Crank", tuple(_weight(crank)), tables)
+# ---------------------------------------------------------------------------------------------------------------- chart
+
+_MARKERS = ("D", "^", "o", "s", "v")
+_SMALL = 1e-4
+"""Size relative to the largest cause in the chart. Smaller causes have no mark, because they would stretch the axis."""
 
 
-def _over_turn(crank: CrankLoad) -> Iterator[Table]:
-    """Yield the table of the torque over the run, if loads are declared."""
-    found = crank.over_turn
-    if found is None:
-        return
-    if found.turns is None or found.mean is None:
-        yield Table(("over the run", "torque"), [("-", found.verdict.text)])
-        return
-    torques = (found.mean, found.maximum_torque, found.minimum_torque, found.starting_torque)
-    header = ("turns of the input", f"mean{_unit(crank)}", "maximum", "minimum", "starting", "efficiency")
-    whole = " (one period)" if found.span == found.period else ""
-    row = (f"{found.span:.6g}{whole}", *map(_or_undeclared, torques), _efficiency(found.efficiency))
-    yield Table(header, [row])
+def budget_figure(found: TrainBudget) -> Figure:
+    """Draw a chart with a row for each pointer, and a mark for the error due to each cause. The pointer with the
+    largest error is at the top.
+    """
+    from geartrain.drawing.style import MOST_ROWS, WHITE, interval_chart
+    from geartrain.scene.palette import series_colour
 
-
-def _unit(crank: CrankLoad) -> str:
-    """Return the unit of the torques in parentheses; empty if they were not computed over a run."""
-    return f" ({crank.over_turn.unit})" if crank.over_turn is not None and crank.over_turn.unit else ""
-
-
-def _efficiency(value: float | None) -> str:
-    return "0 (no output power)" if value == 0 else _or_undeclared(value)
-
-
-def _weight(crank: CrankLoad) -> Iterator[str]:
-    """Yield a sentence on the weight or the equalised fusee that drives the train, if there is one."""
-    weight = crank.weight
-    if weight is None:
-        return
-    text = f"The drive gives {weight.torque:.4g} {weight.unit} at '{weight.link}'."
-    if weight.needed is not None:
-        word = "the drive suffices" if weight.suffices else "the drive does not suffice"
-        text += f" The train needs up to {weight.needed:.4g} {weight.unit} to start; {word}."
-    if weight.mean is not None and weight.minimum is not None:
-        text += f" The torque at '{weight.wheel}' is {weight.mean:.4g} N m on average and at least {weight.minimum:.4g}"
-        text += "" if weight.efficiency is None else f"; {100 * weight.efficiency:.4g} % of the energy arrives there"
-        text += "."
-    yield text
-
-
-def _or_undeclared(value: float | None) -> str:
-    return NOT_DECLARED if value is None else f"{value:.4g}"
-
-
-def _jams(found: TrainBudget) -> Section:
-    if not found.jams:
-        return Section("Jams over clearance", (f"Not known: {found.jams_note}.",))
-    trials = found.jams[0].events["jam"].of
-    text = (
-        f"Probability of each event in any pair, from {trials} trials each, with 95 % intervals. Clearances below 1 "
-        "are fractions of the clearance window of each pair."
+    pointers = [found[name] for name in found.shown]
+    ranked = sorted((each for each in pointers if each.total > 0), key=lambda each: -each.total)
+    if not ranked:
+        why = "no cause of any pointer's error is declared, or all are 0"
+        what = f"the budget of '{found.name}' has nothing to draw"
+        raise QuestionError(Problem(what, why, "declare targets of outputs, or `tooth_form` of pairs"))
+    looks: dict[str, dict[str, Any]] = {
+        cause: {"marker": marker, "markersize": 8, "color": series_colour(at), "markeredgewidth": 1.6}
+        for at, (cause, marker) in enumerate(zip(CAUSES, _MARKERS, strict=True))
+    }
+    looks |= {_part(cause): {**look, "markersize": 11, "markerfacecolor": WHITE} for cause, look in looks.items()}
+    days = any(pointer.degrees_per_day for pointer in ranked)
+    smallest = _SMALL * max(cause.degrees or 0.0 for pointer in ranked for cause in pointer.ranked)
+    rows = [_row(pointer, days, smallest) for pointer in ranked[:MOST_ROWS]]
+    counts = {cause: sum(each.name == cause for pointer in pointers for each in pointer.undeclared) for cause in CAUSES}
+    unknown = ", ".join(f"{cause} of {count}" for cause, count in counts.items() if count)
+    label = "size of each cause (deg); open marks: declared in part"
+    label += f"\nnot declared, of {len(pointers)} pointers: {unknown}" if unknown else ""
+    name = found.name if found.state is None else f"{found.name}, {found.state}"
+    return interval_chart(
+        {label: rows}, looks, ("sum", *["days"] * days), f"{name}: causes of each pointer's error", log=True
     )
-    return Section("Jams over clearance", (text,), (clearance_table(found.jams, ("jam", "clash", "dwell")),))
+
+
+def _part(cause: str) -> str:
+    return f"{cause}, in part"
+
+
+def _row(pointer: PointerBudget, days: bool, smallest: float) -> Row:
+    from geartrain.drawing.style import Row, figures
+
+    known = [cause for cause in pointer.ranked if (cause.degrees or 0.0) >= smallest]
+    marks = {_part(cause.name) if cause.declared == "part" else cause.name: cause.degrees or 0.0 for cause in known}
+    spans = [cause.interval for cause in known if cause.interval is not None and cause.interval[0] > 0]
+    per_day = pointer.degrees_per_day
+    time = [figures(pointer.total / per_day) if per_day else "-"] * days
+    return Row(pointer.name, marks, spans, (f"{figures(pointer.total)}°", *time))

@@ -10,8 +10,6 @@ from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
 if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import SpeedValue
-    from geartrain.workshop.budget.crank_load import CrankLoad
-    from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
 
 CauseName = Literal["ratio", "theory", "teeth", "lost motion", "cutting"]
 Declared = Literal["whole", "part", "not declared"]
@@ -165,7 +163,7 @@ class PointerBudget(Result):
 
 @dataclass(frozen=True, slots=True)
 class TrainBudget(Tabular, Pictured, Result):
-    """Error budgets of a train's pointers in one state, with the crank torque and the probability of jams.
+    """Error budgets of a train's pointers in one state.
 
     See Also
     --------
@@ -190,11 +188,11 @@ class TrainBudget(Tabular, Pictured, Result):
 
     PAGE = "workshop.budget.budget_report:describe_budget"
 
-    FIGURE = "workshop.budget.budget_bars:budget_figure"
+    FIGURE = "workshop.budget.budget_report:budget_figure"
 
     KEYS = (
-        *("name", "state", "span_days", "turns", "samples", Key("input", "driving_link"), "pointers", "crank"),
-        *("jams", "jams_note", "reversing_drivers", "not_declared"),
+        *("name", "state", "span_days", "turns", "samples", Key("input", "driving_link"), "pointers"),
+        *("reversing_drivers", "not_declared"),
     )
 
     name: str
@@ -211,14 +209,6 @@ class TrainBudget(Tabular, Pictured, Result):
     """Name of the driving link."""
     pointers: tuple[PointerBudget, ...]
     """Budget of each requested output."""
-    crank: CrankLoad
-    """Torque and efficiency at the crank."""
-    jams: tuple[ClearanceCase, ...] = ()
-    """Probability that wheels with cutting errors jam, for each requested clearance; `jams_note` explains an empty
-    tuple.
-    """
-    jams_note: str = ""
-    """Reason why `jams` is empty; "" if `jams` has entries."""
     reversing_drivers: tuple[str, ...] = ()
     """Pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal."""
     shown: tuple[str, ...] = ()

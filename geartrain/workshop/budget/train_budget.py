@@ -23,7 +23,6 @@ from geartrain.errors import GearTrainError, Problem, QuestionError, check_choic
 from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
 from geartrain.numerics.confidence_intervals import deviation_of, percentile_of
 from geartrain.train.periods import period_table
-from geartrain.workshop.budget.crank_load import find_crank_load
 from geartrain.workshop.budget.motion_causes import (
     Body,
     DeclaredPairs,
@@ -36,7 +35,6 @@ from geartrain.workshop.budget.motion_causes import (
 )
 from geartrain.workshop.budget.pointer_budget import BudgetCause, Declared, PointerBudget, RatioDrift, TrainBudget
 from geartrain.workshop.cutting.declared_errors import read_error_overrides
-from geartrain.workshop.monte_carlo.clearance_study import jamming_map
 from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
 from geartrain.workshop.monte_carlo.trial_results import FEWEST, turning_trials
 from geartrain.workshop.monte_carlo.trial_run import run_trials
@@ -49,7 +47,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.work import Execution
     from geartrain.train.outputs import Target
-    from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
     from geartrain.workshop.monte_carlo.trial_results import TrialResults
 
@@ -83,12 +80,6 @@ class BudgetQuestion:
     """Number of trials with cutting errors."""
     seed: int = 1
     """Random seed of the trials."""
-    jam_trials: int = 64
-    """Number of trials at each clearance, from which the probability of jams is estimated."""
-    clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
-    """Clearances at which jams are counted. A value of 1 or more is a clearance factor; a value below 1 is a relative
-    position between the limits of each pair's clearance factor.
-    """
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
     """Celestial body whose motion an output represents, by output, if its name does not identify it; None for no body.
     """
@@ -105,8 +96,8 @@ class BudgetQuestion:
             raise QuestionError(Problem(what, why, "for example, give --turns 20 --samples 20000"))
 
 
-STAGES = 5
-"""Number of stages of a budget: speeds and pins, teeth and backlash, cutting, jams, crank."""
+STAGES = 3
+"""Number of stages of a budget: speeds and pins, teeth and backlash, cutting."""
 
 
 def find_budget(
@@ -135,7 +126,7 @@ def find_budget(
     Returns
     -------
     TrainBudget
-        Ranked causes of each pointer, torque at the crank, and probability of jams for each clearance.
+        Ranked causes of each pointer.
 
     Raises
     ------
@@ -167,12 +158,6 @@ def find_budget(
     plan, uncut = cutting_plan(train, requested.cutting, names, state, requested.without)
     cut = None if plan is None else find_cutting_trials(plan, motion, requested.trials, requested.seed, means)
     on_stage()
-    jams, jams_note = _jams(plan, uncut, requested, means)
-    on_stage()
-    crank = find_crank_load(
-        train, state, motion._problem.driving_link, {name: answer.outputs[name].of for name in names}
-    )
-    on_stage()
     days, pointers = _float(train.declaration.unit_days), []
     for name in names:
         output, speed, known = answer.outputs[name], answer.outputs[name].speed, teeth.declared[name]
@@ -196,9 +181,6 @@ def find_budget(
         requested.samples,
         motion._problem.driving_link,
         tuple(pointers),
-        crank,
-        jams,
-        jams_note,
         teeth.reversing_drivers,
         requested.outputs or train.declaration.dial_outputs(names),
     )
@@ -241,21 +223,6 @@ def _theories(
         # an output that does not represent a body but is read against the Moon is not a pointer of the Moon
         found[name] = [links[link] for link in ends] if output.of in links else []
     return found
-
-
-def _jams(
-    plan: TrialPlan | None, uncut: str, requested: BudgetQuestion, means: Execution
-) -> tuple[tuple[ClearanceCase, ...], str]:
-    """Return the probability of jams by clearance, or an empty tuple with the reason why it is unknown."""
-    if plan is None:
-        return (), uncut
-    if not requested.clearances:
-        return (), "no clearance was requested"
-    try:
-        cases = jamming_map(plan, requested.clearances, trials=requested.jam_trials, seed=requested.seed, means=means)
-    except GearTrainError as error:
-        return (), error.problems[0].what
-    return tuple(cases), ""
 
 
 # ---------------------------------------------------------------------------------------------------------------- ratio

@@ -101,7 +101,7 @@ def run(
         means = Execution(executor)
         found = find_budget(train, question, train.declaration.state_or_first(state), means, bar.advance)
     if plot is not None:
-        from geartrain.workshop.budget.budget_bars import budget_figure
+        from geartrain.workshop.budget.budget_report import budget_figure
 
         draw(budget_figure(found), picture)
     give(to, json, lambda: found, lambda: [describe_budget(found)])

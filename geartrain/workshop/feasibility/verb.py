@@ -40,8 +40,8 @@ def run(
         typer.Option(
             "--accuracy",
             metavar="FIRST:LAST:COUNT",
-            help="Compute the probability of turning at COUNT standard deviations of the pitches, in degrees, such as "
-            "0.02:0.3:6.",
+            help="Compute the probability that the train turns for COUNT values, from FIRST to LAST, of the standard "
+            "deviation of the pitch errors in degrees, such as 0.02:0.3:6.",
         ),
     ] = None,
     per_part: Annotated[

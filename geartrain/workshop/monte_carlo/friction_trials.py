@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
-from itertools import count, repeat
 from math import sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -151,8 +150,8 @@ def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False
         if _is_random(friction):
             drawn[name] = _with_coefficient(friction, streams.rng(item, FRICTION), trial % BLOCK)
     links = {
-        name: link.model_copy(update={"bearing": _drawn_bearing(link.bearing, streams, item, trial % BLOCK)})
-        for item, (name, link) in zip(count(1) if per_part else repeat(0), declared.links.items(), strict=False)
+        name: link.model_copy(update={"bearing": _drawn_bearing(link.bearing, streams, item, trial % BLOCK, per_part)})
+        for item, (name, link) in enumerate(declared.links.items(), 1)
         if link.bearing is not None
     }
     gears = [gear.model_copy(update=_friction_update(gear.name, drawn)) for gear in declared.gears]
@@ -161,11 +160,14 @@ def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False
     return declared.model_copy(update={**_friction_update(_TRAIN, drawn), **parts})
 
 
-def _drawn_bearing(bearing: BearingFriction, streams: RandomStreams, item: int, row: int) -> BearingFriction:
+def _drawn_bearing(
+    bearing: BearingFriction, streams: RandomStreams, item: int, row: int, per_part: bool
+) -> BearingFriction:
     """Return a bearing with its coefficient and radius drawn for trial number `row` of a block."""
 
     def between(low: float, high: float, kind: int) -> str:
-        return repr(float(streams.rng(item, kind).uniform(low, high, BLOCK)[row]))
+        shared = not per_part and ("coefficient" if kind == PIVOT else "radius") in bearing.shared
+        return repr(float(streams.rng(0 if shared else item, kind).uniform(low, high, BLOCK)[row]))
 
     update: dict[str, Any] = {}
     if bearing.range is not None:

@@ -385,5 +385,9 @@ def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tole
 
 def _uncuttable(what: str, why: str) -> GearTrainError:
     return GearTrainError(
-        Problem(f"the drawing cannot be cut: {what}", why, "change the teeth, the bore or the rim of the wheel")
+        Problem(
+            f"the wheel cannot be cut from this drawing: {what}",
+            why,
+            "change the teeth, the bore or the rim of the wheel",
+        )
     )

@@ -1,0 +1,150 @@
+"""Forces on the bearings whose friction grows with their load, as arrays for time steps.
+
+The directions of the forces and their shares on two bearings are those of `BearingLoads`, which has each equal planet
+as a separate link. A pair of the simulated train, in which equal planets are one link, has an equal part in the pair of
+each planet.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.torques.neglected_effects import unknown_forces
+from geartrain.kinematics.planet_copies import original
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.bearing_loads import AxisForce, BearingLoads
+    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.simulation.contacts.contact_model import Bearing
+    from geartrain.simulation.contacts.train_model import TrainModel
+
+
+class LoadedBearings(NamedTuple):
+    """Forces of pairs on bearings whose friction depends on their load, in SI units."""
+
+    pair: Ints
+    """Index of the pair of each force."""
+    forces: Floats
+    """Torque on the carrier per unit torque on the driver and per unit torque on the driven side, and the components
+    `along` and `apart` of `AxisForce` for a torque of 1 on the carrier, shape (forces, 8).
+    """
+    turn: Floats
+    """Speed of the carrier of each force per unit speed of the coordinates, shape (forces, n)."""
+    about: Floats
+    """Direction of the axis of that carrier, shape (forces, 3)."""
+    bearing: Ints
+    """Index of the bearing of each support. Its part of each force is `share`, shape (supports, forces)."""
+    share: Floats
+    supports: Floats
+    """Constant force on each support, direction of its axis, and radius of its friction circle, shape (supports, 7)."""
+
+    @classmethod
+    def none(cls, n: int) -> LoadedBearings:
+        """Return the arrays of a train with `n` coordinates in which no friction depends on loads."""
+        no = np.zeros(0, dtype=np.int64)
+        return cls(no, np.zeros((0, 8)), np.zeros((0, n)), np.zeros((0, 3)), no, np.zeros((0, 0)), np.zeros((0, 7)))
+
+
+@dataclass(frozen=True)
+class BearingForces:
+    """Forces on the loaded bearings of a simulated train."""
+
+    model: TrainModel
+    loads: BearingLoads
+
+    @cached_property
+    def pairs(self) -> Mapping[str, str]:
+        """Pair of the simulated train for each gear pair with separate planets.
+
+        Redundant pairs, whose shares of the torque are unknown, are omitted.
+        """
+        problem, wheels = self.model.problem, self.model.train.wheels
+        rows = {row.label for row in problem.system.equations}
+        own = {each.wheels: each.id for each in problem.circuits if each.kind == "gear" and each.id in rows}
+        gears = (each for each in self.loads.setting.circuits if each.kind == "gear")
+        found = {
+            each.id: own.get((original(each.wheels[0], wheels), original(each.wheels[1], wheels))) for each in gears
+        }
+        return {copy: pair for copy, pair in found.items() if pair is not None}
+
+    @cached_property
+    def forces(self) -> Mapping[int, AxisForce]:
+        """Forces of gear pairs by their index in `BearingLoads.forces`."""
+        return {at: force for at, force in enumerate(self.loads.forces) if force.name in self.pairs}
+
+    @property
+    def pressing(self) -> set[str]:
+        """Names of the pairs of the simulated train that press on loaded bearings."""
+        return {self.pairs[force.name] for force in self.forces.values()}
+
+    @cached_property
+    def thrust(self) -> Mapping[str, float]:
+        """Friction torque of shoulders by the weights along their axes [N m], by link; equal planets add up."""
+        found: Counter[str] = Counter()
+        for link, torque in zip(self.loads.links, self.loads.thrust[:, 0].tolist(), strict=True):
+            found[self._declared(link)] += torque
+        return found
+
+    @property
+    def notes(self) -> list[str]:
+        """Notes on forces that are not included."""
+        known = {self.loads.forces[at].name for at in self.forces}
+        loose = [force.name for force in self.loads.forces if force.links[0] is not None and force.name not in known]
+        found = [f"{each}: {each.why}" for each in unknown_forces(self.loads, loose=loose)]
+        if self.model.case.drive.kind != "torque":
+            lines = [force.name for force in self.loads.forces if force.links[0] is None]
+            found += [f"pull of the line on the bearing of {link}: the drive prescribes a speed" for link in lines]
+        return found
+
+    def arrays(self, bearings: Sequence[Bearing], sides: Mapping[str, tuple[int, int]]) -> LoadedBearings:
+        """Return the arrays for time steps.
+
+        sides   senses in which driver and driven side of each contact turn forwards, about the reference direction
+        """
+        loads, forces = self.loads, [*self.forces.values()]
+        contact = {name: at for at, name in enumerate(sides)}
+        of_link = {link: (at, radius) for at, each in enumerate(bearings) for link, radius in each.radii.items()}
+        links = [loads.links[number] for number, _, _ in loads.supports]
+        rows = [row for row, link in enumerate(links) if self._declared(link) in of_link]
+        found = [of_link[self._declared(links[row])] for row in rows]
+        constant = self.constant[rows]
+        ways = loads.ways(links[row] for row in rows)[:, :, 0]
+        return LoadedBearings(
+            np.array([contact[self.pairs[force.name]] for force in forces], dtype=np.int64),
+            np.array([self._row(force, *sides[self.pairs[force.name]]) for force in forces]).reshape(-1, 8),
+            np.array([self._turn(force.carrier) for force in forces]).reshape(-1, len(self.model.coordinates)),
+            loads.ways(force.carrier for force in forces)[:, :, 0],
+            np.array([bearing for bearing, _ in found], dtype=np.int64),
+            np.ascontiguousarray(loads.shares[np.ix_(rows, [*self.forces])]),
+            np.column_stack([constant, ways, [radius for _, radius in found]]),
+        )
+
+    def _declared(self, link: str) -> str:
+        return original(link, self.model.train.links)
+
+    def _row(self, force: AxisForce, driver: int, driven: int) -> list[float]:
+        # the copies of a planet have equal parts and turn equally about their own axes
+        second, setting = force.links[1], self.loads.setting
+        equal = Counter(self.pairs.values())[self.pairs[force.name]]
+        part = setting.sense(second) * self.model.problem.signs.get(self._declared(second), 1) / equal
+        return [part * driver, part * driven, *force.along, *(force.lean * each for each in force.apart)]
+
+    def _turn(self, carrier: str) -> Floats:
+        own: Floats = self.model.speeds[self.model.index[self._declared(carrier)]]
+        return self.loads.setting.sense(carrier) * own
+
+    @cached_property
+    def constant(self) -> Floats:
+        """Weights on each support, and the pull of the line of a driving weight [N], shape (supports, 3)."""
+        found = self.loads.weights[:, :, 0].copy()
+        drive = self.model.case.drive
+        for at, force in enumerate(self.loads.forces):
+            if force.links[0] is None and drive.kind == "torque":
+                found += self.loads.shares[:, at : at + 1] * abs(drive.torque) * np.array(force.apart)
+        return found

@@ -254,8 +254,10 @@ def best_pairing(
 
 def _spread(pairs: Pairs) -> Fraction:
     """Return the quotient of the maximum and minimum ratio of a stage."""
-    ratios = [Fraction(a, b) for a, b in pairs]
-    return max(ratios) / min(ratios)
+    # over a common denominator, integers instead of fractions
+    scale = prod(b for _, b in pairs)
+    ratios = [a * (scale // b) for a, b in pairs]
+    return Fraction(max(ratios), min(ratios))
 
 
 # ----------------------------------------------------------------------------------------------------- total orders

@@ -188,9 +188,12 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
     """Assemble the matrix and the right side of the linear equations (13) of docs/dynamics.md."""
     A, b, n = here.matrix, here.solution, len(here.v)
-    A[:, :] = 0.0
-    A[:n, :n] = system.matrix
-    b[:n] = here.load
+    # loops, because copies of slices check for overlap and take longer
+    for d in range(len(b)):
+        for o in range(len(b)):
+            A[d, o] = system.matrix[d, o] if d < n and o < n else 0.0
+    for d in range(n):
+        b[d] = here.load[d]
     for m in range(len(system.sliding)):
         turning = state.turning[m]
         for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
@@ -340,24 +343,13 @@ AT_ONCE = 6
 
 
 @kernel
-def correct_guess(
-    system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
-) -> int:
-    """Correct all wrong contact states, or only the one with the lowest index (Murty's method); return the number of
-    corrections.
-    """
-    # with `single` the first wrong state ends the search, contacts before bearings
-    found = correct_contacts(system, state, here, slack, single)
-    if len(system.sliding) > 0 and (found == 0 or not single):
-        found += correct_bearings(system, state, here, creep, single)
-    return found
-
-
-@kernel
 def correct_contacts(
     system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool
 ) -> int:
-    """Open contacts with tensile impulses, and close flanks that penetrate; return the number of changes."""
+    """Open contacts with tensile impulses, and close flanks that penetrate; return the number of changes.
+
+    single   change only the contact with the lowest index (Murty's method)
+    """
     found = 0
     for m in range(len(system.compliance)):
         now = state.touching[m]

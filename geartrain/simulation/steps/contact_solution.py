@@ -188,12 +188,12 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
     """Assemble the matrix and the right side of the linear equations (13) of docs/dynamics.md."""
     A, b, n = here.matrix, here.solution, len(here.v)
-    # loops, because copies of slices check for overlap and take longer
-    for d in range(len(b)):
-        for o in range(len(b)):
-            A[d, o] = system.matrix[d, o] if d < n and o < n else 0.0
+    A[:, :] = 0.0
+    # a loop, because compiled copies of slices check for overlap and take longer
     for d in range(n):
         b[d] = here.load[d]
+        for o in range(n):
+            A[d, o] = system.matrix[d, o]
     for m in range(len(system.sliding)):
         turning = state.turning[m]
         for x in range(system.bearing_at[m], system.bearing_at[m + 1]):

@@ -457,7 +457,6 @@ class TrainKinematics(Shown):
             found = {link: deviation(link, declared.frame) for link in speeds}
             return {link: tolerance for link, tolerance in found.items() if tolerance}
 
-        circles = ratios is not None and any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits)
         return Answer(
             declared.name,
             case.state,
@@ -473,7 +472,7 @@ class TrainKinematics(Shown):
             tolerances={} if deviation is None else LazyMapping(tolerances),
             expected=case.expect,
             sliding=declared.sliding,
-            contains_pi=LazyMapping(lambda: self._with_pi(case, speeds, seen)) if circles else {},
+            contains_pi={} if ratios is None else LazyMapping(lambda: self._with_pi(case, speeds, seen)),
             one_way=case.one_way,
             notes=case.notes,
         )
@@ -489,7 +488,9 @@ class TrainKinematics(Shown):
         return self._seen(solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative)
 
     def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:
-        """Return for each link and output whether its speed changes if another rational number replaces pi."""
+        """Return for each link and output whether its speed changes with another number for pi; empty without pi."""
+        if not any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits):
+            return {}
         other = [_with_other_pi(circuit) if circuit.travels else circuit for circuit in self.circuits]
         found, frame = self._solved_with(other, case), self.declaration.frame
         changes = {link: found(link, frame) != speed for link, speed in speeds.items()}

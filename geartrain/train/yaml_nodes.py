@@ -86,9 +86,8 @@ def parse_yaml(text: str, name: str) -> YamlNode:
     except yaml.MarkedYAMLError as error:
         raise DeclarationError(_syntax(error, name, text)) from None
     except yaml.YAMLError as error:
-        raise DeclarationError(
-            Problem("this is not YAML", str(error).splitlines()[0], "save it as UTF-8 text", name)
-        ) from None
+        why = str(error).splitlines()[0]
+        raise DeclarationError(Problem("this is not YAML", why, "save it as UTF-8 text", name)) from None
     if reader.problems:
         raise DeclarationError(reader.problems)
     if node.value is None:

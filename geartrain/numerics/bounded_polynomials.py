@@ -44,11 +44,8 @@ def products_of(columns: Sequence[Floats]) -> Product:
     """Return a `Product` that multiplies columns of values, one for each variable. Powers must be 1 or more."""
 
     def product(monomial: Monomial) -> Floats:
-        found: Floats = np.ones(())
-        for variable, power in monomial:
-            for _ in range(power):
-                found = found * columns[variable]
-        return found
+        factors = [columns[variable] for variable, power in monomial for _ in range(power)]
+        return reduce(np.multiply, factors) if factors else np.ones(())
 
     return product
 

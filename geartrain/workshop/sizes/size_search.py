@@ -2,8 +2,8 @@
 
 The objectives are continuous functions of the sizes, but they have kinks where the phases of the path of contact
 change, and several local minima. DIRECT finds the lowest minimum (`minimise`). The Pareto front of two objectives is
-found by the epsilon-constraint method: the first objective is minimised under bounds on the second, and all designs
-computed on the way are included.
+found by the epsilon-constraint method: the first objective is minimised under bounds on the second. All designs that
+were computed in the search are candidates for the front.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ USUAL_RANGES: Mapping[str, Range] = {
     "window": (0.1, 0.9),
     "half_angle": (pi / 12, pi / 4),
 }
-"""Default bounds of the free parameters; angles in rad."""
+"""Default bounds of the free parameters. Angles are in rad."""
 
 _BEYOND = 1e3  # value above every figure, for designs that turn but violate a limit
 _NOTHING = 1e6  # value of designs that cannot turn
@@ -57,14 +57,14 @@ class SizeSearch:
         self.designs: dict[Point, ToothSizes] = {}
 
     def design(self, at: Point) -> ToothSizes:
-        """Return the design at one point of the free parameters."""
+        """Return the design at one point in the space of the free parameters."""
         if at not in self.designs:
             self.designs[at] = self.start.at(dict(zip(self.free, at, strict=True)))
             self._on_design()
         return self.designs[at]
 
     def place(self, design: ToothSizes) -> Point:
-        """Return the coordinates of a design in the space of the free parameters, which may be outside the bounds."""
+        """Return the coordinates of a design in the space of the free parameters. They may be outside the bounds."""
         return tuple(map(design.parameter, self.free))
 
     @property
@@ -73,11 +73,13 @@ class SizeSearch:
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Return True if a design turns and satisfies all limits of the search and the limits `more`."""
+        """Return True if a design turns and satisfies all limits of the search and the additional limits `more`."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective as a function of a point; infeasible designs have larger values than feasible ones."""
+        """Return the objective as a function of a point. Infeasible designs have larger values than feasible
+        designs.
+        """
 
         def figure(at: Point) -> float:
             design = self.design(at)
@@ -90,7 +92,9 @@ class SizeSearch:
         return figure
 
     def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
-        """Return the best design for one objective; raise `QuestionError` if no design turns within the limits."""
+        """Return the best design for one objective. Raises `QuestionError` if no design turns and satisfies
+        the limits.
+        """
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
         if self.keeps(best):
@@ -104,7 +108,9 @@ class SizeSearch:
         raise QuestionError(Problem(what, why, fix))
 
     def front(self, first: str, second: str) -> tuple[ToothSizes, ...]:
-        """Return the Pareto front of two objectives, from the best design in the first to the best in the second."""
+        """Return the Pareto front of two objectives, from the best design for `first` to the best design for
+        `second`.
+        """
         ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):

@@ -191,7 +191,8 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """Orbit of a celestial body. The anomaly of a pointer is compared with the true motion of the body in this orbit."""
+    """Orbit of a celestial body. The anomaly of a pointer is compared with the true motion of the body in this
+    orbit."""
 
     eccentricity: float
     """Present eccentricity of the orbit."""

@@ -228,9 +228,8 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return tooth pairs with the nominal sizes plus the errors of tip heights, flank angles and centre distance."""
-        R1, R2 = sizes.signed_radii
-        return cls(
+        """Return tooth pairs with the nominal sizes plus the errors of tip heights, flank angles and centre
+        distance.""" R1, R2 = sizes.signed_radii return cls(
             R1 + tips[0],
             R2 + tips[1],
             sizes.beta1 + flanks[0],

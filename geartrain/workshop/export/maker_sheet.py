@@ -55,7 +55,7 @@ def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byte
 
 
 def hole_rows(plate: FlatPlate) -> list[tuple[str, ...]]:
-    """Return number, name, diameter and coordinates relative to the datum of each hole of a plate [mm], as text.
+    """Return number, name, x and y relative to the datum [mm] and diameter [mm] of each hole of a plate, as text.
 
     The datum is the first hole of an axis, or the first hole if the plate has no axis.
     """

@@ -349,9 +349,7 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the deviations of the body angles from uniform motion due to teeth and pins [rad], shape (bodies,
-        count + 1).
-        """
+        """Return the transmission errors of the bodies due to teeth and pins [rad], shape (bodies, count + 1)."""
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

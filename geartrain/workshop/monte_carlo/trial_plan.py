@@ -183,7 +183,9 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, but by at most an eighth of a pitch."""
+        """Return a cut pair filed until it turns without a jam. At most an eighth of a pitch is removed from each
+        flank.
+        """
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
@@ -268,7 +270,9 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, but by at most an eighth of a pitch."""
+        """Return a cut pair filed until it turns without a jam. At most an eighth of a pitch is removed from each
+        flank.
+        """
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 

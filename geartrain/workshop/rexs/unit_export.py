@@ -257,7 +257,7 @@ class _Unit:
 
     @cached_property
     def first(self) -> int:
-        """Index of the state in which the unit is first written."""
+        """Index of the selected state; 0 if no states are declared."""
         return [case.state for case in self.cases].index(self.work.scene.state) if self.work.train.states else 0
 
     @cached_property

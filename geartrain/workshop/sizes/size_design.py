@@ -207,7 +207,7 @@ class ToothSizes(Result):
 
     @property
     def phases(self) -> str:
-        """Name of the sequence of phases of the path of contact."""
+        """Name of the sequence of phases along the path of contact."""
         assert self.transmission is not None
         return phases_of(self.transmission)
 

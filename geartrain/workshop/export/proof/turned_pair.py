@@ -158,8 +158,8 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the lower and upper limit of the nearest free range of lags of wheel 2 within half a pitch [rad]. If
-        there is none, both are the lag of minimum overlap.
+        """Return the free lag of wheel 2 within half a pitch that is nearest to a lag [rad], and its area of overlap
+        [mm2]. If no lag is free, the lag of minimum overlap is returned.
         """
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)

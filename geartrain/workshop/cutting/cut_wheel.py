@@ -229,7 +229,10 @@ class CutToothPairs(ToothPair):
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
         """Return tooth pairs with the nominal sizes plus the errors of tip heights, flank angles and centre
-        distance.""" R1, R2 = sizes.signed_radii return cls(
+        distance.
+        """
+        R1, R2 = sizes.signed_radii
+        return cls(
             R1 + tips[0],
             R2 + tips[1],
             sizes.beta1 + flanks[0],
@@ -276,7 +279,9 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1 by Sorge's equation (4); 0 if the tips do not meet."""
+    """Return the sine of half the maximum contact angle of wheel 1 by Sorge's equation (4); 0 if the tips do
+    not meet.
+    """
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 

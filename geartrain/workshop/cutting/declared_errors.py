@@ -45,7 +45,9 @@ class ErrorSpecification:
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces the declared error of the same kind, for the wheel or pair `of`, or for all if `of` is empty."""
+    """Error that replaces the declared error of the same kind, for the wheel or pair `of`, or for all if `of`
+    is empty.
+    """
 
     kind: str
     way: ErrorDistributionKind
@@ -239,7 +241,9 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
-    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with the smaller depth."""
+    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with the
+    smaller depth.
+    """
     fitting = mesh.gear.fitting or train.fitting
     reader = _pair_reader(train, mesh, lesser)
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}
@@ -251,7 +255,9 @@ def pair_errors(
 
 
 def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
-    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is not filed."""
+    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is
+    not filed.
+    """
     fitting = mesh.gear.fitting or train.fitting
     filing = fitting.filing if fitting is not None else None
     return _pair_reader(train, mesh, lesser).fraction("stroke", filing.stroke) if filing is not None else 0.0

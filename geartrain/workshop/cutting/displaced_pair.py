@@ -198,7 +198,9 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which errors can advance the end of contact and the start of contact [rad of the driver]."""
+        """Maximum angles by which errors can advance the end of contact and the start of contact [rad of the
+        driver].
+        """
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))

@@ -74,7 +74,9 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that jam or clash, and therefore cannot turn through their cycle while the driven wheel lags."""
+        """Mask of pairs that jam or clash, and therefore cannot turn through their cycle while the driven
+        wheel lags.
+        """
         return self.jams | self.clash
 
     @classmethod
@@ -581,7 +583,9 @@ class _EntriesAndExits:
         self.driver, self.driven = (np.atleast_2d(wheel.place) for wheel in (pair.first, pair.second))
 
     def _between(self, n: int) -> tuple[Any, Any]:
-        """Return the angles from each tooth to the tooth n teeth later, for the driver and for the driven wheel [rad]."""
+        """Return the angles from each tooth to the tooth n teeth later, for the driver and for the driven
+        wheel [rad].
+        """
         driver = n * self.sizes.p1 + np.roll(self.driver, -n, -1) - self.driver
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 

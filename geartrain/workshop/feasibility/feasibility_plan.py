@@ -68,7 +68,8 @@ class LoadedPart:
     """Tooth of a wheel, or arbor with its pivots, which may break under load.
 
     strength   median of the strength [MPa]; `spread` is the standard deviation of its logarithm
-    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels of the pairs under these loads [N m]
+    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels of the pairs under
+               these loads [N m]
     """
 
     name: str

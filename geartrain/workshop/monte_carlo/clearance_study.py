@@ -94,7 +94,9 @@ def jamming_map(
     plan : TrialPlan
         Train with its cutting and fitting errors.
     clearances : sequence of float or None
-        Clearance factors. A value of 1 or more multiplies the minimum centre distance, at which tips touch the roots. A value below 1 is a relative position between the limits of each pair's clearance factor. None is the declared clearance factor. These values vary in the outer loop.
+        Clearance factors. A value of 1 or more multiplies the minimum centre distance, at which tips touch the roots. A
+        value below 1 is a relative position between the limits of each pair's clearance factor. None is the declared
+        clearance factor. These values vary in the outer loop.
     scales : sequence of float
         Factors, 0 or more, by which all errors except measured tables are multiplied; by default 1.
     trials : int

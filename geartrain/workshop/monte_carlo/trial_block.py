@@ -169,7 +169,8 @@ class TrialWheels:
     def pair(self, at: int, widest: int = 0) -> Any:
         """Return one gear pair of drawn wheels in all trials.
 
-        widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for the drawn distance
+        widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for the drawn
+                 distance
         """
         pair = self.plan.pairs[at]
         if not pair.stroke:

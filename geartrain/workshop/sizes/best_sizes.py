@@ -129,7 +129,8 @@ def find_tooth_sizes(
     start : ToothSizes
         Initial design; parameters that are not free keep its values.
     aims : sequence of str
-        One or two of the objectives `loss`, `error` (transmission error), `impact` and `jam` (margin before a jam); two objectives give a Pareto front.
+        One or two of the objectives `loss`, `error` (transmission error), `impact` and `jam` (margin before a jam); two
+        objectives give a Pareto front.
     free : mapping of str to (float, float), optional
         Bounds of the free parameters `radii` (tip radius ratio divided by tooth ratio), `window` (position of the
         clearance factor between its limits, 0 to 1) and `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By
@@ -137,7 +138,8 @@ def find_tooth_sizes(
     limits : sequence of SizeLimit
         Limits that the design must satisfy.
     probability : ProbabilityLimit, optional
-        Limit on the probability that the pair with cutting errors jams or clashes. It is allowed only if there is one objective.
+        Limit on the probability that the pair with cutting errors jams or clashes. It is allowed only if there is one
+        objective.
     on_design : callable
         Progress function, called after each evaluated design.
 

@@ -1,8 +1,8 @@
-"""Forces on the bearings whose friction grows with their load, as arrays for time steps.
+"""Forces on the bearings whose friction increases with their load, as arrays for time steps.
 
-The directions of the forces and their shares on two bearings are those of `BearingLoads`, which has each equal planet
-as a separate link. A pair of the simulated train, in which equal planets are one link, has an equal part in the pair of
-each planet.
+The directions of the forces and their shares on two bearings are those of `BearingLoads`, which treats equal planets as
+separate links. A pair of the simulated train, in which equal planets are one link, is divided equally among the pairs
+of these planets.
 """
 
 from __future__ import annotations
@@ -32,21 +32,23 @@ class LoadedBearings(NamedTuple):
     """Index of the pair of each force."""
     forces: Floats
     """Torque on the carrier per unit torque on the driver and per unit torque on the driven side, and the components
-    `along` and `apart` of `AxisForce` for a torque of 1 on the carrier, shape (forces, 8).
+    `along` and `apart` of `AxisForce` for a unit torque on the carrier, shape (forces, 8).
     """
     turn: Floats
-    """Speed of the carrier of each force per unit speed of the coordinates, shape (forces, n)."""
+    """Speed of the carrier of each force per unit speed of each coordinate, shape (forces, n)."""
     about: Floats
-    """Direction of the axis of that carrier, shape (forces, 3)."""
+    """Direction of the axis of the carrier of each force, shape (forces, 3)."""
     bearing: Ints
-    """Index of the bearing of each support. Its part of each force is `share`, shape (supports, forces)."""
+    """Index of the bearing of each support. `share`, shape (supports, forces), contains the share of each force on the
+    support.
+    """
     share: Floats
     supports: Floats
-    """Constant force on each support, direction of its axis, and radius of its friction circle, shape (supports, 7)."""
+    """Constant force on each support, direction of its axis and radius of its friction circle, shape (supports, 7)."""
 
     @classmethod
     def none(cls, n: int) -> LoadedBearings:
-        """Return the arrays of a train with `n` coordinates in which no friction depends on loads."""
+        """Return empty arrays for a train with `n` coordinates in which no friction depends on loads."""
         no = np.zeros(0, dtype=np.int64)
         return cls(no, np.zeros((0, 8)), np.zeros((0, n)), np.zeros((0, 3)), no, np.zeros((0, 0)), np.zeros((0, 7)))
 
@@ -60,7 +62,7 @@ class BearingForces:
 
     @cached_property
     def pairs(self) -> Mapping[str, str]:
-        """Pair of the simulated train for each gear pair with separate planets.
+        """Mapping from each gear pair with separate planets to the corresponding pair of the simulated train.
 
         Redundant pairs, whose shares of the torque are unknown, are omitted.
         """
@@ -75,17 +77,19 @@ class BearingForces:
 
     @cached_property
     def forces(self) -> Mapping[int, AxisForce]:
-        """Forces of gear pairs by their index in `BearingLoads.forces`."""
+        """Forces of gear pairs, keyed by their index in `BearingLoads.forces`."""
         return {at: force for at, force in enumerate(self.loads.forces) if force.name in self.pairs}
 
     @property
     def pressing(self) -> set[str]:
-        """Names of the pairs of the simulated train that press on loaded bearings."""
+        """Names of the pairs of the simulated train that exert forces on loaded bearings."""
         return {self.pairs[force.name] for force in self.forces.values()}
 
     @cached_property
     def thrust(self) -> Mapping[str, float]:
-        """Friction torque of shoulders by the weights along their axes [N m], by link; equal planets add up."""
+        """Friction torque of shoulders due to weights along their axes [N m], keyed by link. The torques of equal
+        planets are added.
+        """
         found: Counter[str] = Counter()
         for link, torque in zip(self.loads.links, self.loads.thrust[:, 0].tolist(), strict=True):
             found[self._declared(link)] += torque
@@ -93,7 +97,7 @@ class BearingForces:
 
     @property
     def notes(self) -> list[str]:
-        """Notes on forces that are not included."""
+        """Notes on forces that the simulation neglects."""
         known = {self.loads.forces[at].name for at in self.forces}
         loose = [force.name for force in self.loads.forces if force.links[0] is not None and force.name not in known]
         found = [f"{each}: {each.why}" for each in unknown_forces(self.loads, loose=loose)]
@@ -103,9 +107,10 @@ class BearingForces:
         return found
 
     def arrays(self, bearings: Sequence[Bearing], sides: Mapping[str, tuple[int, int]]) -> LoadedBearings:
-        """Return the arrays for time steps.
+        """Return the forces on the loaded bearings as arrays for time steps.
 
-        sides   senses in which driver and driven side of each contact turn forwards, about the reference direction
+        sides   senses (1 or -1) of the forward rotation of the driver and of the driven side about the reference
+                direction, by contact
         """
         loads, forces = self.loads, [*self.forces.values()]
         contact = {name: at for at, name in enumerate(sides)}
@@ -141,7 +146,9 @@ class BearingForces:
 
     @cached_property
     def constant(self) -> Floats:
-        """Weights on each support, and the pull of the line of a driving weight [N], shape (supports, 3)."""
+        """Sum of the weights on each support and of the pull of the line of a driving weight [N], shape
+        (supports, 3).
+        """
         found = self.loads.weights[:, :, 0].copy()
         drive = self.model.case.drive
         for at, force in enumerate(self.loads.forces):

@@ -1,4 +1,4 @@
-"""Entry points of the time-domain simulation: runs with time steps h and h/2, whose results are compared, step-by-step
+"""Entry points of the time-domain simulation: comparison of two runs with time steps h and h/2, step-by-step
 simulation, and vibration modes.
 """
 
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from geartrain.simulation.time.stepwise_simulation import Simulation
 
 PER_TOOTH = 200
-"""Number of steps of the coarser run in the shortest tooth-passing period."""
+"""Number of time steps in the shortest tooth-passing period, in the run with the longer steps."""
 PER_SWING = 40
-"""Number of steps in the period of the fastest mode of compliant teeth."""
+"""Number of time steps in the period of the fastest vibration mode of compliant teeth."""
 _UNEVEN = 1.00618  # steps that meet a kink at every tooth would be evaluated on either side of it due to rounding
 _FEWEST = 200  # minimum steps per revolution of the driving link
 _FEWEST_TOUCHING = 1000  # the same with contacts: a pin's speed may change much within a small angle
@@ -54,12 +54,12 @@ _SLOW = 7e-5  # time of one step of one contact in plain Python [s]
 
 @dataclass(frozen=True)
 class DrivenTrain:
-    """Train with its drive for time-domain simulation; equal planets are merged into one."""
+    """Train with its drive for time-domain simulation. Equal planets are combined into one."""
 
     train: TrainMechanics
     state: str | None = None
     rate: str | float | None = None
-    """Speed of the first input that turns, as a string with a unit or in rad/s; None for the declared drive."""
+    """Speed of the first input that turns, as text with a unit or as a number in rad/s; None for the declared drive."""
     restitution: float | None = None
     """Coefficient of restitution of every impact; None for the declared values."""
     outputs: Sequence[str] = ()
@@ -77,7 +77,9 @@ class DrivenTrain:
         samples: int | None = None,
         fast: bool | None = None,
     ) -> TimeStudy:
-        """Return a study with two runs over `turns` revolutions of the driving link; see `GearTrain.dynamics`."""
+        """Return a study with two runs over `turns` revolutions of the driving link, as described in
+        `GearTrain.dynamics`.
+        """
         check_numbers(turns=turns, skip=skip, restitution=self.restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
@@ -85,7 +87,7 @@ class DrivenTrain:
         return TimeStudy(found, seen, turns, skip, steps, samples, fast)
 
     def simulation(self, step: float | None, fast: bool | None) -> Simulation:
-        """Return a simulation of the train that starts at time 0; see `GearTrain.simulation`."""
+        """Return a simulation of the train that starts at time 0, as described in `GearTrain.simulation`."""
         from geartrain.simulation.time.stepwise_simulation import Simulation
 
         check_numbers(step=step, restitution=self.restitution)
@@ -111,7 +113,7 @@ def model_in_time(
     yields: bool = False,
     scale: float | None = None,
 ) -> TrainModel:
-    """Return the contact model of a train; `rate` [rad/s] and `restitution` override the declared values.
+    """Return the contact model of a train. The arguments `rate` [rad/s] and `restitution` replace the declared values.
 
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """

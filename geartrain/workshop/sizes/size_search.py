@@ -125,7 +125,9 @@ class SizeSearch:
 
 
 def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
-    """Return the Pareto front of given designs, from the best in the first objective to the best in the second."""
+    """Return the Pareto front of given designs, from the best design for the objective `first` to the best for
+    `second`.
+    """
     found: list[ToothSizes] = []
     # in this order a design is dominated unless it improves the second objective
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
@@ -135,7 +137,9 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
 
 
 def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
-    """Return a front without designs that differ negligibly from the previous design; both ends remain."""
+    """Return a front without the designs that differ negligibly from their predecessor. Both ends of the front are
+    kept.
+    """
     worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
     found = [front[0]]
     for each in front[1:-1]:
@@ -145,7 +149,7 @@ def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
 
 
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Return the bounds of the free parameters; `USUAL_RANGES` replaces None.
+    """Return the bounds of the free parameters. Bounds that are None are replaced by the bounds in `USUAL_RANGES`.
 
     Raises `QuestionError` if a parameter or its bounds are invalid, or if no parameter is free.
     """
@@ -176,7 +180,8 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors jams or clashes, evaluated only for the best designs.
+    """Limit on the probability that a pair with cutting errors jams or clashes. It is evaluated only for the best
+    designs.
 
     See Also
     --------
@@ -186,7 +191,7 @@ class ProbabilityLimit:
     bound: float
     """Maximum probability that the pair jams or clashes, 0 to 1."""
     probability: Callable[[ToothSizes], float]
-    """Function that returns the probability that a design jams or clashes, such as `PairTrials.stops`."""
+    """Function that returns the probability that a given design jams or clashes, such as `PairTrials.stops`."""
 
 
 @dataclass(frozen=True)
@@ -240,9 +245,9 @@ class PairTrials:
 
 
 def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[ToothSizes, float]:
-    """Return the best design within a probability limit, and its probability.
+    """Return the best design that satisfies a probability limit, and its probability of a jam or clash.
 
-    Designs are evaluated in the order of their objective; designs near a rejected design are omitted.
+    Designs are evaluated in the order of their objective values. Designs near a rejected design are skipped.
     """
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
@@ -264,7 +269,9 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
 def _bisect_to_limit(
     search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """Bisect between an accepted design and the nearest rejected one, to approach the limit on the probability."""
+    """Return a design near the probability limit, with its probability. It is found by bisection between an accepted
+    design and the nearest rejected design.
+    """
     if not refused:
         return search.design(at), probability
     value = search.value(aim)
@@ -293,7 +300,7 @@ _STEP = 0.05  # size of the first simplex, as a fraction of each range
 
 @dataclass
 class SampledFunction:
-    """Function of points in a box, evaluated once at each point; `seen` contains all computed values."""
+    """Function of points in a box, which is evaluated once at each point. `seen` contains all computed values."""
 
     value: Function
     bounds: Sequence[tuple[float, float]]
@@ -306,25 +313,27 @@ class SampledFunction:
         return self.seen[at]
 
     def inside(self, x: Sequence[float] | Floats) -> Point:
-        """Return the point clipped to the box."""
+        """Return the point whose coordinates are clipped to the box."""
         return tuple(min(max(float(each), low), high) for each, (low, high) in zip(x, self.bounds, strict=True))
 
     @property
     def best(self) -> Point:
-        """Sampled point with the minimum value."""
+        """Sampled point at which the function has its minimum sampled value."""
         return min(self.seen, key=lambda at: self.seen[at])
 
 
 def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) -> float:
-    """Return the maximum difference of the coordinates of two points in a box, as a fraction of each range [1]."""
+    """Return the maximum over all coordinates of the difference of two points in a box, as a fraction of the range of
+    the coordinate [1].
+    """
     return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, bounds, strict=True))
 
 
 def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
-    """Minimise `value` in a box and return all samples; the best sample is the minimum.
+    """Return all samples of a minimisation of `value` in a box. The best sample is the minimum.
 
     bounds   bounds of each variable, low < high
-    starts   further points to evaluate; the result is never worse than the best start
+    starts   additional points at which `value` is evaluated; the result is never worse than the best of these points
     """
     sampled = SampledFunction(value, bounds)
     for start in starts:
@@ -347,7 +356,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
 
 
 def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> None:
-    """Minimise the function locally from one point; all evaluated points are added to the samples."""
+    """Minimise the function locally, beginning at one point. All evaluated points are added to the samples."""
     if len(start) == 1:
         ((low, high),) = sampled.bounds
         _search_between(sampled, start[0] - _STEP * (high - low), start[0] + _STEP * (high - low))
@@ -370,7 +379,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
 
 
 def _separate_basins(sampled: SampledFunction) -> list[Point]:
-    """Return the lowest samples such that no two are close to each other."""
+    """Return the samples with the lowest values such that no two of these samples are close to each other."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
         if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):
@@ -381,7 +390,7 @@ def _separate_basins(sampled: SampledFunction) -> list[Point]:
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
-    """Return the sampled neighbours on both sides of the lowest local minima, for one variable."""
+    """Return the sampled neighbours on both sides of each of the lowest local minima of a function of one variable."""
     places = sorted(at[0] for at in sampled.seen)
     values = [sampled.seen[at,] for at in places]
     around = [inf, *values, inf]
@@ -391,7 +400,7 @@ def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
 
 
 def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
-    """Minimise the objective in an interval by Brent's bounded method."""
+    """Minimise the function in an interval by Brent's bounded method. All evaluated points are added to the samples."""
     first, last = sampled.bounds[0]
     low, high = max(low, first), min(high, last)
     if high > low:
@@ -400,7 +409,9 @@ def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
 
 
 def _moved_point(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
-    """Return a point moved along one variable by a fraction of its range, in a direction that stays in the box."""
+    """Return the point that is moved along one variable by a fraction of its range, in a direction that stays in the
+    box.
+    """
     low, high = sampled.bounds[which]
     by = step * (high - low)
     place = at[which] + by if low <= at[which] + by <= high else at[which] - by

@@ -146,9 +146,7 @@ class BearingForces:
 
     @cached_property
     def constant(self) -> Floats:
-        """Sum of the weights on each support and of the pull of the line of a driving weight [N], shape
-        (supports, 3).
-        """
+        """Weights on each support plus the pull of the line of a driving weight [N], shape (supports, 3)."""
         found = self.loads.weights[:, :, 0].copy()
         drive = self.model.case.drive
         for at, force in enumerate(self.loads.forces):

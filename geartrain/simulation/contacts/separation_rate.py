@@ -288,8 +288,8 @@ def _first_separation(found: SeparationRates) -> str:
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum,
-    and the width of the narrowest interval between kinks [both in revolutions of the input].
+    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum
+    [revolutions of the input], and the width of the narrowest interval between kinks [revolutions of the input].
 
     For each pair, the intervals with the lowest speeds are refined with increasingly fine samples.
     """

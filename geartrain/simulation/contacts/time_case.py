@@ -23,9 +23,9 @@ _EQUAL = 1e-9  # relative tolerance of a speed given in rounded decimals
 
 @dataclass(frozen=True)
 class PowerInput:
-    """Drive of a train: a prescribed speed, a torque, a spring, or a hand with a compliant arm.
+    """Drive of a train: a prescribed speed, a torque, a spring, or a hand that turns the link through a spring.
 
-    The hand turns at a prescribed speed and drives the link through a torsional spring.
+    A hand turns at a prescribed speed and drives the link through a torsional spring.
     """
 
     link: str

@@ -198,7 +198,7 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 
 @kernel
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Assemble the matrix and the right side of the linear equations, equation (13) of docs/dynamics.md."""
+    """Assemble the matrix and the right side of equation (13) of docs/dynamics.md."""
     A, b, n = here.matrix, here.solution, len(here.v)
     A[:, :] = 0.0
     A[:n, :n] = system.matrix

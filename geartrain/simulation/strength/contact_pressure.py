@@ -98,7 +98,7 @@ class ContactPlace(Result):
     where: str
     """Name of the position on the path of contact, such as "pitch point"."""
     position: float
-    """Arc on the pitch circles from the pitch point to the position [pitch]."""
+    """Position of the contact, given as an arc on the pitch line from the pitch point [pitch]."""
     tooth_pairs: float
     """Number of tooth pairs in contact, each of which transmits an equal force.
 

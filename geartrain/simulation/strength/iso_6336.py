@@ -341,8 +341,8 @@ class ToothSide:
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """Return the load by a force that acts at the radius `radius`, along a line at the distance `arm` from the axis
-        [module].
+        """Return the load on a tooth due to a force that acts at the radius `radius`, along a line at the distance
+        `arm` from the axis [module].
 
         The load is defined by equation (4) of docs/strength.md.
         """
@@ -352,8 +352,8 @@ class ToothSide:
         return ToothLoad(radius, arm / cos(angle), angle)
 
     def load_at_tip(self) -> ToothLoad:
-        """Return the load by a force at the end of the flank, normal to its last chord. It is used for teeth without a
-        path of contact.
+        """Return the load on a tooth due to a force at the end of the flank, normal to its last chord. It is used for
+        teeth without a path of contact.
         """
         r = np.hypot(*self.points.T)
         # points off the tip circle

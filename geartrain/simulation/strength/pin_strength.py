@@ -29,7 +29,7 @@ class PinnedDisc:
     wheel: str
     """Name of the disc."""
     materials: tuple[tuple[str, Material], tuple[str, Material]]
-    """Materials of the disc and of the pins, with their names."""
+    """Materials of the disc and of the pins, each preceded by its name."""
     width: float
     """Width of contact [mm]."""
     torque: float

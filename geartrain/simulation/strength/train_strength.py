@@ -419,7 +419,9 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Return the number of revolutions of one wheel relative to the carrier during the service life."""
+        """Return the number of revolutions of one wheel relative to the carrier during the service life, or None if it
+        is unknown.
+        """
         if self.scale is None:
             return None
         relative = self.setting.relative(torque.links[at], torque.links[2])

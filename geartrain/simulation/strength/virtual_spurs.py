@@ -142,7 +142,7 @@ class SkewPair:
     """Geometry of both wheels. `forces` contains the forces on each wheel."""
     forces: tuple[WheelForce, WheelForce]
     materials: tuple[tuple[str, Material], tuple[str, Material]]
-    """Names and materials of both wheels' materials."""
+    """Materials of both wheels, each preceded by its name."""
     is_worm: bool
     """True if one wheel is a worm."""
     form: Involute

@@ -158,7 +158,7 @@ class RunFigures:
 
     @cached_property
     def drive(self) -> Floats:
-        """Torque at the power input [N m], positive in the sense of rotation of the driven link."""
+        """Torque at the power input [N m], positive in the sense of rotation of the link on which it acts."""
         source = self.of.case.drive
         way = -1.0 if self.of.typical(source.link) < 0 else 1.0
         # a prescribed speed needs the constraint torque of the run

@@ -304,7 +304,8 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre at the phase with the best least-squares fit [rad].
+    """Return an error over one cycle minus the equation of centre [rad], at the phase with the minimum mean square
+    difference.
 
     error   error at phases 2 pi k/n, shape (n,) [rad]; its mean is removed
     """

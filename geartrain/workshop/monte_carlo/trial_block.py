@@ -265,8 +265,8 @@ class TrialPointers:
     transmissions: dict[str, TrialTransmissionFunction]
 
     def errors(self, turns: Floats) -> Floats:
-        """Return the error of each output [rad], which is its deviation from its mean position with perfect teeth,
-        shape (outputs, n).
+        """Return the error of each output [rad]: its position with the drawn wheels minus the mean position that it
+        would have with perfect teeth, shape (outputs, n).
         """
         return self.cut.at(turns).error - self.even.at(turns).error
 

@@ -94,8 +94,8 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """Return the objective of the train before and after the optimisation as text: `a to b: loss (%) 46.9 as declared,
-    ...`.
+    """Return a text with the objective of the train as declared and optimised, such as `a to b: loss (%) 46.9 as
+    declared, ...`.
     """
     before, after = (
         "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)

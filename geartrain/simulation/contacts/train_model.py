@@ -148,8 +148,8 @@ class TrainModel:
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """Circuits (pairs and couplings) that are treated as contacts. These are all circuits except those that have a
-        constant ratio and neither backlash nor losses.
+        """Circuits (pairs and couplings) that are treated as contacts. Ideal pairs with a constant ratio are
+        eliminated, unless they load a bearing whose friction depends on the load.
         """
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 

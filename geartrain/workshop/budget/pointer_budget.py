@@ -37,7 +37,9 @@ class BudgetCause(Result):
     degrees: float | None = None
     """Size of this contribution as defined by `measure` [deg]; None if it is unknown."""
     rms: float | None = None
-    """Root mean square of the contribution [deg]. For the ratio and for cutting, the mean is subtracted first."""
+    """Root mean square of the contribution [deg]. For the causes "ratio" and "cutting", the mean is
+    subtracted first.
+    """
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 
@@ -50,7 +52,7 @@ class BudgetCause(Result):
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """Return a cause whose size is unknown, because data are missing or the error cannot be computed.
+        """Return a cause of unknown size, for which data are missing or the error cannot be computed.
 
         name   name of the cause
         note   reason why the size is unknown

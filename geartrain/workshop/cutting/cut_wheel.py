@@ -256,7 +256,8 @@ class CutToothPairs(ToothPair):
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio tau at driver angle x [rad] in the given phase.
+        """Return the speed ratio tau at driver angle x [rad] in the approach phase where `approaches` is True, and in
+        the recess phase elsewhere.
 
         It is infinite if jamming teeth overlap below the driven flank.
         """

@@ -81,7 +81,7 @@ class MeshingVerdicts:
 
     @classmethod
     def joined(cls, parts: list[MeshingVerdicts]) -> MeshingVerdicts:
-        """Return the verdicts of several batches, concatenated."""
+        """Return the verdicts of several batches, concatenated into one object."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
@@ -140,9 +140,9 @@ class BacklashCandidate:
     n: int
     phases: tuple[str, str]
     offset: float
-    """Angle of the front driving tooth from the line of centres at the minimum, minus n/2 pitches [rad]."""
+    """Angle of the front driving tooth from the line of centres at the minimum backlash, minus n/2 pitches [rad]."""
     backlash: float
-    """Backlash at the minimum [rad of the driven wheel]."""
+    """Minimum backlash of perfect wheels for this combination of tooth pairs [rad of the driven wheel]."""
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
@@ -205,7 +205,7 @@ def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
 
 
 def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
-    """Return the contact of one tooth pair of wheels without errors."""
+    """Return the contact data of a tooth pair of wheels without errors."""
     return CutToothPairs.of(sizes, (0.0, 0.0), (0.0, 0.0), 0.0)
 
 
@@ -451,8 +451,8 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return the driven tooth's angle from the line of centres at which the tooth pair n pairs before is in contact
-        [rad].
+        """Return the driven tooth's angle from the line of centres while the tooth pair n pairs before its own pair is
+        in contact [rad].
 
         The driving tooth of the driven tooth's own pair is then at the angle `reach`. The result is inf if the teeth do
         not touch.
@@ -496,8 +496,8 @@ class MeshingCycle:
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """Return the events of each trial that has pitch deviations only. Trials with uncertain events are computed for
-    every tooth pair.
+    """Return the events of each trial that has pitch deviations only. Trials with uncertain events are recomputed pair
+    by pair.
     """
     teeth, never = _EntriesAndExits(pair), np.zeros(pair.trials, bool)
     found = MeshingVerdicts(backlash_of_pitch_errors(pair), never, never.copy(), teeth.disengaged)

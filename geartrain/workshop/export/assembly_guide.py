@@ -331,7 +331,9 @@ class _Steps:
                 yield self._step(text, pins)
 
     def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount wheels on eccentrics, after all eccentrics that they need."""
+        """Yield the steps that mount wheels on eccentrics. The eccentrics that a step requires are mounted in earlier
+        steps.
+        """
         every = self.plan.stack.eccentrics
         for each in (each for each in every if each.name in names):
             own = [other.name for other in every if other.wheels == each.wheels]

@@ -31,7 +31,7 @@ class Sheet:
     """Drawing of one shape of flat part, or of a sheet of stock that contains several parts."""
 
     file: str
-    """Name of the file without suffix, and label of the part on sheets of stock."""
+    """Name of the file without suffix, which is also the label of the part on sheets of stock."""
     drawing: FlatDrawing
     parts: tuple[str, ...]
     """Names of the parts in the drawing, with one entry for each piece."""

@@ -90,7 +90,7 @@ class LoadedPart:
 
 @dataclass(frozen=True)
 class FeasibilityPlan:
-    """Input data of feasibility trials of a train in one state; `find_feasibility_plan` describes the fields."""
+    """Input data of feasibility trials of a train in one state. The fields are described in `find_feasibility_plan`."""
 
     cutting: TrialPlan
     declared: Train

@@ -40,7 +40,9 @@ class ClearanceCase(Result):
     scale: float
     """Factor by which all manufacturing errors are multiplied, except errors that were measured tooth by tooth."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability that each event occurs in at least one pair: jam, clash, stops (jam or clash), dwell, disengaged."""
+    """Probability that each event (jam, clash, stops, dwell, disengaged) occurs in at least one pair; stops means jam
+    or clash.
+    """
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
     """Probability of each event in each pair, keyed by pair and then by event, as in `events`."""
 

@@ -47,7 +47,9 @@ _LAND = 0.05  # tooth heights below the tip circle at which the tip width is mea
 
 @dataclass(frozen=True, slots=True)
 class MeshProof(Result):
-    """Measured values of a mesh as cut. It is turned through a pitch, or through all combinations of unequal teeth."""
+    """Measured values of a mesh as cut. The mesh is turned through a pitch, or through all combinations of unequal
+    teeth.
+    """
 
     KEYS = ("pair", "declared", "minimum", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 

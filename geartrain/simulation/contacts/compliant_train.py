@@ -113,8 +113,8 @@ class CompliantTrain(TrainModel):
         return pair.opening_row(len(self.coordinates), pair.front.slope)
 
     def _inertia(self, row: Floats) -> float:
-        """Return the effective inertia of a pair [kg m2], 1/(r M^-1 r^T), where r is its `_row` and M is the mass
-        matrix.
+        """Return the effective inertia of a pair [kg m2], 1/(r M^-1 r^T), where r is the row returned by `_row` and M
+        is the mass matrix.
 
         The result is 0 if all speeds in the row are prescribed.
         """
@@ -273,7 +273,8 @@ class PairCompliance:
 
 
 def restitution_at(ratio: float) -> float:
-    """Return the coefficient of restitution of an impact on a spring and a damper that cannot pull.
+    """Return the coefficient of restitution of an impact against a spring and a damper that cannot exert a tensile
+    force.
 
     The damping ratio is 0 or more. The bodies separate where the contact force -k g - c dg/dt vanishes (stiffness k,
     damping c, gap g), before the spring is fully extended (Schwager and Poeschel 2007). At a damping ratio of 1 the

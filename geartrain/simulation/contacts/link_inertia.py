@@ -116,7 +116,7 @@ class _Bodies:
         self.train, self.declared = train, train.declaration
 
     def total_inertia(self, link: str) -> LinkInertia:
-        """Return the inertia of a link including the planets that it carries."""
+        """Return the moment of inertia of a link, including the planets that it carries."""
         if link in self.train.tree.lines:
             return self._sliding(link)
         own = self._own_inertia(link)

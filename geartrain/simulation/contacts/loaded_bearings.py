@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class LoadedBearings(NamedTuple):
-    """Forces of pairs on bearings whose friction depends on their load, in SI units."""
+    """Forces of pairs on bearings with load-dependent friction, in SI units."""
 
     pair: Ints
     """Index of the pair of each force."""
@@ -55,7 +55,7 @@ class LoadedBearings(NamedTuple):
 
 @dataclass(frozen=True)
 class BearingForces:
-    """Forces on the loaded bearings of a simulated train."""
+    """Forces on the bearings with load-dependent friction in a simulated train."""
 
     model: TrainModel
     loads: BearingLoads

@@ -67,7 +67,7 @@ class Elasticity:
 
 
 def elasticity_factor(first: Elasticity, second: Elasticity) -> float:
-    """Return the elasticity factor ZE of two materials [sqrt(MPa)]: docs/strength.md (1).
+    """Return the elasticity factor ZE of two materials [sqrt(MPa)], equation (1) of docs/strength.md.
 
     ZE^2 = 1 / (pi ((1 - nu1^2)/E1 + (1 - nu2^2)/E2))
 
@@ -80,7 +80,7 @@ def elasticity_factor(first: Elasticity, second: Elasticity) -> float:
 
 
 def hertz_pressure(factor: float, force: float, width: float, curvature: float) -> float:
-    """Return the maximum pressure of a line contact [MPa]: docs/strength.md (2).
+    """Return the maximum pressure of a line contact [MPa], equation (2) of docs/strength.md.
 
     factor      elasticity factor [sqrt(MPa)]
     force       normal force on the flanks [N]; `width` of contact [mm]
@@ -264,7 +264,7 @@ class ContactEllipse(NamedTuple):
 
 
 def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float], crossing: float) -> ContactEllipse:
-    """Return Hertz's contact ellipse of two crossed cylinders: docs/strength.md (25).
+    """Return Hertz's contact ellipse of two crossed cylinders, equation (25) of docs/strength.md.
 
     force        normal force [N]; `factor` is the elasticity factor ZE [sqrt(MPa)]
     curvatures   curvatures of both cylinders [1/mm]

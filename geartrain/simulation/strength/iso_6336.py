@@ -119,9 +119,9 @@ class IsoContact(Result):
     Zeps: float
     """Contact ratio factor."""
     M1: float
-    """Factor M1 of spur wheels, from which ZB follows by the lower limit 1."""
+    """Factor M1 of spur wheels. ZB is the larger of M1 and 1."""
     M2: float
-    """Factor M2 of spur wheels, from which ZD follows by the lower limit 1."""
+    """Factor M2 of spur wheels. ZD is the larger of M2 and 1."""
     nominal: float
     """Nominal contact stress sH0 at the pitch point [MPa]."""
     stress: tuple[float, float]
@@ -320,7 +320,7 @@ class ToothSide:
         return cls(upper[order], outward)
 
     def half(self, radius: float) -> float:
-        """Return half the angular thickness of the tooth at a radius [rad]."""
+        """Return half the angular thickness of the tooth at a given radius [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
         # all points of the tip circle; only the last of them is needed for the interpolation

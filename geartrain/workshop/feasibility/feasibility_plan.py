@@ -105,7 +105,7 @@ class FeasibilityPlan:
 
     @cached_property
     def crank(self) -> str:
-        """Link whose torque is computed: the crank, or the input."""
+        """Name of the link whose torque is computed: the crank or, if there is none, the driving link."""
         return self.declared.crank or self.cutting.driving_link
 
     @cached_property

@@ -167,7 +167,7 @@ class TrialWheels:
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """Return one gear pair of drawn wheels in all trials.
+        """Return the gear pair with index `at`, with its drawn wheels in all trials.
 
         widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for the drawn
                  distance

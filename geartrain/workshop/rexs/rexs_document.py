@@ -106,13 +106,15 @@ def written(attributes: Attributes) -> list[Model]:
 
 
 def to_json(model: Model) -> str:
-    """Return a model as the content of a JSON file."""
+    """Return the content of a JSON file that contains the given model."""
     # JSON has no NaN, so an undefined size must raise an error here and not in the reading program
     return json.dumps({"model": model}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def to_xml(model: Model) -> str:
-    """Return a model as the content of an XML file, with the byte order mark that REXS 1.4 requires."""
+    """Return the content of an XML file that contains the given model, with the byte order mark that REXS 1.4
+    requires.
+    """
     root = _element("model", model)
     ElementTree.indent(root)
     return f'\ufeff<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
@@ -181,7 +183,7 @@ def _unpacked(data: bytes) -> bytes:
 
 
 def _from_xml(text: str) -> Model:
-    """Return the model of an XML file in the structure of a JSON file."""
+    """Return the model in the text of an XML file, converted to the structure of a JSON file."""
     # entities could expand to an endless text, and REXS has none
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise ValueError("a document type declaration is not allowed")

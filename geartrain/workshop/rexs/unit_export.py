@@ -40,7 +40,7 @@ _FLANKS = {"bevel_gear": "bevel_gear_flank", "worm_gear": "worm_gear_flank", "wo
 
 
 def to_rexs(work: SolidModel, xml: bool = False) -> str:
-    """Return the gear unit of a train as a REXS file, in JSON by default or in XML (`xml`)."""
+    """Return the gear unit of a train as a REXS file, in XML if `xml` is True and in JSON if it is False."""
     return (to_xml if xml else to_json)(_Unit(work).model())
 
 

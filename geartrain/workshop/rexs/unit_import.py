@@ -68,7 +68,7 @@ class _Pose(NamedTuple):
     u: Vector
 
     def is_coaxial(self, other: _Pose) -> bool:
-        """Return True if the u-axes of both components lie on one line."""
+        """Return True if the u-axes of the two components are collinear, False otherwise."""
         distance = size(cross(self.u, minus(other.origin, self.origin)))
         scale = 1.0 + size(self.origin) + size(other.origin)
         return size(cross(self.u, other.u)) < _NEAR and distance < _NEAR * scale

@@ -216,15 +216,19 @@ class OutlineAgreement(Result):
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")
 
     loss: tuple[float, float]
-    """Loss computed from the transmission function and from the outlines [1]."""
+    """Two values of the loss [1]: computed from the transmission function, and computed from the outlines."""
     error: tuple[float, float]
-    """Peak-to-peak transmission error computed from the transmission function and from the outlines [rad of the driven
-    wheel].
+    """Two values of the peak-to-peak transmission error [rad of the driven wheel]: computed from the transmission
+    function, and computed from the outlines.
     """
     impact: tuple[float, float]
-    """Impact loss computed from the transmission function and from the outlines [1], as in `ToothSizes`."""
+    """Two values of the impact loss, as defined in `ToothSizes` [1]: computed from the transmission function, and
+    computed from the outlines.
+    """
     backlash: tuple[float, float]
-    """Backlash computed from the transmission function and from the outlines [rad of the driven wheel]."""
+    """Two values of the backlash [rad of the driven wheel]: computed from the transmission function, and computed from
+    the outlines.
+    """
     turns: bool
     """True if the drawn outlines turn without a jam and without a loss of contact."""
 

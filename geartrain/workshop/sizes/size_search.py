@@ -269,8 +269,8 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
 def _bisect_to_limit(
     search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """Return a design near the probability limit, with its probability. It is found by bisection between an accepted
-    design and the nearest rejected design.
+    """Return an accepted design near the probability limit, and its probability. It is found by bisection between an
+    accepted design and the nearest rejected design.
     """
     if not refused:
         return search.design(at), probability

@@ -213,7 +213,7 @@ class TrainSizeSearch:
     # ----------------------------------------------------------------------------------------------------- comparison
 
     def _resized(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
-        """Return the train with new sizes of some pairs."""
+        """Return the train in which the pairs in `sizes` have the given sizes."""
         declared = self.train.declaration
         forms = {name: {"tooth_form": Triangular.declared(form_data(each))} for name, each in sizes.items()}
         gears = tuple(gear.model_copy(update=forms.get(gear.name, {})) for gear in declared.gears)
@@ -369,7 +369,9 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """Sizes of one pair of a train: declared sizes, best sizes of the pair, and best sizes for the train."""
+    """Sizes of one pair of a train: declared sizes, sizes that are best for the pair, and sizes that are best for the
+    train.
+    """
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
 

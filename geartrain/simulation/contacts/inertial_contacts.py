@@ -257,7 +257,7 @@ def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
     """Return a table of the derivative of the speed ratio tau with respect to the driver angle S [1/rad].
 
-    It is computed from a table of tau.
+    The table is computed from a table of tau.
     """
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(

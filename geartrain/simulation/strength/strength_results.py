@@ -189,7 +189,7 @@ class ArborStrength(Result):
     link: str
     """Name of the link to which the arbor belongs."""
     material: str
-    """Material of the arbor."""
+    """Name of the material of the arbor."""
     force: float
     """Sum of the magnitudes of the transverse forces of all meshes on the arbor [N], as if all of them acted in one
     direction.

@@ -333,7 +333,7 @@ class RunFigures:
         return ImpactList(self.run.numbers[IMPACTS], names, time, speed, energy, impulse)
 
     def angle_of(self, name: str) -> Floats:
-        """Return the angle through which an output has turned [rad]."""
+        """Return the angle through which the output `name` has turned at each sample [rad]."""
         link, base = next(each[1:] for each in self.outputs if each[0] == name)
         found: Floats = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
         return found

@@ -400,7 +400,7 @@ class MeshingCycle:
     def _pairs_in_reach(self) -> int:
         """Return an upper bound of the number of tooth pairs that can be in contact at once.
 
-        It is the number of pairs in the cycle minus 2 if some tooth pair can never touch.
+        The bound is the number of pairs in the cycle minus 2 if some tooth pair can never touch.
         """
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
@@ -466,7 +466,7 @@ class MeshingCycle:
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
         """Return the driven tooth's angle from the line of centres [rad] in contact at driver angle x [rad].
 
-        After the loss of contact it is the angle at which contact ended.
+        After the loss of contact, the result is the angle at which contact ended.
         """
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))

@@ -51,7 +51,8 @@ class MethodAccuracy(Shown):
     """Reference of the comparison: another method, the method's own error estimate, or the power balance."""
     prepared: float | None = None
     """Run time of preparations, such as the computation of tooth shapes, which is not included in `seconds` [s]; None
-    if the method needs no preparations."""
+    if the method needs no preparations.
+    """
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -123,7 +124,8 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
     """Yield the accuracy of the methods for speeds: exact elimination, if `solve` uses it by default, and
-    floating-point elimination."""
+    floating-point elimination.
+    """
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -147,7 +149,8 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Yield the accuracy of the methods for motion: composition of transmission functions and first-order
-    superposition."""
+    superposition.
+    """
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -181,7 +184,8 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
     """Yield the accuracy of the methods for torques: torque balance with losses, and mean torque over several positions
-    of the input."""
+    of the input.
+    """
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

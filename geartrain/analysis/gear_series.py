@@ -41,7 +41,8 @@ class PossibleGear(Result):
 @dataclass(frozen=True)
 class GearSeries(Result):
     """Series of forward gears in order of decreasing ratio, with the steps between the gears and the spread of the
-    ratios."""
+    ratios.
+    """
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
@@ -71,7 +72,8 @@ class GearSeries(Result):
     @property
     def double_shifts(self) -> int:
         """Number of shifts between consecutive gears in which more than one element opens or more than one element
-        closes."""
+        closes.
+        """
         return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 
@@ -102,7 +104,8 @@ class GearSearch(Tabular, Result):
     """Number of combinations of `closed` shift elements. All of them were examined."""
     gears: tuple[PossibleGear, ...]
     """All gears: forward gears, then reverse gears, both in order of decreasing magnitude of the ratio, then gears
-    whose output is at rest."""
+    whose output is at rest.
+    """
     free: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` shift elements that leave some speeds undetermined."""
     locked: tuple[tuple[str, ...], ...] = ()
@@ -115,7 +118,8 @@ class GearSearch(Tabular, Result):
     """Gear series with the maximum spread; None if no series satisfies the request."""
     evenest: GearSeries | None = None
     """Gear series with the minimum standard deviation of the logarithmic steps; None if no series satisfies the
-    request."""
+    request.
+    """
 
     def _summary(self) -> str:
         ways = f"{self.combinations} combinations of {self.closed} closed elements"
@@ -193,7 +197,8 @@ def find_gears(
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
     """Return the sort key of a gear. Forward gears come first, then reverse gears, both in order of decreasing
-    magnitude of the ratio, then gears whose output is at rest."""
+    magnitude of the ratio, then gears whose output is at rest.
+    """
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
@@ -258,7 +263,8 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
 """Number of series, series with the maximum spread, and series with the minimum deviation. Both series are None if
-there is no series."""
+there is no series.
+"""
 _Way = tuple[float, int, tuple[int, ...]]
 """Sum of squares or variance of the logarithmic steps, number of double shifts, and indices of the gears of a series.
 """
@@ -289,7 +295,8 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
     """Return the best series from gear `start` to each last gear, and the number of series that end at this last gear.
-    The best series has the minimum sum of squared logarithmic steps."""
+    The best series has the minimum sum of squared logarithmic steps.
+    """
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):

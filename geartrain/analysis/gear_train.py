@@ -321,13 +321,15 @@ class GearTrain:
 
     def answers(self) -> Iterator[Answer]:
         """Yield the solved speeds of every state in the order of declaration. If the train has no states, yield one
-        answer."""
+        answer.
+        """
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
     def mobility(self) -> Mobility:
         """Mobility of the train by the counting formula and by exact rank, with redundant and locking loops
-        (docs/theory.md, 6)."""
+        (docs/theory.md, 6).
+        """
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:
@@ -445,7 +447,8 @@ class GearTrain:
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
         """Findings of the buildability check: parts that cannot be built or whose design is inadvisable
-        (docs/buildability.md)."""
+        (docs/buildability.md).
+        """
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
@@ -453,7 +456,8 @@ class GearTrain:
     @cached_property
     def closure(self) -> MeshPhasing:
         """Assembly condition of the train: phases of the teeth in every loop of pairs at the declared axis positions,
-        and mounting angles of the wheels."""
+        and mounting angles of the wheels.
+        """
         from geartrain.kinematics.phasing import find_phasing
 
         backlash = {mesh.name: mesh.backlash for mesh in self.mechanics.teeth}
@@ -763,7 +767,8 @@ class GearTrain:
     @property
     def unfolded(self) -> GearTrain:
         """Train in which each equal planet (`copies`) is declared as a separate link; the same object if the train has
-        no such planets."""
+        no such planets.
+        """
         # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
@@ -776,7 +781,8 @@ class GearTrain:
     @cached_property
     def kinematics(self) -> TrainKinematics:
         """Results that do not depend on tooth forms: tree of turning pairs, rotation senses of axes, inputs and brakes
-        of each state, gridlock, floating-point speeds, and sensitivity to tooth counts."""
+        of each state, gridlock, floating-point speeds, and sensitivity to tooth counts.
+        """
         return TrainKinematics(self.declaration)
 
     @cached_property

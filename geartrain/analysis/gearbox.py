@@ -43,34 +43,41 @@ class GearState(Result):
     """Verdict on the speeds. A neutral state is free, and a park state is locked."""
     ratio: Fraction | None
     """Speed of the input divided by the speed of the output [1]; None if one of the two links is at rest or its speed
-    is undetermined."""
+    is undetermined.
+    """
     step: Fraction | None
     """Ratio of this state divided by the ratio of the next state [1]. None if this is the last state, if one of the two
-    states has no ratio, or if the ratios have opposite signs."""
+    states has no ratio, or if the ratios have opposite signs.
+    """
     driven_by: str
     """Name of the link whose speed is the unit of `speeds` and `slips`: the input, or another turning input if the
     input is at rest. If no input turns, this name is empty, and `speeds` and `slips` are in the speed unit of the
-    train."""
+    train.
+    """
     speeds: Mapping[str, Fraction]
     """Speed of each link divided by the speed of `driven_by`. Links whose speed is undetermined are omitted."""
     slips: Mapping[str, Fraction]
     """Slip speed of each open clutch or brake, divided by the speed of `driven_by`. The slip of a brake is the speed of
     its link, and the slip of a clutch is the speed of its first link relative to its second link. Elements whose slip
-    is undetermined are omitted."""
+    is undetermined are omitted.
+    """
     torques: Mapping[str, Fraction | None]
     """Torque that each closed brake exerts on its link, or each closed clutch on its first link, divided by the torque
     of the input. The value is None if the torque is statically indeterminate. The mapping is empty if the torques of
-    the train are not determined."""
+    the train are not determined.
+    """
     efficiency: Fraction | float | None
     """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
     """Power that recirculates between gear sets, divided by the input power; None if the torques are not determined."""
     mesh_power: Fraction | None
     """Maximum power that a pair transmits relative to its carrier, divided by the input power; 0 if all links turn as
-    one body. None if the torques are not determined."""
+    one body. None if the torques are not determined.
+    """
     one_way: tuple[str, ...] = ()
     """Names of the one-way clutches that are engaged and transmit a torque. They remain engaged only while the input
-    drives."""
+    drives.
+    """
 
     @property
     def applied(self) -> tuple[str, ...]:
@@ -117,7 +124,8 @@ class ShiftElement(Result):
     """Name of the state in which `torque` occurs; empty if `torque` is None."""
     slip: Fraction | None
     """Slip speed of maximum magnitude over all states in which the element is open, divided by the speed of the link
-    `driven_by` of that state; None if the slip is undetermined in every state."""
+    `driven_by` of that state; None if the slip is undetermined in every state.
+    """
     slip_state: str
     """Name of the state in which `slip` occurs; empty if `slip` is None."""
 
@@ -167,7 +175,8 @@ class Gearbox(Tabular, Result):
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Columns of a table with one row for each state: closed elements, ratio, step, efficiency, recirculating
-        power, and speeds of the links divided by the speed of `driven_by`."""
+        power, and speeds of the links divided by the speed of `driven_by`.
+        """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
             name: [_optional_float(getattr(each, name)) for each in self.states]
@@ -260,7 +269,8 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
     """Return the slip speed of a clutch (its first link relative to its second) or of a brake (its link) in the unit of
-    `speeds`; None if it is undetermined."""
+    `speeds`; None if it is undetermined.
+    """
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -269,7 +279,8 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
     """Return the torques for the case that the input `source` drives and unit power leaves the train at the output
-    `link`; None if the torques are undetermined."""
+    `link`; None if the torques are undetermined.
+    """
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
@@ -277,7 +288,8 @@ def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques 
 
 def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
     """Return the torque of each closed element, keyed by element name. `engaged` maps the name of each element to the
-    names of the links that it connects or brakes."""
+    names of the links that it connects or brakes.
+    """
     drive, held = load.external[source], {each.links: each.torques for each in load.held}
     known = {name: held[links] for name, links in engaged.items() if links in held}
     # elements that hold the same links share their torque in an unknown ratio

@@ -115,7 +115,8 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
 def _frozen(graph: Graph) -> Graph:
     """Return the graph with its nodes, its edges and their declared attributes made read-only. Users can still add
-    other attributes."""
+    other attributes.
+    """
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
     for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
@@ -134,7 +135,8 @@ class _GraphFacts:
 
     def reference(self, link: str) -> str | None:
         """Return the link that carries the axis of `link`, so that the rotation of `link` is measured relative to it;
-        None for the frame."""
+        None for the frame.
+        """
         return self._train.tree.top.get(link)
 
     def speed(self, link: str) -> SpeedValue | None:
@@ -148,7 +150,8 @@ class _GraphFacts:
 
     def ratio(self, name: str) -> Fraction:
         """Return the speed of the first link of a circuit divided by the speed of its second link, both relative to the
-        carrier."""
+        carrier.
+        """
         return self._circuits[name].ratio
 
     def axis(self, name: str) -> tuple[str, str]:
@@ -157,13 +160,15 @@ class _GraphFacts:
 
     def mesh(self, name: str) -> GearMesh | CouplingMesh | None:
         """Return the gear pair with its tooth geometry and its driving wheel in this state, or the coupling with its
-        dimensions. Return None if the teeth of the pair or the dimensions of the coupling are not declared."""
+        dimensions. Return None if the teeth of the pair or the dimensions of the coupling are not declared.
+        """
         return self._meshes.get(name)
 
     def transmission(self, name: str) -> TransmissionFunction:
         """Return the transmission function of a gear pair or coupling in this state. Without a declared tooth form or
         dimensions, the function has a constant ratio, and the driver is the first wheel of the pair or the driving link
-        of the coupling."""
+        of the coupling.
+        """
         from geartrain.teeth.transmission import ExactRatio
 
         if (mesh := self.mesh(name)) is not None:
@@ -175,7 +180,8 @@ class _GraphFacts:
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
         """Return the basic efficiency of a pair when the first link of its circuit drives, and its basic efficiency
-        when the second link drives."""
+        when the second link drives.
+        """
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
         found = find_mean_efficiencies(self._losses, self._circuits[name])
@@ -197,7 +203,8 @@ class _GraphFacts:
     @cached_property
     def _losses(self) -> LoadCase:
         """Load case in which all carriers are fixed, so that the losses of a pair do not depend on the speeds of the
-        train."""
+        train.
+        """
         from geartrain.dynamics.torques.load_case import LoadCase
 
         own = self._train

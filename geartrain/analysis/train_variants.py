@@ -40,13 +40,16 @@ class TrainVariants(Tabular, Result):
     """Names of the outputs, in the order of the columns of `speeds` and `errors`."""
     counts: Ints
     """Tooth counts, one combination per row, shape (n, wheels), where n is the number of combinations; the count of the
-    last wheel varies fastest."""
+    last wheel varies fastest.
+    """
     speeds: Floats
     """Speeds of the outputs [unit of the train], shape (n, outputs), where n is the number of combinations. NaN if the
-    train is locked or free, or if the tooth counts do not satisfy the condition of a closed loop."""
+    train is locked or free, or if the tooth counts do not satisfy the condition of a closed loop.
+    """
     errors: Floats
     """Upper bounds on the relative errors of the speeds, shape (n, outputs), where n is the number of combinations;
-    infinite if no digit of the speed is certain."""
+    infinite if no digit of the speed is certain.
+    """
     formulas: Formulas
     """Exact formulas of the outputs; the method `exact` evaluates them."""
 

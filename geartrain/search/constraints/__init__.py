@@ -1,6 +1,6 @@
-"""Constraints on tooth counts in addition to ratios: assembly, clearance, sums.
+"""Constraints on tooth counts in addition to ratios: assembly, clearance, sums of tooth counts.
 
-assembly_constraints      constraints of a declared train: assembly, limits of wheels; equal planets: phases, clearance
-count_conditions          linear equations and conditions, evaluated for many candidates
-constraint_options        options, and their parser for the command line
+assembly_constraints      constraints of a declared train: assembly, limits of wheels, phases and clearance of equal
+planets count_conditions          linear equations and conditions, evaluated for many candidates constraint_options
+options of the constraints, and their parser for the command line
 """

@@ -99,7 +99,8 @@ class _ConstraintBuilder:
 
     def _owned(self) -> Iterator[CountConstraint]:
         """Yield a condition for each collection of available wheels: no tooth count may be used for more wheels than
-        the collection contains."""
+        the collection contains.
+        """
         wheels: dict[tuple[tuple[int, int], ...], dict[str, int]] = {}
         for name, (link, wheel) in self.declared.wheels.items():
             search = wheel.teeth.search if isinstance(wheel.teeth, Teeth) else None
@@ -151,7 +152,8 @@ class _ConstraintBuilder:
 
     def _coaxial(self) -> Iterator[CountConstraint]:
         """Yield the constraints that meshes between the same two axes have equal centre distances. Only meshes whose
-        modules have the same unit are compared."""
+        modules have the same unit are compared.
+        """
         if self.requested.coaxial is False:
             return
         first: dict[object, AssemblyMesh] = {}
@@ -194,7 +196,8 @@ class _ConstraintBuilder:
 
     def _declared_count(self, wheel: str) -> int | None:
         """Return the declared tooth count of a wheel; None if the search varies the count, so that the declared value
-        is only a placeholder."""
+        is only a placeholder.
+        """
         teeth = self.declared.wheels[wheel][1].teeth
         if isinstance(teeth, int):
             return teeth
@@ -214,7 +217,8 @@ class _ConstraintBuilder:
 
     def _different(self) -> Iterator[CountConstraint]:
         """Yield the conditions that the tooth count of a varied wheel differs from all fixed tooth counts, and then
-        from the count of each other varied wheel."""
+        from the count of each other varied wheel.
+        """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
         groups = joined_groups(self.fitting.train.wheels, copied)
@@ -239,7 +243,8 @@ class _ConstraintBuilder:
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
         """Yield each set of planets and its number of equal planets, as requested or as declared by `copies`. Sets
-        without such a number are omitted."""
+        without such a number are omitted.
+        """
         requested = self.requested.planets
         if requested is None:
             for one in self.fitting.sets:
@@ -261,12 +266,14 @@ class _ConstraintBuilder:
 
     def _declared_sets(self, one: PlanetSet) -> int:
         """Return the declared number of planet sets equal to the given one. Equal sets are declared by `copies` or
-        individually."""
+        individually.
+        """
         return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
 
     def _equal(self) -> Iterator[CountConstraint]:
         """Yield equations stating that the tooth counts of equal planets are equal, for planets that are declared
-        individually."""
+        individually.
+        """
         for one, _ in self._planet_sets():
             for first, other in self._copied(one):
                 found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
@@ -353,7 +360,8 @@ def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
     """Return g, u and v with u a + v b = g = gcd(a, b) for each pair of elements of the arrays a, b >= 0, by the
-    extended Euclidean algorithm."""
+    extended Euclidean algorithm.
+    """
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
         done = r2 == 0
@@ -384,7 +392,8 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
 
 def reason(found: PlanetSet, number: int) -> str:
     """Return a description of the assembly condition of equal planets. It contains the formula if there are two central
-    wheels."""
+    wheels.
+    """
     head = f"{number} equal planets on '{found.carrier}'"
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
@@ -434,7 +443,8 @@ def is_above_zero(room: WholeSum, columns: CandidateColumns) -> Bools:
 @dataclass(frozen=True, slots=True)
 class PlanetClearance:
     """Number of planets, and required minimum clearance between neighbouring planets [modules]. The addendum is assumed
-    to be 1 module."""
+    to be 1 module.
+    """
 
     number: int
     clearance: Fraction
@@ -479,7 +489,8 @@ class PlanetClearance:
 
     def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
         """Yield the conditions that the outer planet has clearance from the central wheels of the inner planet, and the
-        inner planet from the rings of the outer planet."""
+        inner planet from the rings of the outer planet.
+        """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
                 name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
@@ -487,7 +498,8 @@ class PlanetClearance:
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
         """Return twice the clearance of a planet from the central wheel of another planet, minus twice the required
-        clearance."""
+        clearance.
+        """
         reach, own = _reach(planet), planet.central[0]
         assert reach is not None
         assert mesh.module is not None
@@ -500,7 +512,8 @@ class PlanetClearance:
 
 def _is_plain(planet: Planet, external: bool) -> bool:
     """Return whether a planet consists of one wheel, is at the end of its planet set, and meshes only with external
-    central wheels (if `external`) or only with rings."""
+    central wheels (if `external`) or only with rings.
+    """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
 

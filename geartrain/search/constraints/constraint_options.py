@@ -62,7 +62,8 @@ class ConstraintOptions:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the options as a dict for JSON, in which quantities are strings. Options that are None or False are
-        omitted."""
+        omitted.
+        """
         found = {}
         for field in fields(self):
             value = getattr(self, field.name)
@@ -103,7 +104,8 @@ def read_constraint_options(
 
 def _read(problems: list[Problem], option: str, text: str | None, parse: Callable[[str], Read]) -> Read | None:
     """Parse the value of an option and return it. If the value is invalid, append a problem to `problems` and return
-    None."""
+    None.
+    """
     if text is None:
         return None
     try:

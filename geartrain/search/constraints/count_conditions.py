@@ -57,7 +57,8 @@ class CountEquation:
 
     def left(self, columns: CandidateColumns) -> Ints:
         """Return the left-hand side of the equation for each candidate, shape (candidates,); 0 if the equation is
-        satisfied. Sums above 2^63 overflow."""
+        satisfied. Sums above 2^63 overflow.
+        """
         terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
         return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
 
@@ -166,7 +167,8 @@ class WholeSum:
 
     def of(self, columns: CandidateColumns) -> Ints:
         """Return the value of the sum for each candidate, shape (candidates,); a single number if the sum has no varied
-        wheel. Sums above 2^63 overflow."""
+        wheel. Sums above 2^63 overflow.
+        """
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
             total = total + weight * columns[wheel]
@@ -210,7 +212,8 @@ def is_bounded(wheel: str, minimum: int, most: int, columns: CandidateColumns) -
 
 def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) -> Bools:
     """Return whether two tooth counts are coprime, so that every tooth of one wheel meets every tooth of the other
-    (hunting tooth)."""
+    (hunting tooth).
+    """
     return np.asarray(np.gcd(counts_of(columns, first), counts_of(columns, second)) == 1)
 
 
@@ -225,12 +228,12 @@ def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], colum
 
 
 def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel differs from all other counts."""
+    """Return whether the tooth count of a wheel differs from all tooth counts in `others`, for each candidate."""
     return np.asarray(np.all([columns[wheel] != counts_of(columns, other) for other in others], axis=0))
 
 
 def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the absolute value of a sum of counts is at most `most`."""
+    """Return whether the absolute value of a sum of tooth counts is at most `most`, for each candidate."""
     return np.asarray(np.abs(total.of(columns)) <= most)
 
 
@@ -251,14 +254,15 @@ def distance_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 Kernel = Callable[..., Sequence[Any]]
-"""Function `kernel(root, *numbers)` that returns the terms of a clearance, for arrays of floats or for decimals.
+"""Function `kernel(root, *numbers)` that returns the terms of a clearance. The numbers are arrays of floats, or
+decimals.
 
-`root` is the square root of the number type, with 0 for negative arguments.
+The argument `root` is the square-root function for the number type; it returns 0 for negative arguments.
 """
 
 
 def decimal(number: Fraction | int) -> Decimal:
-    """Convert a fraction to a decimal, correct to at least fifty digits."""
+    """Convert a fraction to a decimal that is correct to at least fifty digits."""
     with localcontext(prec=_DIGITS):
         return Decimal(Fraction(number).numerator) / Decimal(Fraction(number).denominator)
 
@@ -278,19 +282,19 @@ def sine(turns: Fraction) -> Decimal:
 
 
 def cosine(turns: Fraction) -> Decimal:
-    """Return the cosine of an angle from -1 to 3/4 turns to fifty digits."""
+    """Return the cosine of an angle from -1 to 3/4 turns to fifty digits, computed as a sine."""
     return sine(turns + Fraction(1, 4))
 
 
 def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Decimal], strictly: bool) -> Bools:
-    """Return, for each candidate, whether the sum of the terms of a kernel is positive (if `strictly`), or
-    non-negative.
+    """Return, for each candidate, whether the sum of the terms of a kernel is positive if `strictly` is True, or
+    non-negative if it is False.
 
-    counts     integers, arrays that broadcast to one shape, (candidates,)
-    constants  numbers that are the same for all candidates
+    counts     arrays of integers that broadcast to the shape (candidates,) constants  numbers that are the same for all
+    candidates
 
-    The sum is evaluated in floats, and with fifty digits where the result in floats is near 0. Terms may include roots
-    of differences of products.
+    The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0. Terms
+    may include roots of differences of products.
     """
     spread = np.broadcast_arrays(*counts)
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))

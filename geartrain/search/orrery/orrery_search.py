@@ -45,20 +45,22 @@ Tell = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """Arbor of an orrery: period, sense of rotation, wheels, and whether it carries a pointer."""
+    """Arbor of an orrery, with its period, its sense of rotation and its wheels."""
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """Name of the requested period of the arbor, or `arbor 1`, `arbor 2` and so on for intermediate arbors. The caller
-    names the first arbor.
+    """Name of the requested period of the arbor. Intermediate arbors are named `arbor 1`, `arbor 2` and so on, and the
+    caller gives the name of the first arbor.
     """
     period: Fraction
-    """Period [revolutions of the first arbor], exact and positive."""
+    """Exact period [revolutions of the first arbor], positive."""
     sense: int
-    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses the sense."""
+    """Sense of rotation relative to the first arbor: 1 for the same sense, -1 for the opposite sense. Every pair is
+    external and reverses the sense.
+    """
     wheels: tuple[int, ...]
-    """Distinct tooth counts of the wheels of the arbor, ascending."""
+    """Distinct tooth counts of the wheels on the arbor, in ascending order."""
     shows: bool
     """True if the arbor carries the pointer of a requested period."""
 
@@ -72,9 +74,9 @@ class OrreryPair(Result):
     driven: int
     """Tooth count of the driven wheel."""
     parent: str
-    """Arbor of the driving wheel."""
+    """Name of the arbor that carries the driving wheel."""
     child: str
-    """Arbor of the driven wheel."""
+    """Name of the arbor that carries the driven wheel."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,19 +105,19 @@ class Orrery(Tabular, Result):
     )
 
     periods: Mapping[str, Fraction]
-    """Requested periods by name [revolutions of the first arbor]."""
+    """Requested periods, keyed by name [revolutions of the first arbor]."""
     tolerances: Mapping[str, Fraction]
-    """Maximum absolute relative error of the speed of each pointer, by name of its period."""
+    """Maximum absolute relative error of the speed of each pointer, keyed by the name of its period."""
     arbors: tuple[OrreryArbor, ...]
-    """Arbors in topological order: the first arbor, then each arbor after the arbor that drives it."""
+    """Arbors in topological order: the first arbor first, and every other arbor after the arbor that drives it."""
     pairs: tuple[OrreryPair, ...]
     """Gear pairs in the order of their driven arbors."""
     errors: Mapping[str, Fraction]
-    """Exact relative error of each speed, by name of the period: speed divided by requested speed, minus 1; positive if
-    the arbor is too fast.
+    """Exact relative error of the speed of each pointer, keyed by the name of its period: speed divided by requested
+    speed, minus 1. It is positive if the arbor is too fast.
     """
     minimum_pairs: int
-    """Proved lower bound on the number of pairs; all smaller trees were enumerated."""
+    """Proved lower bound on the number of gear pairs. All trees with fewer pairs were enumerated."""
     minimum_wheels: int
     """Proved lower bound on the number of wheels."""
     ended: str
@@ -137,7 +139,7 @@ class Orrery(Tabular, Result):
 
     @property
     def worst(self) -> Fraction:
-        """Maximum absolute relative error of the speeds."""
+        """Maximum absolute relative error of the speeds of all pointers."""
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:

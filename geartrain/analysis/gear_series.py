@@ -34,7 +34,8 @@ class PossibleGear(Result):
     ratio: Fraction | None
     """Speed of the input divided by the speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Names of the declared states in which exactly these shift elements are closed; empty if the gear is not declared.
+    """Names of the declared states in which exactly these shift elements are closed; empty if the gear is not
+    declared.
     """
 
 
@@ -266,7 +267,8 @@ _Found = tuple[int, GearSeries | None, GearSeries | None]
 there is no series.
 """
 _Way = tuple[float, int, tuple[int, ...]]
-"""Sum of squares or variance of the logarithmic steps, number of double shifts, and indices of the gears of a series.
+"""Sum of squares or variance of the logarithmic steps, number of double shifts, and indices of the gears of a
+series.
 """
 
 

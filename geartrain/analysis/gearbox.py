@@ -213,7 +213,8 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
-    """Return the names of the input link and the output link. `QuestionError` is raised if the train is not a gearbox.
+    """Return the names of the input link and the output link. `QuestionError` is raised if the train is not a
+    gearbox.
     """
     if not declared.clutches or not declared.states:
         what = f"'{declared.name}' is not a gearbox"
@@ -298,7 +299,8 @@ def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]])
 
 
 def _circulation(load: Torques) -> Fraction | None:
-    """Return the power that recirculates between gear sets, divided by the input power; None if the input power is 0.
+    """Return the power that recirculates between gear sets, divided by the input power; None if the input power is
+    0.
     """
     flow = find_power_flow(load)
     if not flow.power_in:

@@ -5,20 +5,23 @@ surviving wheels, or uncertain tooth counts. The output is either a ranked list 
 conditions, with a flag that states whether the search was complete, or the posterior probabilities of the tooth counts.
 Tooth counts are compared as integers and ratios as `Fraction`s, so rounding errors cannot change a result.
 
-ratio          tooth counts of gear stages for one ratio: meet in the middle on sorted products (`find_stages`) train
-tooth counts of varied wheels of a declared train: an exact weighted join (`search_train`) epicyclic sets of sun,
-planets and ring: the Willis equation for all coaxial sets (`find_sets`) orrery         trains for many periods with
-shared wheels: branch and bound, beam search (`find_orrery`) reconstruct    all trains that explain surviving wheels and
-pointers (`reconstruct.reconstruct`) posterior      posterior of uncertain tooth counts by Bayes' theorem, exact or
-sampled (`infer_counts`) join           the exact join used by `train` and `posterior`: bucket elimination on lists of
-products constraints    further conditions on tooth counts: assembly, planets, limits of wheels
+ratio          tooth counts of gear stages for one ratio: meet in the middle on sorted products (`find_stages`)
+train          tooth counts of varied wheels of a declared train: an exact weighted join (`search_train`)
+epicyclic      sets of sun, planets and ring: the Willis equation for all coaxial sets (`find_sets`)
+orrery         trains for many periods with shared wheels: branch and bound, beam search (`find_orrery`)
+reconstruct    all trains that explain surviving wheels and pointers (`reconstruct.reconstruct`)
+posterior      posterior of uncertain tooth counts by Bayes' theorem, exact or sampled (`infer_counts`)
+join           the exact join used by `train` and `posterior`: bucket elimination on lists of products
+constraints    further conditions on tooth counts: assembly, planets, limits of wheels
 
 target_ratio, tooth_count_ranges   parsers for ratios and for ranges of tooth counts (`read_ratio`, `read_counts`)
 search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates
-stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`) weighted_alternatives   totals
-and marginals by the inside-outside algorithm; information in bits integer_columns         ranges of integers as arrays
-teeth_verb, approximants_verb      the command `teeth`, and the options that its searches share tooth_numbers_report
-tooth counts as documents and tables answers                 result types that commands print as JSON
+stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`)
+weighted_alternatives   totals and marginals by the inside-outside algorithm; information in bits
+integer_columns         ranges of integers as arrays
+teeth_verb, approximants_verb      the command `teeth`, and the options that its searches share
+tooth_numbers_report    tooth counts as documents and tables
+answers                 result types that commands print as JSON
 """
 
 from __future__ import annotations

@@ -82,7 +82,8 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train. In the train `fitting`, the varied wheels have placeholder tooth counts.
+    """Builder of the constraints of one train. In the train `fitting`, the varied wheels have placeholder tooth
+    counts.
     """
 
     declared: Train

@@ -82,8 +82,10 @@ def read_constraint_options(
 ) -> ConstraintOptions:
     """Parse the options from the strings of a command line; options that are None keep their defaults.
 
-    planets         "3" on every carrier, or "arm=3,inner=4" clearance       number of modules: "0.5", "4/5"
-    largest_radius  "60 mm", or "30" modules others          values of other fields of `ConstraintOptions`
+    planets         "3" on every carrier, or "arm=3,inner=4"
+    clearance       number of modules: "0.5", "4/5"
+    largest_radius  "60 mm", or "30" modules
+    others          values of other fields of `ConstraintOptions`
 
     The `QuestionError` lists all strings that cannot be parsed, each with the name of its option of `geartrain teeth
     train`.

@@ -40,7 +40,8 @@ It returns whether each candidate passes, shape (candidates,).
 
 @dataclass(frozen=True, slots=True)
 class CountEquation:
-    """Linear equation of tooth counts: the sum of the products of coefficients and tooth counts, plus a constant, is 0.
+    """Linear equation of tooth counts: the sum of the products of coefficients and tooth counts, plus a constant, is
+    0.
     """
 
     name: str
@@ -108,7 +109,8 @@ def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
 
 
 def free_of(*parts: CountRef) -> tuple[str, ...]:
-    """Return the distinct ids of varied wheels in a list of wheel ids and fixed tooth counts, in order of occurrence.
+    """Return the distinct ids of varied wheels in a list of wheel ids and fixed tooth counts, in order of
+    occurrence.
     """
     return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
 
@@ -220,8 +222,8 @@ def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) ->
 def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], columns: CandidateColumns) -> Bools:
     """Return whether each candidate uses no more wheels of each tooth count than are available.
 
-    numbers   pairs of a tooth count and the number of available wheels with this tooth count used      number of equal
-    wheels that each varied wheel represents
+    numbers   pairs of a tooth count and the number of available wheels with this tooth count
+    used      number of equal wheels that each varied wheel represents
     """
     total = {count: sum((columns[wheel] == count) * pieces for wheel, pieces in used.items()) for count, _ in numbers}
     return np.asarray(np.all([total[count] <= most for count, most in numbers], axis=0))
@@ -290,11 +292,12 @@ def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Deci
     """Return, for each candidate, whether the sum of the terms of a kernel is positive if `strictly` is True, or
     non-negative if it is False.
 
-    counts     arrays of integers that broadcast to the shape (candidates,) constants  numbers that are the same for all
-    candidates
+    counts     arrays of integers that broadcast to the shape (candidates,)
+    constants  numbers that are the same for all candidates
 
     The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0. Terms
-    may include roots of differences of products.
+    may include roots
+    of differences of products.
     """
     spread = np.broadcast_arrays(*counts)
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))

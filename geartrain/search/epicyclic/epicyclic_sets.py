@@ -318,7 +318,8 @@ class EpicyclicSet(CountSizes, Result):
     planets: int
     """Requested number of planets."""
     places: int
-    """Number of equally spaced positions at which identical planets can be assembled; 0 if every position is possible.
+    """Number of equally spaced positions at which identical planets can be assembled; 0 if every position is
+    possible.
     """
     room: float
     """Clearance between the tips of equally spaced neighbouring planets [modules]; negative if the planets overlap."""

@@ -103,7 +103,8 @@ def find_sets(
     modes.
 
     The coaxial equations leave at most three independent tooth counts (Willis 1841; Mueller, Epicyclic Drive Trains,
-    1982). All modules are equal.
+    1982).
+    All modules are equal.
 
     Parameters
     ----------
@@ -537,8 +538,9 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
     """Return, for each set, the number of equally spaced positions at which identical planets can be assembled.
 
     A number n of equal planets can be equally spaced if and only if n divides this number. If this number is 0, every
-    position is possible. Here z is the tooth count of a central wheel, P is the tooth count of the planet step with
-    which it meshes, and f is its speed relative to the carrier.
+    position is possible.
+    Here z is the tooth count of a central wheel, P is the tooth count of the planet step with which it meshes, and f is
+    its speed relative to the carrier.
 
     Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
     teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n

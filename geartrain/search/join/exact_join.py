@@ -41,8 +41,8 @@ them.
 class ExactJoin:
     """Exact join of a problem by bucket elimination (Dechter 1999).
 
-    slices   ranges of the values of some variables, to which the join is restricted budget   maximum number of steps;
-    `BudgetSpentError` is raised if it is exceeded
+    slices   ranges of the values of some variables, to which the join is restricted
+    budget   maximum number of steps; `BudgetSpentError` is raised if it is exceeded
     """
 
     def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:

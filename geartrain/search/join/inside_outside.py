@@ -66,7 +66,8 @@ class RecordedNode:
     misfit: Floats
     """Misfit added by each transition, from the graded constraints whose last variable is assigned at this node."""
     children: tuple[tuple[RecordedNode, Ints], ...]
-    """Child nodes, each with an array that contains the index of the row of the child to which each transition leads.
+    """Child nodes, each with an array that contains the index of the row of the child to which each transition
+    leads.
     """
 
 
@@ -136,7 +137,7 @@ class AssignmentSums:
     """Calculator of weighted sums over all assignments of a recorded join, for different weights of tooth counts.
 
     graded   True to multiply the weight of an assignment, which is the product of the weights of its tooth counts, by
-    exp(-misfit / 2)
+             exp(-misfit / 2)
     """
 
     def __init__(self, root: RecordedNode, graded: bool) -> None:

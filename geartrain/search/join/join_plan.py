@@ -102,7 +102,8 @@ class JoinProblem:
 
     @property
     def total(self) -> int:
-        """Total weight of all assignments before constraints are applied. It is their number if no weights are given.
+        """Total weight of all assignments before constraints are applied. It is their number if no weights are
+        given.
         """
         return prod(sum(self.weights.get(wheel, (1,) * len(counts))) for wheel, counts in self.domains.items())
 
@@ -130,7 +131,8 @@ def find_join_problem(
     The plans that are compared differ in the constraints that are evaluated last.
 
     probabilities   approximate fraction of the assignments that satisfy a constraint, keyed by the name of the
-    constraint weights         integer weights of tooth counts, as in `JoinProblem`
+                    constraint
+    weights         integer weights of tooth counts, as in `JoinProblem`
     """
     found = [_planned(domains, requested, early, late, probabilities) for early, late in _rule_partitions(rules)]
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})

@@ -38,7 +38,8 @@ ROUNDING = 2 * UNIT_ROUNDOFF  # doubled, so that second-order terms are covered
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Polynomial in the variables with integer coefficients, whose sign is computed exactly. All powers are at least 1.
+    """Polynomial in the variables with integer coefficients, whose sign is computed exactly. All powers are at least
+    1.
     """
 
     terms: tuple[tuple[int, Monomial], ...]

@@ -93,9 +93,10 @@ class Item:
     """Values of a variable in ascending order: distinct products of one tooth count of each wheel, raised to the power
     of the wheel.
 
-    values   products, int64, shape (m,), where m is the number of products x        products as float64, shape (m,)
-    times    total weight of the assignments that produce each product, shape (m,) sums     cumulative weights, starting
-    with 0, shape (m + 1,)
+    values   products, int64, shape (m,), where m is the number of products
+    x        products as float64, shape (m,)
+    times    total weight of the assignments that produce each product, shape (m,)
+    sums     cumulative weights, starting with 0, shape (m + 1,)
     """
 
     def __init__(self, wheels: Factors, domains: Domains, weights: Weights, dtype: Any) -> None:

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 ROUNDING = 1e-12
-"""Upper bound of the rounding error of the logarithms of periods and ratios, for logarithms with a magnitude below 100.
+"""Upper bound of the rounding error of the logarithms of periods and ratios, for logarithms with a magnitude below
+100.
 """
 _MOST_PAIRS = 2 * 10**7  # maximum number of pairs of counts in the table
 _MOST_STEPS = 4000  # maximum for one tree; a first complete assignment is always found
@@ -302,7 +303,8 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
     steps = 0
 
     def descend(at: int, wheels: int, taken: Meshes) -> None:
-        """Assign tooth counts to the pairs with index `at` and above. `wheels` is the number of wheels already in use.
+        """Assign tooth counts to the pairs with index `at` and above. `wheels` is the number of wheels already in
+        use.
         """
         nonlocal best, steps
         if at == len(edges):

@@ -336,7 +336,9 @@ class PathList:
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
     def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
-        """Return the paths extended by one arbor or avoiding it. No later arbor contains the primes in `closing`."""
+        """Return the paths extended through the arbor with index `at`, and the paths that avoid it. `closing` contains
+        the columns of primes that occur in no later arbor.
+        """
         # wheels unused on this path must be used on paths to the other dials
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
@@ -359,14 +361,16 @@ class PathList:
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _is_listed(self, at: int, each: ArborPass | None) -> bool:
-        """Return whether `along` permits a pass of an arbor; the pass is None if the path avoids the arbor."""
+        """Return whether `along` permits the pass `each` of the arbor with index `at`. The pass is None if the path
+        avoids the arbor.
+        """
         if self._along is None:
             return True
         arbor = (self.problem.input, *self.problem.arbors)[at]
         return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
 
     def _step(self, each: ArborPass) -> tuple[float, NDArray[np.int8]]:
-        """Return the speed ratio of a pass, and its changes of the powers of large primes."""
+        """Return the speed ratio of a pass, and the change of the exponents of the large primes due to the pass."""
         if each.idler:
             return 1.0, np.zeros(len(self.primes), dtype=np.int8)
         ratio = Fraction(_known_count(each.driver), _known_count(each.driven))
@@ -376,7 +380,9 @@ class PathList:
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Large primes, at most one of which divides the count of an added wheel; empty if the dial has a tolerance."""
+        """Large primes for which the tooth count of an added wheel contains at most one, and only once; empty if the
+        dial has a tolerance.
+        """
         if not self.dial.is_exact:
             return ()
         minimum = self.problem.additions.maximum
@@ -398,13 +404,13 @@ class PathList:
 
     @cached_property
     def _lost(self) -> Bools:
-        """Mask of the primes that are larger than the maximum tooth count."""
+        """Mask of the large primes that are larger than the maximum tooth count of an added wheel."""
         return np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
 
     @cached_property
     def _wanted(self) -> Fraction:
-        """Magnitude of the speed of the dial divided by the speed of the input; the minimum if the dial has a
-        tolerance.
+        """Magnitude of the speed of the dial divided by the speed of the input. If the dial has a tolerance, its
+        minimum speed is used.
         """
         minimum = self.dial.minimum
         return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
@@ -412,7 +418,9 @@ class PathList:
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> Bools:
-        """Return a boolean matrix, shape (paths, plans): True if a path is possible with a plan of added arbors."""
+        """Return, for each path and each plan of added arbors, whether the path is possible with the plan, shape
+        (paths, plans).
+        """
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, (compounds, idlers) in enumerate(plans):
@@ -427,7 +435,9 @@ class PathList:
         return found
 
     def _ring_meshes(self, codes: NDArray[np.uint16]) -> NDArray[np.int64]:
-        """Return the number of meshes with a ring on each path. They do not reverse the sense of rotation."""
+        """Return, for each path, the number of meshes with a ring. These meshes do not reverse the sense of
+        rotation.
+        """
         found = np.zeros(len(codes), dtype=np.int64)
         if self.problem.rings:
             for at, passes in enumerate(self.passes):
@@ -435,12 +445,14 @@ class PathList:
         return found
 
     def _may_turn(self, turned: bool) -> bool:
-        """Return whether the dial may turn opposite to the input (`turned`), or in the same sense."""
+        """Return whether the dial may turn in the sense opposite to the input (if `turned` is True) or in the sense of
+        the input (if it is False).
+        """
         return self._magnitudes(turned)[1] > 0
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
-        """Return the minimum and maximum speed magnitude of the dial in one sense; the maximum is 0 if the sense is
-        excluded.
+        """Return the minimum and the maximum magnitude of the speed of the dial for one sense of rotation. The maximum
+        is 0 if this sense is excluded.
         """
         low, high = self.dial.minimum, self.dial.maximum
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
@@ -465,11 +477,13 @@ class PathList:
         return minimum / ratio, np.where(turned, float(turned_high), float(high)) / ratio
 
     def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> Bools:
-        """Return for each path whether the dial turns opposite to the input, for given numbers of added arbors."""
+        """Return, for each path, whether the dial turns in the sense opposite to the input. `new` contains the number
+        of added arbors of each path.
+        """
         return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
-        """Return the minimum and maximum quotient of the added wheels on a path."""
+        """Return the minimum and the maximum required quotient of the added wheels on the path in a given row."""
         taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
         ratios = (Fraction(_known_count(each.driver), _known_count(each.driven)) for each in taken if not each.idler)
         known = prod(ratios, start=abs(self.problem.input_speed))
@@ -485,6 +499,6 @@ def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
 
 
 def _known_count(wheel: object) -> int:
-    """Return the tooth count of a surviving wheel; 1 for an added wheel and for None."""
+    """Return the tooth count of a surviving wheel. Return 1 for an added wheel and for None."""
     teeth = getattr(wheel, "teeth", 1)
     return teeth if wheel is not None and wheel != ADDED else 1

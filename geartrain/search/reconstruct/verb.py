@@ -1,4 +1,4 @@
-"""Command `geartrain reconstruct`: every train that explains surviving wheels and pointers."""
+"""Command `geartrain reconstruct`: search for all trains that explain surviving wheels and pointers."""
 
 from __future__ import annotations
 

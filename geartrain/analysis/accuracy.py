@@ -76,7 +76,7 @@ class TrainAccuracy(Tabular, TrainResult):
     methods: tuple[MethodAccuracy, ...]
     """Measured methods, ordered by stage."""
     neglected: dict[str, str]
-    """Reason why a stage was not measured, keyed by stage. Contains only the stages that were not measured."""
+    """Reason why a stage was not measured, keyed by stage. Stages that were measured are omitted."""
 
     def _summary(self) -> str:
         return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"

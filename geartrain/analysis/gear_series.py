@@ -210,8 +210,8 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
     """Return all gears that have the minimum number of closed elements, without a search for series.
 
-    The minimum number is that with which all speeds can be determined. All such combinations have the same size,
-    because they are the bases of a matroid.
+    This is the number of closed elements that is required to determine all speeds. All such combinations have the same
+    size, because they are the bases of a matroid.
     """
     declared = train.declaration
     names: dict[frozenset[str], list[str]] = {}
@@ -296,8 +296,8 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return the best series from gear `start` to each last gear, and the number of series that end at this last gear.
-    The best series has the minimum sum of squared logarithmic steps.
+    """Return, for each last gear, the best series that starts with gear `start`, and the number of such series. The
+    best series has the minimum sum of squared logarithmic steps.
     """
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}

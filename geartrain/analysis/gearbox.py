@@ -108,7 +108,7 @@ class Shift(Result):
 
 @dataclass(frozen=True)
 class ShiftElement(Result):
-    """Clutch or brake, with its maximum torque and its maximum slip over all states."""
+    """Clutch or brake, with its maximum torque and its maximum slip speed over all states of the gearbox."""
 
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
@@ -132,7 +132,7 @@ class ShiftElement(Result):
 
 @dataclass(frozen=True)
 class Gearbox(Tabular, Result):
-    """Results of all states of a train with clutches.
+    """Results for all states of a train with clutches.
 
     See Also
     --------

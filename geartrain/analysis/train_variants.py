@@ -23,7 +23,7 @@ MOST_VARIANTS = 100_000_000  # 0.8 GB for each column of float64
 
 @dataclass(frozen=True)
 class TrainVariants(Tabular, Result):
-    """Table of the speeds of outputs for combinations of tooth counts.
+    """Table of the speeds of outputs for many combinations of tooth counts.
 
     For a table `found`, `found["moon"]` is the column of the output or wheel "moon".
 
@@ -39,8 +39,8 @@ class TrainVariants(Tabular, Result):
     outputs: tuple[str, ...]
     """Names of the outputs, in the order of the columns of `speeds` and `errors`."""
     counts: Ints
-    """Tooth counts, one combination per row, shape (n, wheels), where n is the number of combinations; the count of the
-    last wheel varies fastest.
+    """Tooth counts, one combination per row, shape (n, wheels), where n is the number of combinations; the tooth count
+    of the last wheel varies fastest.
     """
     speeds: Floats
     """Speeds of the outputs [unit of the train], shape (n, outputs), where n is the number of combinations. NaN if the
@@ -51,7 +51,7 @@ class TrainVariants(Tabular, Result):
     infinite if no digit of the speed is certain.
     """
     formulas: Formulas
-    """Exact formulas of the outputs; the method `exact` evaluates them."""
+    """Exact formulas of the output speeds. The method `exact` evaluates them."""
 
     def __len__(self) -> int:
         return len(self.counts)

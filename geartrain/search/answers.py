@@ -1,4 +1,4 @@
-"""Result types of the searches that commands print as JSON."""
+"""Result types of the search commands that print their results as JSON."""
 
 from __future__ import annotations
 

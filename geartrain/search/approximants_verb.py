@@ -1,4 +1,4 @@
-"""Command `geartrain teeth approximants RATIO`: fractions that approximate a ratio."""
+"""Command `geartrain teeth approximants RATIO`: list fractions that approximate a ratio."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
 
 
 def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints, Ints]]:
-    """Yield the arrays of `spread` in blocks of at most `most` integers."""
+    """Yield the arrays returned by `spread` in blocks of at most `most` integers."""
     upto = np.cumsum(ends - starts)
     total = int(upto[-1]) if len(upto) else 0
     for begin in range(0, total, most):
@@ -45,7 +45,7 @@ def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints
 
 
 def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction], Ints]:
-    """Return the distinct values of the quotients above / below, and the index of its distinct value for each quotient.
+    """Return the distinct values of the quotients above / below, and for each quotient the index of its value.
 
     No element of `below` may be 0.
     """

@@ -26,9 +26,9 @@ class Shortfall(Result):
     it. None if rejected candidates were not counted.
     """
     nearest: str = ""
-    """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
-    ratio error, or of a constraint that no candidate satisfies. Empty if there is a solution or if the search was
-    interrupted.
+    """Description of the nearest miss: the rejected candidate with the smallest violation of a constraint, with its
+    tooth counts and ratio error, or a constraint that no candidate satisfies. Empty if there is a solution or if the
+    search was interrupted.
     """
     advice: str = ""
     """Suggestions of constraints to be relaxed, with the effect of each suggestion; empty if there is a solution."""
@@ -96,8 +96,8 @@ class GearStages(CountSizes, Result):
     error: Fraction
     """Exact relative error: `ratio` divided by the magnitude of the requested ratio, minus 1."""
     pairs: tuple[tuple[int, int], ...]
-    """Pairs of tooth counts (numerator, denominator), one for each stage, in the feasible pairing with the most stages
-    with coprime tooth counts.
+    """Pairs of tooth counts (numerator, denominator), one for each stage. The pairing is the feasible pairing with the
+    maximum number of stages with coprime tooth counts.
     """
 
     def _summary(self) -> str:
@@ -116,5 +116,5 @@ class GearStages(CountSizes, Result):
 
     @property
     def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Tooth counts of the numerator, and tooth counts of the denominator."""
+        """Two tuples: the tooth counts of the numerator and the tooth counts of the denominator."""
         return self.top, self.beneath

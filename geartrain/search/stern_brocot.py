@@ -82,14 +82,14 @@ class SternBrocotRun:
     far: IntegerPair
     """Numerator and denominator (P, Q) of the fraction on the opposite side of the approximated number."""
     whole: int
-    """Number of fractions in the run if there were no bounds, which is a term of the continued fraction. The fraction
-    with this index k is a convergent.
+    """Number of fractions that the run would contain without bounds. It is a term of the continued fraction, and the
+    fraction with this index k is a convergent.
     """
     length: int
     """Number of fractions in the run that are within the bounds."""
     best: int
-    """Minimum index k for which the fractions with this and all larger indices in the run are best approximations of
-    the first kind; `length` + 1 if there are none.
+    """Minimum index k from which all fractions in the run are best approximations of the first kind; `length` + 1 if no
+    fraction in the run is one.
     """
 
     def at(self, k: int) -> Fraction:
@@ -209,9 +209,8 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
 
     The fractions in a run approach `value` monotonically, and all fractions between them and `value` have larger
     denominators. It is therefore sufficient to compare each of them with P/Q, which is on the opposite side. Zero and
-    infinity are
-    excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
-    denominator.
+    infinity are excluded, because they are not gear ratios. An integer is compared with the next integer, which has the
+    same denominator.
     """
     # towards infinity the fractions are the integers up to `value`, of which only the last can be nearest
     if not far[1]:

@@ -49,7 +49,7 @@ class SearchGroup(LazyGroup):
     )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the name and the function of the search command and the remaining arguments. If the name of the search
+        """Return the name of the search command, its function, and the remaining arguments. If the name of the search
         is missing, `QuestionError` is raised with a suggestion.
         """
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):

@@ -175,7 +175,9 @@ def read_counts(text: str) -> CountRuns:
 
 
 def _spans(part: str) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last tooth count of each span of a single tooth count, a range or a construction set."""
+    """Yield the first and the last tooth count of each span in `part`, which is a single tooth count, a range, or the
+    name of a construction set.
+    """
     if any(letter.isalpha() for letter in part):
         from geartrain.train.mechanism import wheel_sets
 

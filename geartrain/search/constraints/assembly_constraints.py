@@ -152,7 +152,7 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Yield the constraints that meshes between the same two axes have equal centre distances. Only meshes whose
+        """Yield constraints that require equal centre distances of meshes between the same two axes. Only meshes whose
         modules have the same unit are compared.
         """
         if self.requested.coaxial is False:
@@ -217,8 +217,8 @@ class _ConstraintBuilder:
             yield from self._different()
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield the conditions that the tooth count of a varied wheel differs from all fixed tooth counts, and then
-        from the count of each other varied wheel.
+        """Yield conditions that require different tooth counts: first of a varied wheel and all fixed wheels, then of
+        each pair of varied wheels.
         """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
@@ -349,7 +349,8 @@ def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
     """Return whether `number` equal sets of planets, equally spaced around the central axis, can mesh with the same
     central wheels.
 
-    The condition is that `number` divides every integer returned by `phase_numbers`, where the condition is derived.
+    The condition is that `number` divides every integer returned by `phase_numbers`. This condition is derived in
+    `phase_numbers`.
     """
     # b is only needed modulo n; reduced, so that products of counts fit int64
     kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda one: one % number)
@@ -489,8 +490,8 @@ class PlanetClearance:
                 yield from self._gap_conditions(inner, outer)
 
     def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """Yield the conditions that the outer planet has clearance from the central wheels of the inner planet, and the
-        inner planet from the rings of the outer planet.
+        """Yield two kinds of conditions: the outer planet has clearance from the central wheels of the inner planet,
+        and the inner planet has clearance from the rings of the outer planet.
         """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
@@ -513,7 +514,7 @@ class PlanetClearance:
 
 def _is_plain(planet: Planet, external: bool) -> bool:
     """Return whether a planet consists of one wheel, is at the end of its planet set, and meshes only with external
-    central wheels (if `external`) or only with rings.
+    central wheels (if `external` is True) or only with rings (if it is False).
     """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)

@@ -1,4 +1,4 @@
-"""Options for the constraints on tooth counts in a search, and their parser for the command line."""
+"""Options for the constraints on tooth counts in a search, and a parser of these options for the command line."""
 
 from __future__ import annotations
 
@@ -82,9 +82,9 @@ def read_constraint_options(
 ) -> ConstraintOptions:
     """Parse the options from the strings of a command line; options that are None keep their defaults.
 
-    planets         "3" on every carrier, or "arm=3,inner=4"
-    clearance       number of modules: "0.5", "4/5"
-    largest_radius  "60 mm", or "30" modules
+    planets         number of planets: "3" for every carrier, or "arm=3,inner=4"
+    clearance       clearance in modules, such as "0.5" or "4/5"
+    largest_radius  length, such as "60 mm", or number of modules, such as "30"
     others          values of other fields of `ConstraintOptions`
 
     The `QuestionError` lists all strings that cannot be parsed, each with the name of its option of `geartrain teeth

@@ -45,7 +45,7 @@ class CountEquation:
     """
 
     name: str
-    """Description of the constraint in reports."""
+    """Name of the constraint in reports."""
     coefficients: Mapping[str, int]
     """Non-zero integer coefficient of each varied wheel; contains at least one wheel."""
     constant: int
@@ -85,7 +85,7 @@ class Condition:
     """Constraint that can be tested, but cannot be solved for the tooth count of a wheel."""
 
     name: str
-    """Description of the constraint in reports. Several conditions may have the same description."""
+    """Name of the constraint in reports. Several conditions may have the same name."""
     wheels: tuple[str, ...]
     """Ids of the varied wheels in the condition, at least one."""
     test: CandidateTest
@@ -104,7 +104,9 @@ CountConstraint = CountEquation | Condition
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
-    """Return the tooth counts of a wheel for all candidates: the column of a varied wheel, or the fixed tooth count."""
+    """Return the tooth counts of a wheel for all candidates: the column of a varied wheel, or the tooth count of a
+    fixed wheel.
+    """
     return columns[part] if isinstance(part, str) else np.asarray(part, dtype=np.int64)
 
 
@@ -127,7 +129,7 @@ class LinearSum:
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Build the sum of weighted parts, where a part is the id of a varied wheel or a fixed tooth count."""
+        """Build the sum from pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
         total = cls({})
         for weight, part in parts:
             total = total + (
@@ -178,7 +180,7 @@ class WholeSum:
 
 
 def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
-    """Multiply several sums by their smallest common positive factor that makes all weights and constants integers."""
+    """Multiply several sums by the smallest common positive factor for which all weights and constants are integers."""
     scale = lcm(*(number.denominator for one in sums for number in (*one.terms.values(), one.constant)))
     return tuple(
         WholeSum(tuple((wheel, int(weight * scale)) for wheel, weight in one.terms.items()), int(one.constant * scale))
@@ -187,7 +189,9 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """Return the multiple of a sum that has coprime integer weights and constant and a positive first weight."""
+    """Return a multiple of a sum. Its weights and its constant are coprime integers, and its first weight is
+    positive.
+    """
     (found,) = whole(one)
     # the greatest common divisor of a zero sum is 0
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
@@ -240,13 +244,13 @@ def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools
 
 
 def teeth_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair [modules]."""
+    """Return twice the centre distance of a spur pair [modules], as a sum of tooth counts."""
     return LinearSum.of(mesh.terms)
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair whose wheels have the same module [m; dimensionless if the module
-    has no unit].
+    """Return twice the centre distance of a spur pair whose wheels have the same module [m, or dimensionless if the
+    module has no unit].
     """
     assert mesh.module is not None
     return teeth_of(mesh).times(mesh.module)
@@ -296,8 +300,7 @@ def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Deci
     constants  numbers that are the same for all candidates
 
     The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0. Terms
-    may include roots
-    of differences of products.
+    may include roots of differences of products.
     """
     spread = np.broadcast_arrays(*counts)
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))

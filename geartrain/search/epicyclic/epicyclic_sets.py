@@ -35,17 +35,17 @@ class CentralWheel:
     wheel: str
     """Name of the wheel."""
     mesh: str
-    """Name of the planet wheel with which the central wheel meshes."""
+    """Name of the planet wheel that meshes with the central wheel."""
     sign: int
     """Sign of the speed of the central wheel divided by the speed of the reference planet wheel, both relative to the
     carrier: 1 or -1.
     """
     step: str = ""
     """Name of the planet wheel whose tooth count is P in the speed f = sign P / z of the central wheel; empty if P is
-    the same for all central wheels and cancels.
+    the same for all central wheels, so that it cancels in the ratios.
     """
     internal: bool = False
-    """True for a ring."""
+    """True if the central wheel is a ring; False if it is a sun."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,9 @@ def mode_key(mode: EpicyclicMode) -> str:
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicKind(Result):
-    """Type of epicyclic gear set, such as sun, planet and ring: its wheels, their meshes, and its operating modes."""
+    """Type of epicyclic gear set, such as the set of sun, planet and ring. It defines the wheels, their meshes and the
+    operating modes.
+    """
 
     KEYS = ("title", "wheels", Key("modes", to=mode_key))
 
@@ -95,7 +97,7 @@ class EpicyclicKind(Result):
     """Names of the planet wheels that mesh with each other, in pairs."""
     idle: tuple[str, ...] = ()
     """Names of planet wheels whose tooth counts affect neither a ratio nor a coaxial equation. The search assigns each
-    of them its minimum tooth count that fits.
+    of them the minimum tooth count with which the planets fit.
     """
     with_carrier: bool = True
     """True if the carrier may be the input, the output or the fixed member of a mode."""
@@ -108,18 +110,18 @@ class EpicyclicKind(Result):
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Names of all central wheels and planet wheels, in the usual order."""
+        """Names of all central wheels and planet wheels, in a fixed order that is common to all types."""
         planets = [wheel for link in self.planets for wheel in link]
         return tuple(sorted([*(member.wheel for member in self.members), *planets], key=_ORDER.index))
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Names of the links of the central wheels, followed by the carrier."""
+        """Names of the links of the central wheels, followed by the name of the carrier."""
         return (*(member.link for member in self.members), CARRIER)
 
     @property
     def modes(self) -> tuple[EpicyclicMode, ...]:
-        """All operating modes. Only one of two modes that are mirror images is included."""
+        """All operating modes of this type. Only one of two modes that are mirror images is included."""
         links = self.links if self.with_carrier else self.links[:-1]
         # exchange of mirrored links in both directions
         swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}

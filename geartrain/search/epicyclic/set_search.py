@@ -103,8 +103,7 @@ def find_sets(
     modes.
 
     The coaxial equations leave at most three independent tooth counts (Willis 1841; Mueller, Epicyclic Drive Trains,
-    1982).
-    All modules are equal.
+    1982). All modules are equal.
 
     Parameters
     ----------
@@ -398,8 +397,8 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
-    """Yield, for each block, the number of examined combinations of tooth counts, and the combinations that satisfy the
-    coaxial equations, are admissible, and fit between the central wheels.
+    """Yield, for each block, the number of examined combinations of tooth counts, and the admissible combinations that
+    satisfy the coaxial equations and for which the planets fit between the central wheels.
 
     planets    number of equal planets between which an idle wheel must have clearance
     clearance  minimum clearance between these planets [modules]; None if it is not required
@@ -464,11 +463,11 @@ def _add_dependent_counts(
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return, for each set, False if it has a stepped planet that is equivalent to a planet with one wheel, and True in
-    all other cases.
+    """Return, for each set, False if it has a stepped planet that is equivalent to a planet with one wheel, and True if
+    it has not.
 
     Two steps with equal tooth counts differ from one wheel only if they mesh with two suns, or with two rings, of
-    different tooth counts. `slack` permits such sets.
+    different tooth counts. This is possible only if `slack` permits it.
     """
     stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
     for one, other in ((one, other) for link in kind.planets for one, other in combinations(link, 2)):
@@ -538,9 +537,8 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
     """Return, for each set, the number of equally spaced positions at which identical planets can be assembled.
 
     A number n of equal planets can be equally spaced if and only if n divides this number. If this number is 0, every
-    position is possible.
-    Here z is the tooth count of a central wheel, P is the tooth count of the planet step with which it meshes, and f is
-    its speed relative to the carrier.
+    position is possible. Here z is the tooth count of a central wheel, P is the tooth count of the planet step with
+    which it meshes, and f is its speed relative to the carrier.
 
     Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
     teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n

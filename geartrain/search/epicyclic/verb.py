@@ -1,4 +1,4 @@
-"""Command `geartrain teeth set RATIO --kind ...`: search for epicyclic sets."""
+"""Command `geartrain teeth set RATIO --kind ...`: search for epicyclic sets with a given ratio."""
 
 from __future__ import annotations
 

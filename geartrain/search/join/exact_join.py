@@ -146,7 +146,7 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """Return the index in `rows` of each row that can still satisfy all constraints, and these rows.
+        """Return the rows that can still satisfy all constraints, preceded by their indices in `rows`.
 
         A row is removed, and counted in `removed`, if a constraint rejects the row for all values of the free
         variables.

@@ -38,8 +38,8 @@ CountWeights = Mapping[str, Tallies]
 
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Yield each assignment of tooth counts that produces the product `row`, as a dict that maps each wheel to the
-    index of its tooth count.
+    """Yield each assignment of tooth counts that produces the product with index `row`, as a dict that maps each wheel
+    to the index of its tooth count.
     """
     if last is None:
         yield {}
@@ -144,7 +144,7 @@ class AssignmentSums:
         self.root, self.graded = root, graded
 
     def total(self, weights: CountWeights) -> Any:
-        """Return the total weight of all assignments."""
+        """Return the total weight of all assignments of tooth counts."""
         return self._sums(weights).total.sum()
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
@@ -155,7 +155,7 @@ class AssignmentSums:
         return WeightedAlternatives(self.root, lambda table: self._alternatives(table, weights))
 
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
-        """Return the weighted alternatives of the rows of a table, which is a node or a step of a product.
+        """Return the weighted alternatives of the rows of a table. A table is a recorded node or a product step.
 
         An alternative of a node refers to a value of its variable and to a row of each child node. An alternative of a
         product selects one tooth count and refers to the product of the other factors.
@@ -210,8 +210,8 @@ class BestFirst:
         self._add(root)
 
     def _add(self, node: RecordedNode) -> int:
-        """Assign numbers to a node and to the nodes of its subtree, and compute the minimum remaining misfit of each
-        row.
+        """Assign a number to a node and to each node of its subtree, compute the minimum remaining misfit of each row,
+        and return the number of the node.
         """
         at = len(self._nodes)
         self._nodes.append(node)

@@ -37,12 +37,16 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """Node of a join plan. It assigns one variable after all variables of its ancestors in the tree."""
+    """Node of a join plan. The node assigns one variable. The variables of its ancestors in the tree are assigned
+    before.
+    """
 
     item: int
     """Index of the variable that the node assigns."""
     interface: tuple[int, ...]
-    """Indices of the variables of its ancestors on which a constraint of this node or of its subtree depends."""
+    """Indices of the variables that are assigned by ancestors of this node and on which a constraint of this node or of
+    its subtree depends.
+    """
     guide: int
     """Index of the constraint that selects the values of the variable to be examined; -1 if all values are examined."""
     checks: tuple[int, ...]
@@ -84,7 +88,7 @@ class JoinProblem:
     recipes: tuple[Factors, ...]
     """Definitions of the variables as products of tooth counts."""
     plan: PlanNode
-    """Root of the plan, which assigns the first variable."""
+    """Root of the plan. It assigns the first variable."""
     steps: float
     """Expected number of partial assignments that the join examines."""
     weights: Weights = field(default_factory=dict)
@@ -115,7 +119,9 @@ class JoinProblem:
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Names of the constraints by index. The names of the constraints of `late` are at the end."""
+        """Names of the constraints in the order of their indices. The names of the constraints of `late` are at the
+        end.
+        """
         return tuple(one.name for one in (*self.rules, *self.polynomial_constraints, *self.late))
 
 
@@ -255,8 +261,8 @@ class _Planner:
         return min(self.scopes[focus] & open_, key=rank)
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Return the index of the equation that determines the variable, if there is one, or of the most selective
-        constraint for which the admissible values of the variable form index ranges.
+        """Return the index of the equation that determines variable `item`. If there is none, return the index of the
+        most selective constraint for which the admissible values of the variable form index ranges.
 
         Return -1 if there is no such equation or constraint.
         """
@@ -289,7 +295,7 @@ class SelectivitySample:
 
     @classmethod
     def of(cls, domains: Domains) -> SelectivitySample:
-        """Draw a sample uniformly from the admissible tooth counts."""
+        """Draw a sample of assignments uniformly from the admissible tooth counts."""
         # fixed seed, so that a plan and its tasks are reproducible
         draw = np.random.default_rng(0)
         return cls(domains, {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()})

@@ -130,7 +130,7 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
 
 
 Extents = Sequence[tuple[float, float]]
-"""Minimum and maximum value of each variable."""
+"""Minimum and maximum value of each variable, in the order of their indices."""
 
 
 @dataclass(frozen=True)
@@ -206,7 +206,7 @@ class PolynomialConstraint:
     """
 
     name: str
-    """Description of the constraint."""
+    """Name of the constraint in reports."""
     cases: tuple[tuple[PolynomialInequality, ...], ...]
     function: tuple[SignPolynomial, SignPolynomial] | None = None
     """Numerator and denominator of the constrained function; None if the value of the function is not needed."""

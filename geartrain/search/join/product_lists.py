@@ -151,7 +151,9 @@ class Item:
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Return the distinct products of two lists and their weights. They are computed block by block to save memory."""
+    """Return the distinct products of two lists and their weights. The products are computed block by block to save
+    memory.
+    """
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
     for at in range(0, len(factors), step):
@@ -232,7 +234,7 @@ class PartialAssignments:
         return self.items[item].values[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Return the rows selected by a mask or by indices."""
+        """Return the partial assignments selected by a mask or by indices."""
         columns = {item: column[where] for item, column in self.columns.items()}
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return PartialAssignments(self.items, columns, size)
@@ -245,8 +247,8 @@ class PartialAssignments:
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | None]:
-        """Return the rows that are distinct in the given variables, and the index of each original row among them; None
-        instead of the indices if the rows are unchanged.
+        """Return the distinct rows with respect to the given variables, and for each original row the index of its
+        distinct row. The indices are None if the rows are unchanged.
         """
         if len(items) == len(self.columns):
             return self, None

@@ -41,11 +41,11 @@ class Function(Protocol):
 
     @property
     def numerator(self) -> Sequence[WholeTerm]:
-        """Terms of the numerator."""
+        """Terms of the numerator of the function."""
 
     @property
     def denominator(self) -> Sequence[WholeTerm]:
-        """Terms of the denominator."""
+        """Terms of the denominator of the function."""
 
     def value(self, counts: Mapping[str, int], /) -> Fraction | None:
         """Return the exact value for given tooth counts; None if the train is locked or the speed is undetermined."""
@@ -56,7 +56,7 @@ class IntervalConstraint:
     """Constraint that the value of a function is in one of several disjoint intervals."""
 
     name: str
-    """Description of the constraint."""
+    """Name of the constraint in reports."""
     function: Function
     intervals: tuple[Interval, ...]
     strict: bool = False

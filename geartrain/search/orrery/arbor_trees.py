@@ -39,7 +39,7 @@ class PeriodTargets:
     names: tuple[str, ...]
     """Names of the requested periods."""
     periods: tuple[Fraction, ...]
-    """Requested periods, exact and positive [revolutions of the first arbor]."""
+    """Exact positive periods that are requested [revolutions of the first arbor]."""
     tolerances: tuple[Fraction, ...]
     """Exact maximum absolute relative error of the speed of each requested period, below 1."""
 
@@ -272,7 +272,7 @@ Edge = tuple[int, int, int, int]
 of the ratio in lowest terms.
 """
 Meshes = tuple[tuple[int, int], ...]
-"""Tooth counts (driver, driven) of each gear pair."""
+"""Pairs of tooth counts (driving wheel, driven wheel), one for each gear pair."""
 
 
 def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes, bool]:

@@ -224,8 +224,7 @@ def find_orrery(
 
     The orrery is a tree of arbors with external gear pairs, driven from the first arbor. The enumeration proves lower
     bounds. Wider beams can find better solutions, but do not prove bounds; see `Orrery.minimum_pairs`, `minimum_wheels`
-    and
-    `complete`. The result is deterministic unless the user interrupts the search.
+    and `complete`. The result is deterministic unless the user interrupts the search.
 
     Parameters
     ----------
@@ -339,8 +338,8 @@ class _OrrerySearch:
             self._offer(part.tree)
 
     def _offer(self, tree: ArborTree) -> None:
-        """Keep a tree if it is better than the best tree found so far: it has fewer wheels, or as many wheels and fewer
-        pairs, or as many pairs and a smaller maximum error.
+        """Keep a tree if it is better than the best tree found so far. Trees are compared by the number of wheels, then
+        by the number of pairs, then by the maximum error.
         """
         wheels, _, proved = fewest_wheels(self.table, edges(tree))
         # an unproved number of wheels is only an upper bound, so it proves nothing
@@ -356,10 +355,9 @@ class _OrrerySearch:
     def minimum_wheels(self) -> int:
         """Proved lower bound on the number of wheels.
 
-        Every arbor has at least one wheel. In a tree with the minimum number of wheels, every intermediate arbor has at
-        least two wheels, because an arbor with one wheel is an idler, whose neighbours can mesh directly. Trees that
-        were not enumerated have more
-        intermediate arbors than the enumerated trees.
+        Every arbor has at least one wheel. In a tree with the minimum number of wheels, every intermediate arbor has
+        two or more wheels, because an arbor with one wheel is an idler, whose neighbours can mesh directly. Trees that
+        were not enumerated have more intermediate arbors than the enumerated trees.
         """
         unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
@@ -432,7 +430,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
 
 @dataclass(frozen=True, slots=True)
 class PartialTree:
-    """Partial tree of a beam search, with the targets that it does not yet drive and its cost."""
+    """Partial tree of a beam search, its cost, and the targets that it does not yet drive."""
 
     tree: ArborTree
     left: int
@@ -513,8 +511,8 @@ class BeamSearch:
         return PartialTree(tree, left, wheels, bulk)
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the best trees that result from a partial tree if one arbor with its targets, and further targets of
-        the new arbors, are added.
+        """Yield the best extensions of a partial tree. An extension adds one arbor with its targets, and possibly
+        further targets of the new arbors.
         """
         reaches = [reach(self.table, self.targets, arbor.log, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])

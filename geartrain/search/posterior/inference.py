@@ -254,8 +254,8 @@ def _sampled(question: InferenceProblem, most: int, samples: int, seed: int, mea
 
 
 def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
-    """Return the evidence of each output from the observations of this output only. It is estimated from a sample if
-    the exact join would take too long.
+    """Return the evidence of each output, computed from the observations of this output only. The evidence is estimated
+    from a sample if the exact join would take too long.
     """
     found = {}
     for witness in question.witnesses:
@@ -362,8 +362,8 @@ def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountW
 
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
-    """Return the number of combinations that satisfy all observations. Wheels on which no observation depends multiply
-    this number by the number of their possible tooth counts.
+    """Return the number of combinations that satisfy all observations. The combinations include all possible tooth
+    counts of wheels on which no observation depends.
     """
     # with equal weights the total weight is a number of combinations
     alike = {

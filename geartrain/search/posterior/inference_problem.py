@@ -36,12 +36,12 @@ MOST_COUNTS = 10**5
 
 @dataclass(frozen=True, slots=True)
 class InferenceProblem:
-    """Priors of uncertain tooth counts, and observations of outputs."""
+    """Priors of uncertain tooth counts, and observations of outputs, from which the posteriors are inferred."""
 
     name: str
     """Name of the train."""
     uncertainties: Mapping[str, ToothCountPrior]
-    """Prior of the tooth count of each wheel, in the order of declaration."""
+    """Prior of the tooth count of each wheel, keyed by wheel in the order of declaration."""
     witnesses: tuple[OutputRequirement, ...]
     """Observed outputs whose speed depends on an uncertain tooth count."""
     outputs: Mapping[str, Formula]

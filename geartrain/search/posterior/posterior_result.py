@@ -19,7 +19,7 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """Probability that is exact, correct up to rounding errors, or estimated from a sample."""
+    """Probability. It is exact, correct up to rounding errors, or estimated from a sample."""
 
     KEYS = (Key("value", to=float), "exact", "low", "high")
 
@@ -102,7 +102,7 @@ class CombinedOutput:
     KEYS = (Key("exact", "speed"), Key("value", "speed", as_float), Key("error", to=float))
 
     speed: Fraction
-    """Exact speed of the output in the unit of the train."""
+    """Exact speed of the output [unit of the train]."""
     error: Fraction
     """Relative error of the speed with respect to the observed speed."""
 
@@ -114,7 +114,7 @@ class CountCombination(Result):
     KEYS = ("teeth", "outputs", Key("misfit", to=float), "probability", "changed")
 
     teeth: Mapping[str, int]
-    """Tooth count of each wheel, in the order of declaration."""
+    """Tooth count of each wheel, keyed by wheel in the order of declaration."""
     speeds: Mapping[str, Fraction]
     """Exact speed of each output [unit of the train]."""
     errors: Mapping[str, Fraction]
@@ -132,7 +132,7 @@ class CountCombination(Result):
 
     @property
     def outputs(self) -> Mapping[str, CombinedOutput]:
-        """Speed and relative error of each output."""
+        """Speed and relative error of each output, keyed by output."""
         return {name: CombinedOutput(speed, self.errors[name]) for name, speed in self.speeds.items()}
 
 

@@ -37,8 +37,8 @@ _CERTAIN = 1e-4
 """Ratio of the standard deviation of a tooth count to its range, below which the tooth count is treated as certain and
 has no correlations.
 
-Below this ratio, all values except the most probable one have a total probability of about 1e-8, and covariances in
-float64 would be rounding errors.
+Below this ratio, values that differ from the mean by the whole range have a total probability below 1e-8, and
+covariances in float64 would be rounding errors.
 """
 
 _NONE = 1e-13
@@ -46,7 +46,7 @@ _NONE = 1e-13
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` candidates and all candidates that may be tied with the last of them, and whether all
+    """Return the first `most` candidates with all candidates that may be tied with the last of them, and whether all
     such ties are included.
     """
     # misfits in floats: entries that may be tied with the last are later sorted exactly

@@ -26,7 +26,7 @@ from geartrain.search.posterior.inference_problem import InferenceProblem, Tooth
 from geartrain.search.train.output_requirements import OutputRequirement, SpeedRequirement
 
 KEPT = 2000
-"""Maximum number of best combinations that a task returns. Any further combinations, which are ties, are omitted."""
+"""Maximum number of best combinations that a task returns. Further combinations with the same misfit are omitted."""
 TIE = 1 + 1e-9
 """Ratio of two misfits in floating point below which they may be equal, so that they are compared exactly at a later
 stage.

@@ -105,9 +105,10 @@ class ProductWindows:
     """Products c_1 c_2 ... c_k of admissible tooth counts c_1 <= ... <= c_k, each stored as a lower partial product
     times an upper partial product.
 
-    The sorted counts are split at their middle element m. A lower partial product contains m and the counts before it.
-    It is combined with every upper partial product whose counts are all at least m, so each multiset occurs once.
-    Memory is O(n^3) for n admissible counts, while the C(n+k-1, k) products are generated window by window.
+    The sorted tooth counts are split at their middle element m. A lower partial product contains m and the tooth counts
+    before it. It is combined with every upper partial product whose tooth counts are all at least m, so each multiset
+    occurs once. Memory is O(n^3) for n admissible counts, while the C(n+k-1, k) products are generated window by
+    window.
     """
 
     counts: tuple[int, ...]
@@ -117,14 +118,18 @@ class ProductWindows:
     rows: Ints
     """Lower partial products, shape (rows,)."""
     lows: Ints
-    """Tooth counts of each lower partial product, in ascending order, shape (rows, a), where a is their number."""
+    """Tooth counts of each lower partial product, in ascending order, shape (rows, a), where a is the number of tooth
+    counts in a lower partial product.
+    """
     highs: Ints
     """Upper partial products, ascending within each table, shape (highs,)."""
     uppers: Ints
-    """Tooth counts of each upper partial product, in ascending order, shape (highs, b), where b is their number."""
+    """Tooth counts of each upper partial product, in ascending order, shape (highs, b), where b is the number of tooth
+    counts in an upper partial product.
+    """
     keys: Ints
-    """Sum of each upper partial product and the offset of its table, which is ascending over all tables, shape
-    (highs,).
+    """Sum of each upper partial product and the offset of its table, shape (highs,). The sums are in ascending order
+    over all tables.
     """
     offsets: Ints
     """Offset of the table of upper partial products with which each lower partial product is combined, shape
@@ -141,8 +146,8 @@ class ProductWindows:
 
     def values(self, low: int, high: int) -> tuple[Ints, Places]:
         """Return the n distinct products in [low, high) in ascending order, shape (n,), and cumulative numbers of
-        multisets in this window, shape (n + 1,): for each product the number of multisets with a smaller product, and
-        last the total.
+        multisets, shape (n + 1,). Entry i is the number of multisets in this interval with a product below product i,
+        and the last entry is their total number.
         """
         row, column = spread(_ends(self, low), _ends(self, high))
         found = self.rows[row]
@@ -153,8 +158,9 @@ class ProductWindows:
         return found[starts], np.append(starts, len(found))
 
     def members(self, low: int, high: int, among: Ints) -> tuple[Ints, Ints]:
-        """Return the products in [low, high) that occur in `among`, in ascending order, one for each multiset, shape
-        (n,), and their tooth counts, ascending in each row, shape (n, size). `among` must be ascending and not empty.
+        """Return the products in [low, high) that occur in `among`, and their tooth counts. There is one row for each
+        of n multisets, in ascending order of the product: arrays of shape (n,) and (n, size). `among` must be ascending
+        and not empty.
         """
         row, column = spread(_ends(self, low), _ends(self, high))
         products = self.rows[row] * self.highs[column]
@@ -168,8 +174,8 @@ class ProductWindows:
 
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Places:
-    """Return, for each lower partial product, the index after the last upper partial product for which the product of
-    both is below `bound`, shape (rows,).
+    """Return, for each lower partial product, the index after the last upper partial product with which the product is
+    below `bound`, shape (rows,).
     """
     # one binary search for all tables: the offset of a row selects its table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
@@ -215,9 +221,10 @@ def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
-    """Return every combination of a number and a multiset of `below` numbers that do not exceed this number.
+    """Return every combination of a number and a multiset of `below` numbers that do not exceed it.
 
-    The arrays contain the product, the elements, and the index of the number, with one row for each combination.
+    The three arrays contain the product of the numbers, the numbers, and the index of the first-mentioned number, with
+    one row for each combination.
     """
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])

@@ -69,8 +69,8 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
               stages have equal sums of tooth counts, the half-open range of these sums (two numbers)
 
     The result has the keys `count`; `listed`, the number of solutions within the tolerance of the list; `removed`, the
-    number of pairs of multisets within the tolerance that are not solutions, by reason; and `rows`, the best as [rank
-    value, numerator counts, denominator counts].
+    number of pairs of multisets within the tolerance that were rejected for each reason; and `rows`, the best solutions
+    as [primary criterion, numerator counts, denominator counts].
     """
     question, tolerance = pickle.loads(packed)
     if question.of_equal_sums:
@@ -229,7 +229,7 @@ class SweepOutcome:
     removed: Mapping[str, int] = field(default_factory=dict)
     keys: Sequence[StageRank] = ()
     complete: bool = True
-    """True if every segment was searched."""
+    """True if every segment of the search was completed."""
     note: str = ""
     """Reason why the search may have found fewer solutions than exist; empty if there is no such reason."""
 

@@ -107,7 +107,7 @@ class StageProblem:
     """
 
     value: Fraction
-    """Requested ratio, positive: numerator product divided by denominator product."""
+    """Requested positive ratio: numerator product divided by denominator product."""
     stages: int
     """Number of stages, 1 to 5."""
     top: Set
@@ -286,7 +286,7 @@ the numerator and tooth counts of the denominator.
 
 
 def check_order(by: str) -> None:
-    """Raise `QuestionError` if the name of an order is unknown."""
+    """Raise `QuestionError` if the name of an order of solutions is unknown."""
     if by not in get_args(StageOrder):
         known = ", ".join(get_args(StageOrder))
         raise QuestionError(
@@ -354,7 +354,7 @@ class BestStages:
         self._parts: list[Ints] = []
 
     def add(self, rows: Ints) -> None:
-        """Add candidate rows to the list."""
+        """Add rows, which are candidates for the list, to the list."""
         self._parts.append(rows)
         # several times the list length is stored between two sorts, which amortises their cost
         if sum(map(len, self._parts)) > max(4 * self.best, 1 << 17):

@@ -388,8 +388,8 @@ def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Ex
 
 
 def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
-    """Return a description of the nearest miss, and of the best solution without constraints if it differs from the
-    nearest miss.
+    """Return a description of the nearest miss. If the best solution without constraints differs from the nearest miss,
+    it is described too.
     """
     parts = []
     if miss.keys and miss.complete:
@@ -410,7 +410,7 @@ def in_words(key: StageRank, value: Fraction) -> str:
 
 
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
-    """Yield suggestions of constraints to be relaxed. Suggestions that are most certain to help come first."""
+    """Yield suggestions of constraints to be relaxed, in descending order of the certainty that they help."""
     if miss.keys and miss.complete:
         yield f"a tolerance of {decimal(rounded_up(miss.keys[0][1]), 6)} gives a solution"
     for reason, number in removed.items():

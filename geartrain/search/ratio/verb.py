@@ -1,4 +1,4 @@
-"""Command `geartrain teeth ratio RATIO`: search for gear pairs in series."""
+"""Command `geartrain teeth ratio RATIO`: search for gear pairs in series with a given ratio."""
 
 from __future__ import annotations
 

@@ -9,8 +9,8 @@ The problem
 - `link_roles`: the link that carries the arbors, and links that couplings join to one arbor
 - `reconstruction_problem`: the problem with measured modules, radii and positions of axes, and its size and digest
 - `evidence_translation`: conversion of declared evidence to the problem
-- `spur_tree`: parts of a complete train, found by breadth-first search along meshes; evidence that consists of such a
-  part without some of its arbors
+- `spur_tree`: parts of a complete train, found by breadth-first search along meshes, and evidence that consists of such
+  a part without some of its arbors
 
 The search: enumeration of trees up to the order of arbors, by paths from the input to each dial
 - `train_topology`: a rooted tree without the order of arbors and without tooth counts of added wheels (an equivalence
@@ -20,8 +20,8 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `added_counts`: number of choices of tooth counts of added wheels, by variable elimination and tables of products
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: enumeration of the orders of arbors on chains
-- `search_tasks`: backtracking over dials, pruned by bit masks and tables of quotients; independent tasks for any number
-  of processes
+- `search_tasks`: backtracking over dials, pruned by bit masks and tables of quotients, in independent tasks for any
+  number of processes
 - `geometry_likelihood`: likelihood of measured modules, radii and distances of axes
 - `reconstruction_search`: numbers of trains, most probable candidates, and equality of trains up to the order of arbors
 

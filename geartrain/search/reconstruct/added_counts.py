@@ -55,8 +55,8 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Return the number of choices of tooth counts with product of driving counts / product of driven counts =
-    quotient. Choices that differ only in the order of the wheels are counted separately.
+    """Return the number of choices of tooth counts for which the product of the driving counts divided by the product
+    of the driven counts is `quotient`. Choices that differ in the order of the tooth counts are counted separately.
     """
     minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
@@ -93,8 +93,8 @@ def list_choices(
 def quotients_of_parts(
     quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
 ) -> tuple[tuple[Fraction, int], ...]:
-    """Return the possible quotients of the first of two groups whose total quotient is given. Each is returned with the
-    number of choices of tooth counts for both groups.
+    """Return the possible quotients of the first of two groups whose total quotient is given. Each quotient is returned
+    with the number of choices of tooth counts for both groups.
 
     A group is given as (number of driving wheels, number of driven wheels).
     """
@@ -211,7 +211,7 @@ Group = tuple[Dials, int, int]
 wheels.
 """
 Wanted = tuple[tuple[str, Quotients], ...]
-"""Minimum and maximum required quotient of all added wheels on the path to each dial."""
+"""Minimum and maximum required quotient of all added wheels on the path to each dial, in pairs (dial, quotients)."""
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 """Tooth counts of the driving wheels and of the driven wheels of each group, keyed by the dials of the group."""
 
@@ -254,7 +254,7 @@ class OpenCounts(NamedTuple):
 class AddedCounts:
     """Counter of the assignments of tooth counts to added wheels, within given limits.
 
-    Two assignments are different if they differ in the order of the tooth counts. Wheels of one kind are
+    Assignments that differ in the order of the tooth counts are counted separately. Wheels of one kind are
     interchangeable, so each of them has a given tooth count in equally many assignments.
     """
 
@@ -285,8 +285,8 @@ class AddedCounts:
                 yield counts, idle
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
-        """Return the number of choices in which one particular wheel of a kind has a tooth count, keyed by tooth count.
-        Tooth counts without a choice are omitted.
+        """Return, for each tooth count, the number of choices in which one particular wheel of a kind has this tooth
+        count. Tooth counts for which there is no choice are omitted.
         """
         minimum, maximum = self.range
         most = maximum if kind.most is None else min(kind.most, maximum)
@@ -294,8 +294,8 @@ class AddedCounts:
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return the number of choices in which at least one added wheel has a tooth count, keyed by tooth count, by
-        inclusion-exclusion.
+        """Return, for each tooth count, the number of choices in which at least one added wheel has this tooth count,
+        computed by inclusion-exclusion.
         """
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
@@ -305,8 +305,8 @@ class AddedCounts:
     def _without_count(
         self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
     ) -> int:
-        """Return the number of choices in which no wheel of the given kinds has the tooth count `count`. `number` is
-        the total number of choices.
+        """Return the number of choices in which no wheel of the given kinds has the tooth count `count`. The total
+        number of choices is `number`.
         """
         if not kinds or not number:
             return number
@@ -346,8 +346,8 @@ class AddedCounts:
         )
 
     def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
-        """Return the number of assignments by enumeration of the quotients of two groups whose total quotient `both` is
-        known.
+        """Return the number of assignments, computed by enumeration of the quotients of two groups whose total quotient
+        is `both`.
         """
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
         kinds = groups[one][1:], groups[other][1:]
@@ -428,8 +428,8 @@ def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
 
 
 def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
-    """Return the bounds with the bounds of dials that depend on the same groups merged. Return None if such bounds do
-    not intersect.
+    """Return the bounds after the bounds of all dials that depend on the same groups were merged. Return None if such
+    bounds do not intersect.
     """
     found: dict[tuple[int, ...], tuple[str, Quotients]] = {}
     for dial, (low, high) in wanted:
@@ -448,8 +448,8 @@ def _without(wanted: Wanted, dials: Dials) -> Wanted:
 
 
 def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
-    """Return the bounds of the quotients that the remaining groups must have if the group of the given dials has the
-    given quotient.
+    """Return the bounds that remain for the other groups if the group that affects the given dials has the given
+    quotient.
     """
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
@@ -517,7 +517,9 @@ class QuotientTables:
 
 
 def _distinct(numbers: Floats) -> Floats:
-    """Return the distinct numbers in sorted order. Sorting is ten times as fast as the hash table of `numpy.unique`."""
+    """Return the distinct numbers in sorted order. Sorting is ten times as fast as `numpy.unique`, which uses a hash
+    table.
+    """
     found = np.sort(numbers, axis=None)
     return np.asarray(found[np.append(True, found[1:] != found[:-1])])
 

@@ -1,4 +1,4 @@
-"""Names of the arbors and wheels of a candidate, and names in a topology that are common to all of its trains."""
+"""Names of the arbors and wheels of a candidate, and names for a topology that are common to all of its trains."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class NamedArbor:
     name: str
     added: bool
     driven: NamedWheel | None
-    """Driven wheel; None for the input arbor."""
+    """Driven wheel of the arbor; None for the input arbor."""
     dials: tuple[str, ...]
     """Sorted names of the dials whose pointers are on the arbor."""
     drives: tuple[tuple[NamedWheel, NamedArbor], ...]
@@ -92,9 +92,9 @@ class FreeNames:
     """Generator of distinct names for added arbors and wheels."""
 
     links: set[str]
-    """Names of arbors that are already used."""
+    """Names of arbors that are already in use."""
     wheels: set[str]
-    """Names of wheels that are already used."""
+    """Names of wheels that are already in use."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
         """Return an unused name for an added arbor. It is derived from the first dial whose pointer the arbor carries,

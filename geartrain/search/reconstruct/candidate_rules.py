@@ -1,6 +1,6 @@
 """Check of one candidate against the rules of a reconstruction problem.
 
-A published train is converted to a candidate. Its surviving wheels are identified by their names.
+The module also converts a published train to a candidate, whose surviving wheels are identified by their names.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ end       an arbor that drives nothing carries a pointer
 ring      a ring meshes only with wheels of fewer teeth
 teeth     the tooth counts of added wheels are within their limits
 arbors    the number of added arbors is within its limit
-beside    wheels are added only on added arbors
+beside    wheels are added only to added arbors
 seen      wheels that were seen in mesh do mesh
 apart     wheels that are known not to mesh do not mesh
 coaxial   arbors on one axis do not mesh
@@ -114,14 +114,14 @@ def _without(dial: str) -> str:
 
 
 def speed_text(dial: SearchedDial) -> str:
-    """Format the required speed of a dial [turns per unit]."""
+    """Format the required speed of a dial [turns per unit of the input]."""
     bounds = dict.fromkeys((dial.minimum, dial.maximum))
     text = " to ".join(fraction_text(each) if dial.is_exact else f"{float(each):.7g}" for each in bounds)
     return text + ("" if dial.signed else " in either sense")
 
 
 def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterator[tuple[Arbor, Fraction]]:
-    """Yield every arbor of a candidate with its speed [turns per unit]."""
+    """Yield every arbor of a candidate with its speed [turns per unit of the input]."""
     yield candidate, speed
     for wheel, child in candidate.driven_arbors():
         assert child.driven is not None
@@ -233,7 +233,7 @@ class KnownTrain:
     """Name of the train."""
     arbor: Arbor
     """Input arbor of the candidate. The candidate has a pointer for every dial of the problem that is connected to the
-    input by meshes, whatever its speed.
+    input by meshes, even if its speed differs from the required speed.
     """
     added: Mapping[str, int]
     """Tooth count of each added wheel, keyed by the name of the wheel in the known train."""
@@ -292,8 +292,8 @@ class _TrainReading:
 
     @cached_property
     def _links(self) -> dict[str, str]:
-        """Link of the train that corresponds to each arbor of the problem: the link that carries most wheels of the
-        arbor.
+        """Link of the train that corresponds to each arbor of the problem, keyed by arbor. It is the link that carries
+        most wheels of the arbor.
         """
         found: dict[str, str] = {}
         for arbor in self._arbors.values():
@@ -310,8 +310,8 @@ class _TrainReading:
 
     @cached_property
     def _joined(self) -> dict[str, str]:
-        """First link of the group to which each link belongs. The links of a group are connected by pins and slots
-        whose links turn in the frame.
+        """First link of the group to which each link belongs, keyed by link. The links of a group turn in the frame and
+        are connected by pins and slots.
         """
         tree, frame = find_tree(self.train), self.train.frame
         pairs = (

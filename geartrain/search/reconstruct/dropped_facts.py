@@ -41,7 +41,7 @@ class ChangedCount(Result):
     solutions: tuple[int, ...]
     """Number of trains by number of added wheels: entry n is the number of trains with exactly n added wheels."""
     complete: bool = True
-    """True if the search covered all candidates."""
+    """True if the search covered all candidates of the changed problem."""
     refused: str | None = None
     """Reason why the changed problem could not be searched; None if it could be searched."""
 
@@ -167,12 +167,14 @@ MISREAD = 3
 
 @dataclass(frozen=True, slots=True)
 class LoneDial(Result):
-    """Minimum number of added wheels that explain one dial without the other dials."""
+    """Minimum number of added wheels with which one dial can be explained if the other dials are ignored."""
 
     dial: str
     """Name of the dial."""
     fewest: int | None
-    """Minimum number of added wheels that explain the dial; None if it exceeds the permitted number of added wheels."""
+    """Minimum number of added wheels with which the dial can be explained; None if the permitted number of added wheels
+    is not sufficient.
+    """
     refused: str | None = None
     """Reason why the problem of this dial could not be searched; None if it could be searched."""
 
@@ -184,7 +186,7 @@ class MissingExplanation(Result):
     """
 
     dials: tuple[LoneDial, ...]
-    """Minimum number of added wheels that explain each dial without the other dials."""
+    """Minimum number of added wheels with which each dial can be explained if the other dials are ignored."""
     uncertainties: tuple[ChangedCount, ...]
     """Single changes of the evidence after which at least one train explains it, ordered by the number of added
     wheels.
@@ -206,8 +208,8 @@ def explain_missing(problem: ReconstructionProblem, execution: Execution | None 
 
 
 def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
-    """Return the minimum number of added wheels that explain the dial with index `at` without the other dials.
-    Surviving arbors that are not on the path to this dial may be unused.
+    """Return the minimum number of added wheels with which the dial with index `at` can be explained if the other dials
+    are ignored. Surviving arbors that are not on the path to this dial may be unused.
     """
     dial = problem.dials[at]
     # known meshes may belong to arbors of other dials
@@ -223,8 +225,8 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
 
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield problems in which one surviving wheel has another tooth count, one for each tooth count that differs by at
-    most `MISREAD` from a possible one. They are in ascending order of the difference.
+    """Yield problems in which one surviving wheel has a different tooth count, one problem for each tooth count that
+    differs by at most `MISREAD` from a possible one. The problems are in ascending order of this difference.
     """
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:

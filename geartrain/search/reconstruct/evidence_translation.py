@@ -195,7 +195,7 @@ class EvidenceQuestion(Shown):
     problem: ReconstructionProblem
     """Reconstruction problem, the input of the search."""
     base: BaseLink
-    """Link that carries the arbors. The speeds of the problem are relative to this link."""
+    """Base link, which carries the arbors. The speeds in the problem are relative to this link."""
     joined: Joined
     """Links that form one arbor because declared couplings connect them, keyed by the name of the arbor."""
     unused: tuple[str, ...]

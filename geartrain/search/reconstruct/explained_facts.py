@@ -164,11 +164,11 @@ class FactTally:
 
 
 class ExplainedFacts:
-    """Marginal distributions of all facts, and groups of facts that partition the trains in the same way.
+    """Marginal distributions of all facts, and groups of equivalent facts. Equivalent facts partition the trains in the
+    same way.
 
     weighed   all trains, or only the best trains, with their weights
-    tally     sums over all trains, or None; if given, facts are equivalent only if they partition `weighed` in the same
-              way and have equal sums
+    tally     sums over all trains, or None; if it is not None, equivalent facts must also have equal sums
     """
 
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
@@ -209,8 +209,8 @@ class ExplainedFacts:
         )
 
     def _parts(self, one: FactMarginal) -> Hashable:
-        """Return the sets into which a fact partitions the listed trains. Each set has the sums of its answer over all
-        trains.
+        """Return the sets into which a fact partitions the listed trains. Each set is returned with the sums over all
+        trains that have the same answer.
         """
         fact = Fact(one.kind, one.subject)
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
@@ -271,8 +271,8 @@ def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
 
 
 def _yes_weight(fact: FactMarginal) -> Fraction:
-    """Return the probability of the answer yes. For a fact without the answers yes and no, return the probability of
-    its most probable answer.
+    """Return the probability of the answer `yes`. If the answers to the fact are not `yes` and `no`, return the
+    probability of its most probable answer.
     """
     return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
 
@@ -292,7 +292,7 @@ MOST_SUMMED = 20_000_000
 def sum_facts(
     weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, evidence: Train
 ) -> FactTally:
-    """Return the sums of all facts over all trains of the given topologies. The weight of a topology is the prior
+    """Return the sums over all trains of the given topologies for all facts. Each topology is given with the prior
     weight of one of its trains.
     """
     trains, sums = TopologyTrains(problem), FactTally(problem)
@@ -324,7 +324,7 @@ def sum_facts(
 
 @dataclass(frozen=True, slots=True)
 class FamilyTrain(Result):
-    """Candidate at the end of a branch of the family tree."""
+    """Candidate that ends at a branch of the family tree."""
 
     KEYS = ("rank", Key("weight", "share", float), "counts")
 
@@ -345,7 +345,7 @@ class FamilyBranch(Result):
     KEYS = ("parent", "meshes", Key("weight", "share", float), "solutions", "trains")
 
     parent: int | None
-    """Index of the parent branch; None for the root."""
+    """Index of the parent branch; None for the first branch."""
     meshes: tuple[str, ...]
     """Meshes in the format "driving > driven", followed by the pointers of the driven arbor in parentheses."""
     share: Fraction

@@ -1,14 +1,14 @@
 """Likelihood of a candidate, given measured modules, radii and positions of axes; 0 if the candidate is impossible.
 
 Every mesh of two measured wheels contributes the factor exp(-(e/s)^2 / 2), where e is the natural logarithm of the
-ratio of their modules and s is its standard deviation. A wheel that was not measured has the module that fits its mates
-best. Misfits therefore combine like springs. A mesh with a wheel whose module is known has stiffness 1, and a mesh with
-a wheel that is itself supported with stiffness k has stiffness k/(1 + k). A measured radius with a stated error acts as
-a spring with the stiffness (s*radius/error)^2.
+ratio of their modules and s is the standard deviation of e. A wheel that was not measured has the module that fits its
+mates best. Misfits therefore combine like springs. A mesh with a wheel whose module is known has stiffness 1, and a
+mesh with a wheel that is itself supported with stiffness k has stiffness k/(1 + k). A measured radius with a stated
+error acts as a spring with the stiffness (s*radius/error)^2.
 
 A mesh between two axes with known positions contributes the factor exp(-(f/s')^2 / 2), where f is the natural logarithm
-of the sum of the pitch radii divided by the distance between the axes, and s' is its standard deviation. Misfits of
-modules and of distances are treated as independent.
+of the sum of the pitch radii divided by the distance between the axes, and s' is the standard deviation of f. Misfits
+of modules and of distances are treated as independent.
 """
 
 from __future__ import annotations
@@ -81,8 +81,8 @@ class _Pull(NamedTuple):
 
 @dataclass(frozen=True)
 class _Modules:
-    """Minimum sum of the squared misfits of modules. The unknown modules are eliminated from the leaves of the train to
-    its root.
+    """Minimum sum of the squared misfits of modules. The unknown modules are eliminated one by one, from the leaves of
+    the train to its root.
     """
 
     geometry: SurvivingGeometry
@@ -94,8 +94,8 @@ class _Modules:
         return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 
     def _misfit_of_wheel(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
-        """Return the misfit as a function of the module of a wheel. It contains the measurement of the wheel and the
-        misfit of the arbors that it drives.
+        """Return the misfit as a function of the module of a wheel: the misfit of the measurement of the wheel plus the
+        misfits of the arbors that it drives.
         """
         pulls = [self._misfit_through_mesh(child) for child in children]
         module = self.geometry.module_of(_size(wheel))

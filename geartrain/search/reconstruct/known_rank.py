@@ -45,7 +45,7 @@ def find_telling_facts(
     evidence: Train, problem: ReconstructionProblem, found: Reconstructions, candidate: Arbor
 ) -> tuple[TellingFact, ...]:
     """Return the observable facts that distinguish one explanation from others, in ascending order of the number of
-    trains with the same answer.
+    trains in which the fact has the same answer.
 
     The result is empty unless all explanations are listed.
     """

@@ -24,7 +24,7 @@ _ONE_START = "a train on a carrier begins at one link: the frame, or one other d
 
 @dataclass(frozen=True)
 class BaseLink:
-    """Base of a reconstruction: the link that carries the arbors, and the input link of the train."""
+    """Base of a reconstruction, which is the link that carries the arbors, and input link of the train."""
 
     name: str
     """Name of the base, which is the frame or a carrier."""
@@ -48,7 +48,7 @@ class BaseLink:
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of a reconstruction: the link that carries the arbors, and the input link of the train.
+    """Return the base of a reconstruction, which is the link that carries the arbors, and the input link of the train.
 
     The evidence must be valid, that is, `base_problems` must not yield a problem.
     """
@@ -214,7 +214,8 @@ Joined = Mapping[str, tuple[str, ...]]
 def joined_arbors(evidence: Train) -> Joined:
     """Return the groups of links that declared couplings connect so that they form one arbor.
 
-    A group is named after the input link if it contains this link, or else after its first link with wheels.
+    A group is named after the input link if it contains this link. If it does not, the group is named after its first
+    link with wheels.
     """
     found = {}
     for links in joined_groups(evidence.links, (pair for pair, _ in _pairs(evidence))):
@@ -331,7 +332,7 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
 
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:
     """Yield a problem for joined links on different axes. Such links are not supported, because each axis would exclude
-    other meshes.
+    different meshes.
 
     problem   reconstruction problem in which the links are not yet joined
     """

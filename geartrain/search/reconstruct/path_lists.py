@@ -69,8 +69,8 @@ def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str
 
 
 class SeenMeshes:
-    """Compatibility of the passes of a path through different arbors according to the known meshes. A pass is the
-    driven and the driving wheel of the path on an arbor.
+    """Compatibility of the passes of a path through different arbors according to the known meshes. A pass is the pair
+    of the driven and the driving wheel by which the path passes through an arbor.
 
     passes   possible passes of each arbor, the input arbor first
     order    indices of the arbors; arbors of one component are adjacent, and components with many passes come before
@@ -115,7 +115,7 @@ def _are_compatible(
     """Return whether a path may contain the passes `mine` and `theirs` of two arbors whose wheels `one` and `other`
     mesh. A pass is None if the path avoids the arbor.
 
-    below   True if the first arbor must drive the second
+    below   True if the arbor of wheel `one` must drive the arbor of wheel `other`
     """
     if mine is None or theirs is None:
         there, wheel = (mine, one) if theirs is None else (theirs, other)
@@ -137,8 +137,8 @@ class PathGrowth:
     """Partial paths through some of the arbors. Each row of the arrays represents one path."""
 
     codes: NDArray[np.uint16]
-    """Code of the pass (driven and driving wheel) of each path through each arbor, starting with 1; 0 if the path
-    avoids the arbor.
+    """Code of the pass (pair of driven and driving wheel) of each path through each arbor, starting with 1; 0 if the
+    path avoids the arbor.
     """
     ratio: Floats
     """Magnitude of the speed at the end of each path if the ratio of the added wheels is 1 [turns per unit]."""
@@ -153,7 +153,7 @@ class PathGrowth:
     added: NDArray[np.int8]
     """Number of added wheels on the surviving arbors of each path, including idlers."""
     idle: NDArray[np.int8]
-    """Number of surviving wheels that are on the arbors of each path, but are not used by it."""
+    """Number of surviving wheels that are on the arbors of each path but are not used by the path."""
     need: NDArray[np.int8]
     """Number of added wheels whose tooth counts must be divisible by a large prime, because no later arbor has a wheel
     that contains this prime.
@@ -196,7 +196,7 @@ class PathGrowth:
         limits: tuple[int, int | None],
     ) -> PathGrowth:
         """Return the paths that may be extended by the pass `each` of one more arbor, or that may avoid the arbor if
-        `each` is None. Their number `need` is updated.
+        `each` is None. The array `need` of these paths is updated.
 
         closing   columns of the large primes that occur in no later arbor
         lost      mask of the columns with a prime larger than the maximum tooth count
@@ -259,7 +259,7 @@ class PathList:
                          avoids the arbor; shape (rows, arbors)
     arbors               bit mask of the surviving arbors on the path, with bit i - 1 for arbor i
     ends_new             True if the arbor that carries the pointer is added
-    compounds, idlers    numbers of added arbors with two wheels and with one wheel, without an added last arbor
+    compounds, idlers    numbers of added arbors with two wheels and with one wheel; an added last arbor is not counted
     wheels, new          number of added wheels, and number of added arbors
     bounds               minimum and maximum quotient of the tooth counts of the added wheels, up to rounding errors
     """
@@ -380,7 +380,7 @@ class PathList:
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Large primes for which the tooth count of an added wheel contains at most one, and only once; empty if the
+        """Large primes. The tooth count of an added wheel contains at most one of them, and only once. Empty if the
         dial has a tolerance.
         """
         if not self.dial.is_exact:

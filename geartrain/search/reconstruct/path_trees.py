@@ -1,8 +1,8 @@
 """Recursive enumeration of all topologies that have one given path for each dial. Each topology occurs once.
 
 Surviving arbors that are common to two paths precede the branching at which the paths separate. The remaining choices
-are the number of added arbors on each chain, the added arbors at which paths separate, and the shared added driving
-wheels.
+are the number of added arbors on each chain, the added arbors at which paths separate, and the added driving wheels
+that are common to several paths.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ class DialPath(NamedTuple):
     """Part of the path to a dial that is not yet represented in the tree."""
 
     arbors: int
-    """Bit mask of the surviving arbors on this part of the path."""
+    """Bit mask of the surviving arbors on the remaining part of the path."""
     passes: Mapping[int, ArborPass]
     """Driven and driving wheel of the path on each surviving arbor, keyed by the index of the arbor. Index 0 is the
     input arbor.
@@ -112,18 +112,18 @@ class DialPath(NamedTuple):
     idlers: int
     """Number of added arbors with one wheel (idlers) before the last arbor."""
     wheels: int
-    """Number of added wheels on this part of the path."""
+    """Number of added wheels on the remaining part of the path."""
     ends_new: bool
     """True if the last arbor of the path is an added arbor."""
 
     @property
     def is_at_end(self) -> bool:
-        """True if no arbor is left on this part of the path, except possibly an added last arbor."""
+        """True if no arbor is left on the remaining part of the path, except possibly an added last arbor."""
         return not (self.arbors or self.compounds or self.idlers)
 
     @property
     def new(self) -> int:
-        """Number of added arbors on this part of the path."""
+        """Number of added arbors on the remaining part of the path."""
         return self.compounds + self.idlers + self.ends_new
 
 
@@ -363,7 +363,7 @@ class PathTrees:
 
 
 def paths_first(paths: Paths) -> DialPath:
-    """Return an arbitrary one of the paths, from which properties common to all paths can be read."""
+    """Return one of the paths. It is used to read properties that are common to all paths."""
     return next(iter(paths.values()))
 
 

@@ -1,4 +1,6 @@
-"""Complete reconstruction in one call, from declared evidence or from a train without some of its arbors."""
+"""Complete reconstruction by one function call, from declared evidence or from a train some of whose arbors are treated
+as lost.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,7 @@ class ReconstructionRequest(Shown):
     """
 
     evidence: Train
-    """Declaration with the block `reconstruct`, or the declaration of a complete train if `lost` is given."""
+    """Declaration with the block `reconstruct`; if `lost` is given, the declaration of a complete train."""
     lost: tuple[str, ...] = ()
     """Names of the arbors of the train that are treated as lost."""
     source: str | None = None
@@ -67,7 +69,7 @@ class ReconstructionRequest(Shown):
     best: int | None = 20
     """Maximum number of trains to list; None to list all of them."""
     counts_only: bool = False
-    """True to count trains without listing them."""
+    """True to count the trains without listing them."""
     prior_of: Literal["solution", "class"] = "solution"
     """Unit of the uniform prior: the same weight for every train ("solution"), or the same weight for every equivalence
     class of trains with equal ratios ("class").
@@ -90,14 +92,14 @@ class ReconstructionRun:
     """
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Called with the reconstruction problem before the search begins."""
+        """Handle the start of the search. `problem` is the reconstruction problem that is searched."""
 
     def search(self, problem: ReconstructionProblem) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor of the search."""
         return nullcontext(Execution())
 
     def searched(self, complete: bool) -> None:
-        """Called when the search has ended. `complete` is True if the search covered all candidates."""
+        """Handle the end of the search. `complete` is True if the search covered all candidates."""
 
     def part(self, what: str) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor for another part of the work.
@@ -124,7 +126,7 @@ class RankedTrain(Result):
     ranks: tuple[int, int]
     """First and last rank of the train by probability. They differ if several trains are equally probable."""
     added: int
-    """Number of added wheels."""
+    """Number of added wheels in the train."""
     weight: float
     """Posterior probability of the train, 0 to 1."""
     wheels: dict[str, int]
@@ -159,7 +161,7 @@ class ReconstructionAnswer(Result):
     )
 
     name: str
-    """Name of the evidence."""
+    """Name of the declared evidence."""
     problem: ReconstructionProblem
     """Reconstruction problem that was searched."""
     counts: tuple[ExplanationCount, ...]
@@ -177,7 +179,9 @@ class ReconstructionAnswer(Result):
     findings: CandidateFindings = NO_FINDINGS
     """Facts derived from the explanations: common facts, most informative facts, and the family tree."""
     base: BaseLink | None = None
-    """Base of the train: the link that carries the arbors, which is the frame or a carrier, and the input link."""
+    """Base of the train, which is the link that carries the arbors (the frame or a carrier), and input link of the
+    train.
+    """
     joined: Joined = field(default_factory=dict)
     """Links that form one arbor because declared couplings connect them, keyed by the name of the arbor."""
     known: tuple[KnownRank, ...] = ()

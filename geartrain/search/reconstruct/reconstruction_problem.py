@@ -29,7 +29,7 @@ Size = tuple[str | None, int]
 """Name of a wheel (None for an added wheel) and its tooth count."""
 
 NEW = "new"
-"""Value of `SearchedDial.place` for a dial whose arbor does not survive."""
+"""Value of `SearchedDial.place` for a dial whose pointer is on an arbor that does not survive."""
 UNMEASURED_SPREADS = 3
 """Maximum relative difference between the modules of a measured wheel and of an unmeasured mate, as a multiple of the
 standard deviation `module`.
@@ -44,7 +44,7 @@ class MeasuredWheel:
     name: str
     is_module: bool
     length: Fraction
-    """Module or pitch radius [mm]."""
+    """Measured module or pitch radius [mm]."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,9 @@ class SurvivingGeometry:
     axes.
     """
     reach: Fraction | None = None
-    """Maximum difference between the sum of two pitch radii and the axis distance [mm]; None if it is not limited."""
+    """Maximum difference between the sum of the pitch radii of two meshing wheels and the distance of their axes [mm];
+    None if it is not limited.
+    """
     radius: Fraction | None = None
     """Standard deviation of every measured pitch radius [mm]; None if it is included in the standard deviation
     `module`.
@@ -218,7 +220,7 @@ class SearchedDial(Shown):
 
     @property
     def is_exact(self) -> bool:
-        """True if only one speed of the pointer is accepted."""
+        """True if the required range of speeds contains only one speed."""
         return self.minimum == self.maximum
 
 
@@ -259,7 +261,7 @@ class PriorFactors:
     arbor: Fraction = Fraction(10)
     """Factor for each added arbor, at least 1."""
     unused: Fraction = Fraction(100)
-    """Factor for each surviving wheel that does not mesh, at least 1."""
+    """Factor for each surviving wheel that does not mesh with another wheel, at least 1."""
 
 
 @dataclass(frozen=True)
@@ -344,7 +346,7 @@ class Arbor(Shown):
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
     """Driving wheels on the arbor, each with the arbors that it drives, in sorted order."""
     passes: tuple[Arbor, ...] = ()
-    """Arbors that the driven wheel also drives, as an idler, in sorted order."""
+    """Arbors that the driven wheel drives as an idler, in sorted order."""
 
     def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
         """Yield each arbor that this arbor drives, preceded by the wheel that drives it."""
@@ -400,7 +402,7 @@ class RequestedQuestion(Result):
     readings: int
     """Number of combinations of the possible tooth counts of surviving wheels; 1 if all tooth counts are certain."""
     dials: int
-    """Number of pointers with a known speed."""
+    """Number of pointers with a required speed."""
     added: int
     """Maximum number of added wheels."""
     teeth: tuple[int, int]
@@ -457,8 +459,8 @@ def _plain(value: object) -> object:
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
     """Return the measurements in the evidence; `NO_GEOMETRY` if the evidence has no block `geometry`.
 
-    `DeclarationError` is raised if a module is not greater than 0, or if an arbor has a position while a wheel is a
-    ring.
+    `DeclarationError` is raised if a module is not greater than 0, or if the evidence contains both a ring and an arbor
+    with a position.
     """
     assert evidence.reconstruct is not None, "no evidence"
     requested = evidence.reconstruct.geometry

@@ -340,8 +340,8 @@ def _equivalent_text(facts: Sequence[Fact]) -> str:
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
-    """Yield the section on the numbers of trains without each hard constraint. `given` contains the numbers of trains
-    with all constraints.
+    """Yield the section on the numbers of trains that result without each hard constraint. `given` contains the numbers
+    of trains with all constraints.
     """
     if not changes:
         return

@@ -1,5 +1,5 @@
-"""Exact number of explanations and list of candidates of a reconstruction. Topologies are weighted, and the most
-probable trains are listed or sampled.
+"""Exact number of explanations of a reconstruction problem, and list of its candidates. Topologies are weighted, and
+the most probable trains are listed or sampled.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class ExplanationCount(Result):
     added: int
     """Number of added wheels in each of these trains."""
     solutions: int
-    """Number of different trains."""
+    """Number of different trains that explain the evidence."""
     multisets: int | None
     """Number of classes of trains, where trains that differ only in the order of the arbors along a path are counted
     once; None if there are too many trains.
@@ -81,9 +81,9 @@ class Candidate(Result):
     KEYS = ("added", Key("weight", to=float), "ranks")
 
     arbor: Arbor
-    """Input arbor of the train."""
+    """Input arbor of the train, with the subtree that it drives."""
     added: int
-    """Number of added wheels."""
+    """Number of added wheels in the train."""
     weight: float
     """Posterior probability of the train, 0 to 1."""
     ranks: tuple[int, int]
@@ -97,7 +97,7 @@ class WeightClass(Result):
     """Class of explanations with the same number of added wheels and the same weight."""
 
     added: int
-    """Number of added wheels of each explanation."""
+    """Number of added wheels in each explanation."""
     weight: Fraction
     """Weight of each explanation, up to a factor common to all explanations."""
     solutions: int
@@ -227,7 +227,7 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
     """Yield candidates in descending order of probability. Equally probable candidates are ordered by the number of
-    added wheels, then by the sum of their tooth counts.
+    added wheels, then by the sum of the tooth counts of these wheels.
     """
     weighed = [(topology_prior(each.topology, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.solutions for weight, _, each in weighed)
@@ -252,8 +252,8 @@ def _order(arbor: Arbor) -> tuple[int, str]:
 def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior_of: str
 ) -> Reconstructions:
-    """Return the explanations with a weight computed for every candidate from its likelihood and, if `prior_of` is
-    "class", from the size of its ratio class. Candidates with likelihood 0 are omitted.
+    """Return the explanations, each with a weight computed from its likelihood. If `prior_of` is "class", the weight
+    also depends on the size of the ratio class. Candidates with likelihood 0 are omitted.
     """
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
@@ -355,12 +355,12 @@ def train_key(arbor: Arbor) -> tuple[object, ...]:
 
 
 def arbor_multiset(arbor: Arbor) -> tuple[object, ...]:
-    """Return, for the path of each dial, the multiset of its arbors with their wheels."""
+    """Return, for the path to each dial, the multiset of the arbors on this path with their wheels."""
     return tuple(sorted((dial, tuple(sorted(path))) for dial, path in _paths(arbor)))
 
 
 def ratio_class(arbor: Arbor) -> tuple[object, ...]:
-    """Return, for the path of each dial, the multiset of driving wheels and the multiset of driven wheels."""
+    """Return, for the path to each dial, the multiset of driving wheels and the multiset of driven wheels."""
     return tuple(
         sorted(
             (dial, tuple(sorted(step[2] for step in path[:-1])), tuple(sorted(step[1] for step in path[1:])))

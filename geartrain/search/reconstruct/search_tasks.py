@@ -30,8 +30,8 @@ _QUICK = 2
 """Maximum number of added wheels for which the search is not divided into parts."""
 _PARTS = 24  # divides evenly over 2, 3, 4, 6, 8 and 12 processes
 _MOST_CHOICES = 24
-"""Maximum decimal logarithm of the number of choices of tooth counts for added wheels. Searches that take hours have
-about 20.
+"""Maximum decimal logarithm of the number of choices of tooth counts for added wheels. For searches that take hours,
+this logarithm is about 20.
 """
 _MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
 
@@ -59,7 +59,7 @@ class OrderPart(NamedTuple):
 
 
 class TopologyTrains:
-    """Numbers of trains of the topologies of a problem."""
+    """Numbers of trains of topologies in a reconstruction problem."""
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         limits = problem.additions
@@ -125,7 +125,7 @@ class CountedTopology:
 
 
 class TopologyTask(NamedTuple):
-    """One part of the search for topologies with a given number of added wheels."""
+    """One part of the search for the topologies that have a given number of added wheels."""
 
     problem: ReconstructionProblem
     added: int
@@ -235,9 +235,9 @@ class PathColumns:
     def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
         """Return whether each path can be in the same tree as a given path to another dial.
 
-        Two paths must enter every common arbor by the same wheel with the same tooth count. They may leave at most one
-        common arbor, at which they separate, by different wheels. Paths that separate at the input arbor have no other
-        common arbor.
+        Two paths must enter every common arbor by the same wheel with the same tooth count. They may leave only one
+        common arbor by different wheels, the arbor at which they separate. Paths that separate at the input arbor have
+        no other common arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = np.ones(len(rows), dtype=bool)
@@ -354,8 +354,8 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
-        """Return, for each path in `rows`, a lower bound of the number of added wheels that are on only one of this
-        path and a chosen path.
+        """Return, for each path in `rows`, a lower bound of the number of added wheels that belong to only one of two
+        paths: this path and the chosen path to the dial `end`.
         """
         first, second = self.lists[end], self.lists[dial]
         (low, high), (minimum, maximum) = first.bounds, second.bounds

@@ -34,7 +34,7 @@ _WHEEL_KEYS = ("internal", "status", "source", "note")
 
 @dataclass(frozen=True)
 class DrivenArbor:
-    """Mesh by which an arbor is driven: parent arbor, driving wheel and driven wheel."""
+    """Mesh that drives an arbor: parent arbor, driving wheel and driven wheel."""
 
     parent: str
     driving: str
@@ -122,19 +122,21 @@ def _value(figure: Figure) -> object:
 
 @dataclass(frozen=True)
 class SpurTree:
-    """Arbors of one part of a train, from its first arbor to its pointers."""
+    """Tree of the arbors in one part of a train, from the first arbor to the arbors that carry pointers."""
 
     train: Train
     base: BaseLink
     """Base of the part: the link that carries the arbors, and the speed of the first arbor."""
     driven: Mapping[str, DrivenArbor]
-    """Mesh by which each arbor is driven, keyed by arbor in topological order."""
+    """Mesh that drives each arbor, keyed by arbor in topological order."""
     joined: Joined
     """Links that form each arbor, keyed by arbor; the link with the name of the arbor comes first. Arbors with a single
     link are omitted.
     """
     pointers: Mapping[str, str]
-    """Arbor of each output, and of each other link that serves as a pointer because its speed is known."""
+    """Arbor that carries the pointer of each output, keyed by output. A link without output is included under its own
+    name if it serves as a pointer because its speed is known.
+    """
     counts: Mapping[str, int]
     """Tooth count of each meshing wheel, keyed by wheel."""
     teeth: tuple[int, int]
@@ -221,7 +223,7 @@ def candidate_arbor(
 ) -> Arbor:
     """Return the candidate that consists of an arbor of a train and of all arbors that it drives.
 
-    driven    mesh by which each arbor is driven
+    driven    mesh that drives each arbor
     names     name of each surviving arbor in the candidate; None or no entry for an added arbor
     pointers  arbor of each dial
     placed    function that converts a wheel of the train to a wheel of the candidate
@@ -313,7 +315,9 @@ class _Base:
     """
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Group of links that couplings connect to each link, including this link, in the order of declaration."""
+    """Group of links that couplings connect to each link, keyed by link. The group includes this link and is in the
+    order of declaration.
+    """
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
     """Meshes of each arbor with other arbors on the same base."""
 
@@ -369,8 +373,8 @@ class _Parts:
         return {base: own for base, own in found.items() if own.meshes}
 
     def _arbor(self, base: str, wheel: str, bases: dict[str, _Base] | None = None) -> str:
-        """Return the arbor of a wheel. This is the frame if the link of the wheel is fixed, or else the first of the
-        links joined to the link of the wheel.
+        """Return the arbor of a wheel. If the link of the wheel is fixed, this is the frame; if not, it is the first of
+        the links joined to the link of the wheel.
         """
         return self._arbor_of_link(base, self.train.wheels[wheel][0], bases)
 
@@ -442,7 +446,7 @@ class _Parts:
         """Yield, for each output of known speed relative to the frame or the base, its name, its link, and whether it
         has a target.
 
-        If the base is a carrier, the inputs of the train are also yielded.
+        If the base is a carrier, the inputs of the train are also treated as outputs.
         """
         train = self.train
         for name, output in train.case(None).outputs.items():
@@ -621,7 +625,9 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
 
 
 def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
-    """Return the meshing wheels of a surviving link as plain data with tooth counts, kinds, statuses and sources."""
+    """Return the meshing wheels on a surviving link as plain data, each with its tooth count, kind, status and
+    source.
+    """
     found: dict[str, Any] = {}
     for name in (name for name in tree.train.links[link].wheels if name in tree.counts):
         wheel = given["links"][link]["wheels"][name]

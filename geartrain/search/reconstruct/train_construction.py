@@ -22,7 +22,7 @@ from geartrain.train.yaml_nodes import as_yaml
 
 
 def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, float | None]:
-    """Return the module [mm] to be declared for each measured wheel whose measured module cannot be declared.
+    """Return the module [mm] to be declared for each measured wheel for which the measured module cannot be declared.
 
     Wheels that mesh share one module. In a group of such wheels, the first measured wheel receives the geometric mean
     of the measured modules, and the others receive None, because their modules follow from the first. All wheels of a
@@ -50,7 +50,9 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
 
 
 def _meshing(train: NamedArbor) -> dict[str, str]:
-    """Return, for each wheel, the first wheel of the group of wheels that have the same module because they mesh."""
+    """Return, for each wheel, the first wheel of its group. Wheels of a group have the same module because they
+    mesh.
+    """
     first: dict[str, str] = {}
     for _, wheel, arbor in train.meshes():
         assert arbor.driven is not None

@@ -31,7 +31,7 @@ ADDED = PlacedWheel(None, 0)
 
 @dataclass(frozen=True)
 class ArborPass:
-    """Driven and driving wheel by which a path passes through one arbor."""
+    """Pair of the driven and the driving wheel by which a path passes through one arbor."""
 
     driven: PlacedWheel | None
     """Driven wheel, by which the path enters the arbor; None on the input arbor."""
@@ -128,7 +128,7 @@ class Branching:
 
     @property
     def chains(self) -> Iterator[Chain]:
-        """All chains of arbors that this arbor drives."""
+        """Chains of arbors that this arbor drives."""
         for _, chains in self.drives:
             yield from chains
         yield from self.passes

@@ -67,7 +67,9 @@ class SpeedRequirement:
         return replace(self, allowed=allowed, approached=True)
 
     def error(self, speed: Fraction) -> Fraction:
-        """Return the relative error of a speed. If the requested speed is 0, return the speed itself."""
+        """Return the relative error of a speed with respect to the requested speed. If the requested speed is 0, return
+        the speed itself.
+        """
         return Fraction(error_against(speed, self.wanted, self.signed))
 
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
@@ -184,15 +186,15 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return a speed with its error. Among the graded requirements, the one with the largest absolute error
-        determines the error.
+        """Return a speed with its error. The error is that with respect to the graded requirement with the largest
+        absolute error.
         """
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))
 
     def scaled(self, factor: Fraction) -> OutputRequirement:
-        """Return the output with all tolerances multiplied by a factor."""
+        """Return the output requirement with all tolerances multiplied by a factor."""
         return replace(self, demands=tuple(demand.scaled(factor) for demand in self.demands))
 
     def fits(self, speed: Fraction | None) -> bool:
@@ -294,7 +296,7 @@ def _printed(train: Train, published: Published, drive: Fraction | None, graded:
 
 
 def _mirrored(interval: Interval) -> Interval:
-    """Return the interval of speeds with opposite signs."""
+    """Return the interval of the speeds with opposite sign."""
     low, high = interval
     return None if high is None else -high, None if low is None else -low
 

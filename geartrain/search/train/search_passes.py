@@ -40,7 +40,7 @@ _POOL = 20_000
 """Number of stored assignments above which all but the best assignments are discarded."""
 
 Task = dict[str, Any]
-"""One task of a pass, the argument of `do_task`, as plain data."""
+"""One task of a pass as plain data. It is the argument of `do_task`."""
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
@@ -98,7 +98,7 @@ def _unpacked(packed: bytes) -> tuple[ExactJoin, AssignmentOrder, int]:
 
 
 def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
-    """Execute one task of a pass. A task covers a part of the values of one or two variables.
+    """Run one task of a pass. A task covers a part of the values of one or two variables.
 
     packed   pickled join problem, order of the solutions, and maximum number of assignments that are enumerated for the
              list
@@ -286,7 +286,9 @@ class PartSearch:
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
 
     def without(self, *, rule: str = "", requirement: OutputRequirement | None = None) -> PartSearch:
-        """Return the search without the constraints named `rule`, or without the given requirement on an output."""
+        """Return the search without the constraints that have the name `rule`, or without the given requirement on an
+        output.
+        """
         part = replace(
             self.part,
             rules=tuple(one for one in self.part.rules if one.name != rule),
@@ -302,15 +304,15 @@ class PartSearch:
         return (*self.part.conditions, *(one for one in found if one is not None))
 
     def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
-        """Return an estimate of the fraction of assignments that satisfy each constraint, keyed by the name of the
-        constraint or requirement.
+        """Return an estimate of the fraction of assignments that satisfy each constraint or requirement, keyed by its
+        name.
         """
         sample = SelectivitySample.of(self.domains)
         probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
         return probabilities | {one.name: sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
-        """Execute one pass. All solutions are counted, and the best solutions are listed if there are at most `most`
+        """Run one pass. All solutions are counted, and the best solutions are listed if there are at most `most`
         solutions.
 
         share    common relative tolerance of graded requirements; None if there is no common tolerance
@@ -370,7 +372,7 @@ class AssignmentOrder:
     the order of the wheels.
     """
     best: int
-    """Number of assignments to keep."""
+    """Number of assignments to be kept."""
     requirements: tuple[OutputRequirement, ...]
     """Outputs whose errors are compared."""
     declared: Mapping[str, int]

@@ -126,7 +126,7 @@ def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _explain(search: PartSearch) -> tuple[str, str]:
-    """Return a description of the nearest miss, and suggestions of constraints to be relaxed. Each of them is empty if
+    """Return a description of the nearest miss, and suggestions of constraints to be relaxed. Either text is empty if
     there is none.
     """
     wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(search, requirement)]
@@ -217,8 +217,8 @@ def _rounded_up(error: Fraction) -> str:
 
 
 LIMIT = 10**9
-"""Default maximum number of steps of a pass, where a step is a partial assignment that is examined. This number takes
-about a few minutes.
+"""Default maximum number of steps of a pass, where a step is a partial assignment that is examined. A pass with this
+number of steps takes a few minutes.
 """
 
 
@@ -240,11 +240,10 @@ def search_train(
 
     The algorithm is an exact join of lists of products of tooth counts, on the factors that several outputs have in
     common. The join can count many more assignments than it can list. All comparisons use integers. The requirements on
-    an output are
-    its `expect` and `published` values, to the precision of their written digits and with their signs, and every target
-    with a tolerance. If no target has a tolerance and `tolerance` is given, the first target is a requirement. If an
-    output has targets but none of these requirements, its error is minimised. The `best` assignments with the smallest
-    errors are found by increasing a common tolerance, which proves that they are the best.
+    an output are its `expect` and `published` values, to the precision of their written digits and with their signs,
+    and every target with a tolerance. If no target has a tolerance and `tolerance` is given, the first target is a
+    requirement. If an output has targets but none of these requirements, its error is minimised. The `best` assignments
+    with the smallest errors are found by increasing a common tolerance, which proves that they are the best.
 
     Parameters
     ----------

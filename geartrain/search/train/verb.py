@@ -1,4 +1,4 @@
-"""Command `geartrain teeth train FILE`: search for the tooth counts of the varied wheels of a train."""
+"""Command `geartrain teeth train FILE`: search for tooth counts of the varied wheels of a train."""
 
 from __future__ import annotations
 

@@ -183,8 +183,8 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for torques: torque balance with losses, and mean torque over several positions
-    of the input.
+    """Yield the accuracy of the methods for torques: torque balance with losses, and mean torque over a run, computed
+    with different numbers of positions.
     """
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))

@@ -87,7 +87,9 @@ class GearState(Result):
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift from one state of a gearbox to the next, with the elements that open and the elements that close."""
+    """Shift from one state of a gearbox to the next state that has a ratio, with the elements that open and the
+    elements that close.
+    """
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -96,9 +98,9 @@ class Shift(Result):
     after: str
     """Name of the state after the shift."""
     released: tuple[str, ...]
-    """Names of the clutches and brakes that open."""
+    """Names of the clutches and brakes that open. One-way clutches are omitted."""
     applied: tuple[str, ...]
-    """Names of the clutches and brakes that close."""
+    """Names of the clutches and brakes that close. One-way clutches are omitted."""
 
     @property
     def is_double(self) -> bool:
@@ -166,7 +168,7 @@ class Gearbox(Tabular, Result):
     elements: tuple[ShiftElement, ...]
     """Clutches and brakes in the order of declaration."""
     shifts: tuple[Shift, ...]
-    """Shifts between consecutive states whose ratios are determined and have the same sign."""
+    """Shifts between consecutive states that have ratios of the same sign. States without a ratio are skipped."""
 
     def _summary(self) -> str:
         ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)

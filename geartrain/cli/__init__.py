@@ -4,7 +4,7 @@ verbs           groups of commands, imported on request; exit codes
 common          options that commands share, loading of trains, output of results
 option_values   parsers of option values; `long_runs` has progress bars, journals, and options of dynamics
 declarations    `init`, `format`, `list`, `periods`; `check`, `solve`, `gearbox` have modules of their own
-inspection      a group of commands: `equations`, `formula`, `graph`, `bench`, `schema`
+inspection      commands `equations`, `formula`, `graph`, `bench`, `schema`
 report          `report`, `compare`; `draw` writes pictures, `view` has `view` and `watch`
 torques, motion, sphere
 mesh            a pair of wheels of any tooth form, with `pair_options`; `pin` in a slot

@@ -1,4 +1,4 @@
-"""Arguments, exit codes and output that the commands share."""
+"""Arguments, exit codes and output functions that the commands share."""
 
 from __future__ import annotations
 
@@ -77,21 +77,25 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if the named state (by default the first) is determined and as expected, and the teeth have no
-    faults.
+    """Return True if the speeds in the named state (None: the first state) are determined and as expected, and no teeth
+    are faulty.
     """
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def exit_code(sound: bool, to: Sink) -> int:
-    """Return the exit code; if the output is a file, report on standard error that a train is not as expected."""
+    """Return the exit code of a command. If `sound` is False and the output is a file, also print a note on standard
+    error that a train is not as expected.
+    """
     if not sound and to.path is not None:
         tell("a train is not determined, or not as expected: `geartrain check` lists why (exit code 1)")
     return GOOD if sound else VERDICT
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """Return the named state, or all states with computable speeds; report each omitted state on standard error."""
+    """Return the named state, or all states with computable speeds if `state` is None. Each omitted state is reported
+    on standard error.
+    """
     if state is not None:
         return (state,)
     for case in train.kinematics.cases.values():
@@ -125,19 +129,21 @@ class Sink:
     force: bool = False
     """True to overwrite an existing file."""
     plain: bool = False
-    """True if standard output was requested as `-`; it then receives the content of a file."""
+    """True if the user wrote `-` for standard output, which then receives the content of the file."""
     form: str = ""
-    """Suffix that sets the format of standard output, as in `-.csv`."""
+    """Suffix that sets the format of standard output, such as `.csv` in `-.csv`; empty if the user gave no suffix."""
     theme: ThemeName = "light"
     """Colour theme of a picture: light, dark or print."""
 
     @property
     def suffix(self) -> str:
-        """Suffix of the file or of standard output in lower case; "" if there is none."""
+        """Suffix of the file or of standard output, in lower case; an empty string if there is no suffix."""
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result to standard output, or atomically to the file; then report its name and `said`."""
+        """Write a complete result to standard output, or atomically to the file. After writing a file, print its name,
+        followed by `said`, on standard error.
+        """
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -204,7 +210,7 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 
 
 def emit(text: str, out: Sink = STANDARD) -> None:
-    """Write text atomically to a file, or print it; control characters in it are escaped."""
+    """Write text atomically to a file, or print it. Control characters in the text are escaped."""
     text = printable(text)
     text = text if text.endswith("\n") else text + "\n"
     if out.path is None:
@@ -236,7 +242,9 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if requested by option or suffix, otherwise as documents; compute only this format."""
+    """Write a result as JSON if the --json option or the file suffix requests it; otherwise write it as documents. Only
+    the requested format is computed.
+    """
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:
@@ -251,7 +259,9 @@ def draw(figure: Any, out: Sink) -> None:
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """Return the suffix of an output file, or "" if it has none; reject suffixes that are not allowed."""
+    """Return the suffix of an output file, or an empty string if there is none. Raise an error if the suffix is not
+    allowed.
+    """
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
         raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")
@@ -259,14 +269,16 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
 
 
 def file_name(text: str, ending: str) -> Path:
-    """Return a file in the current folder named after `text`, with unsuitable characters replaced by hyphens."""
+    """Return a path in the current folder: `text`, with unsuitable characters replaced by hyphens, followed by
+    `ending`.
+    """
     # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")
 
 
 def as_json(data: Any) -> str:
-    """Format results as JSON; characters that would control a terminal are escaped."""
+    """Return results as a JSON string, in which control characters are escaped."""
     from geartrain.numerics.results import plain
 
     data = plain(data)
@@ -277,7 +289,7 @@ def as_json(data: Any) -> str:
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; return an empty string if `rows` is empty."""
+    """Return rows that have the same keys as CSV text with a header line; an empty string if `rows` is empty."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

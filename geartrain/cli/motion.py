@@ -132,7 +132,9 @@ def _turns(text: str, motion: Motion) -> float:
 
 
 def _partial(to: Sink) -> Sink:
-    """Return the destination of partial results after an interruption; CSV tables have their own partial file."""
+    """Return the destination of partial results after an interruption. CSV tables are excluded, because they have a
+    partial file of their own.
+    """
     if to.path is None or to.suffix == ".csv":
         return STANDARD
     from geartrain.numerics.files import partial_name

@@ -38,7 +38,7 @@ def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum
 
 
 def read_quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> Quantity:
-    """Parse a quantity and return it as written; see `quantity`."""
+    """Parse a quantity and return it with the unit in which it was written. The parameters are those of `quantity`."""
     try:
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
@@ -54,7 +54,9 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction: a number, a percentage, ppm, or the rate of a clock (s/d)."""
+    """Parse the value of an option as an exact fraction. The value is a number, a percentage, a value in ppm, or the
+    rate of a clock in seconds per day (s/d).
+    """
     return read_quantity(option, text, "fraction or clock rate", plain=True).base
 
 
@@ -131,5 +133,7 @@ def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
-    """Return the error with `place`, the option that caused it, in every problem that has no place."""
+    """Return a copy of the error in which `place`, the option that caused the error, is the location of every problem
+    without a location.
+    """
     return GearTrainError(replace(each, place=each.place or place.replace("_", "-")) for each in error.problems)

@@ -71,14 +71,16 @@ def _meaning(field: FieldInfo) -> str:
 
 
 def _words(annotation: Any) -> list[str]:
-    """Return the words that are allowed as values of a field."""
+    """Return the words that a field with this type annotation accepts as values."""
     if get_origin(annotation) is Literal:
         return [each for each in get_args(annotation) if isinstance(each, str)]
     return [word for each in get_args(annotation) for word in _words(each)]
 
 
 def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fix: str = "") -> dict[str, str]:
-    """Parse KEY=VALUE options to a mapping. Raises `QuestionError` if a key is unknown or given twice."""
+    """Parse KEY=VALUE options into a mapping from key to value. Raises `QuestionError` if a key is unknown or given
+    twice.
+    """
     found: dict[str, str] = {}
     for text in texts:
         name, equals, value = map(str.strip, text.partition("="))
@@ -134,7 +136,9 @@ def _value(field: FieldInfo, given: str) -> Any:
 
 
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
-    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError` for a ring gear."""
+    """Parse the shaft angle [rad] of bevel wheels. None denotes parallel axes. Raises `GearTrainError` if an angle is
+    given for a ring gear.
+    """
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise option_error("--shaft-angle", "a ring gear is given with a shaft angle", fix, why)
@@ -158,7 +162,9 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
 
 
 def read_module(module: str | None) -> float | None:
-    """Parse the module [m]; None if not given. Raises `GearTrainError` if it is not a positive length."""
+    """Parse the module [m]; return None if `module` is None. Raises `GearTrainError` if the value is not a positive
+    length.
+    """
     return None if module is None else quantity("--module", module, "length", minimum="above 0")
 
 
@@ -181,7 +187,7 @@ class PairRequest:
     model: type[ToothForm]
     teeth: tuple[int, int]
     own: Mapping[str, str]
-    """Parameters of the tooth form, by key."""
+    """Parameters of the tooth form as text, keyed by parameter name."""
     module: float | None = None
     """Module of the pair [m]; None if not given."""
     friction: str = "0"
@@ -189,9 +195,9 @@ class PairRequest:
     rate: str | None = None
     internal: bool = False
     shaft_angle: float | None = None
-    """Shaft angle of bevel wheels [rad]."""
+    """Shaft angle of bevel wheels [rad]; None for parallel axes."""
     helix: float = 0.0
-    """Helix angle of the first wheel [rad]."""
+    """Helix angle of the first wheel [rad]; 0 for spur wheels."""
 
     def mesh(self, **varied: str) -> GearMesh:
         """Create the pair in mesh, with some parameters replaced by the values in `varied`.
@@ -268,7 +274,7 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink
 
 
 def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
-    """Parse the sizes of a wheel [mm]; `module` is in m."""
+    """Parse the sizes of a wheel blank, which are given as text in `sizes`; `module` is in m."""
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
@@ -304,8 +310,8 @@ class PairFrictionOption:
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return the mesh with this friction; raise `GearTrainError` if a friction law needs an unknown speed or
-        module.
+        """Return a copy of the mesh with this friction. Raise `GearTrainError` if a friction law needs a speed or a
+        module that is not known.
         """
         if self.law is None:
             return mesh

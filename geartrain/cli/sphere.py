@@ -194,7 +194,9 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """Return the radius of the sphere, which is given directly or by the pitch radius of one kind of gear."""
+    """Return the radius of the sphere. The text contains either this radius, or KIND=RADIUS, the pitch radius of one
+    kind of gear.
+    """
     from geartrain.spherical.gear_sizes import size_gears
 
     kind, wheel, number = text.rpartition("=")

@@ -166,14 +166,14 @@ class EndingGroup(TyperGroup):
             return super().make_context(*given, **more)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the requested command."""
+        """Run the command that was requested on the command line."""
         with _translated_exits():
             return super().invoke(ctx)
 
 
 @contextmanager
 def _translated_exits() -> Iterator[None]:
-    """Convert exceptions that typer would report in another form."""
+    """Convert exceptions to the error classes of this package before typer reports them in another form."""
     try:
         yield
     except BrokenPipeError:

@@ -124,7 +124,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
     """Return the layout of a page: `embed`, `kiosk`, or `page` by default.
 
-    Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
+    Raises `QuestionError` if both layouts are given, or if two trains are given for a layout that shows only one.
     """
     if embed and kiosk:
         what, why = "--embed and --kiosk are given together", "a page can have only one layout"
@@ -137,7 +137,9 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raise `QuestionError` if options of --dynamics are given without it, or --dynamics with two trains."""
+    """Raise `QuestionError` if options of --dynamics are given without --dynamics, or if --dynamics is given for two
+    trains.
+    """
     if not dynamics and request != TimeRequest():
         what = "options of --dynamics are given without --dynamics"
         why = "without --dynamics the page shows the kinematics only"
@@ -219,7 +221,7 @@ def _pages(path: Path) -> LivePages:
 
 
 def _files(path: Path) -> tuple[Path, ...]:
-    """Return the file and all files that it extends; only the file if it cannot be read."""
+    """Return the file and all files that it extends. If the file cannot be read, return only its own path."""
     from geartrain.train.declaration_files import files_of
 
     try:

@@ -136,7 +136,9 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths (n, n) of the shortest paths between items (Floyd-Warshall); 0 for unconnected items."""
+    """Return the lengths (n, n) of the shortest paths between items (Floyd-Warshall algorithm); 0 for unconnected
+    items.
+    """
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -176,7 +178,9 @@ def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Page [in] with occupied boxes (n, 4), on which labels are placed without overlap."""
+    """Page on which labels are placed without overlap. The occupied boxes are an array (n, 4) of centres, widths and
+    heights [in].
+    """
 
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
 
@@ -211,7 +215,7 @@ _THIN: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "zorder": 7}
 
 @dataclass(frozen=True, slots=True)
 class Callout:
-    """One or more lines of text next to a picture, with the point of the picture that they name [in]."""
+    """One or more lines of text next to a picture, and the point of the picture [in] that the text names."""
 
     words: Sequence[tuple[str, str]]
     """Lines of text, each as (identifier of the text in a vector file, string)."""
@@ -230,7 +234,9 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Callouts in columns left and right of a picture, each with its ordinate, and the inner edges of columns [in]."""
+    """Callouts in columns left and right of a picture: the ordinate of each callout and the inner edges of the columns
+    [in].
+    """
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -238,7 +244,7 @@ class CalloutMargin:
 
     @property
     def widths(self) -> tuple[float, float]:
-        """Widths of the left and right columns beyond their edges [in]."""
+        """Widths [in] of the left and right columns, measured outwards from their inner edges."""
         sides = [[each.width + 2 * _AWAY for each, _ in side] for side in (self.left, self.right)]
         return max(sides[0], default=0.0), max(sides[1], default=0.0)
 
@@ -268,7 +274,9 @@ class CalloutMargin:
         return CalloutMargin(left, right, (self.edges[0] + x, self.edges[1] + x))
 
     def draw(self, axes: Axes) -> None:
-        """Draw the text, the lines with a dot at the named point, and a bar next to each list."""
+        """Draw the text of the callouts, the leader lines, each with a dot at the named point, and a bar next to each
+        list.
+        """
         for side, edge, ha, step in ((self.left, self.edges[0], "right", -1), (self.right, self.edges[1], "left", 1)):
             for each, y in side:
                 axes.plot([edge, each.anchor[0]], [y, each.anchor[1]], **_THIN)
@@ -300,7 +308,9 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return callouts with their ordinates [in] close to their points, in an order with few crossing lines."""
+    """Return the callouts of one column with their ordinates [in], which are close to the named points, in an order
+    with few crossing leader lines.
+    """
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):
@@ -316,7 +326,9 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
 
 
 def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
-    """Return callouts from bottom to top in the order of minimum total line length (linear assignment)."""
+    """Return callouts from bottom to top in the order that minimises the total length of their leader lines (linear
+    assignment).
+    """
     if not callouts:
         return []
     heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))
@@ -332,12 +344,12 @@ def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> l
 
 
 def _crossings(placed: Sequence[tuple[Callout, float]], edge: float) -> Ints:
-    """Return the index pairs (n, 2) of callouts whose lines cross."""
+    """Return the index pairs (n, 2) of callouts whose leader lines cross."""
     starts = np.array([(edge, y) for _, y in placed]).reshape(-1, 1, 2)
     ends = np.array([each.anchor for each, _ in placed]).reshape(-1, 1, 2)
 
     def parts(points: Floats) -> Floats:
-        """Return the side (n, n) of each line on which each point (1, n) lies, as a sign."""
+        """Return the signs (n, n), -1, 0 or 1, of the side of each leader line on which each point lies."""
         along, apart = ends - starts, points - starts
         return np.asarray(np.sign(along[..., 0] * apart[..., 1] - along[..., 1] * apart[..., 0]))
 

@@ -50,19 +50,21 @@ class PointerReading:
 
     output: str
     turned: Fraction | None
-    """Exact mean rotation since the zero pose [turns], positive clockwise as read; None if it is not determined."""
+    """Exact mean rotation since the zero pose [turns], positive clockwise as seen by the reader; None if the rotation
+    is not determined.
+    """
     error: float
     """Contribution of the starting angle, teeth and pins to the reading [turns], positive clockwise as read."""
     reach: float = 1.0
     """Length of the hand divided by the radius of its scale. The points of `outline` are (x, half the width), both
-    divided by this length.
+    divided by the length of the hand.
     """
     outline: Sequence[tuple[float, float]] = ()
 
     @property
     def at(self) -> Fraction:
-        """Position of the pointer, clockwise as read from the zero mark [turns]; its mean rotation counts as 0 if it is
-        not determined.
+        """Position of the pointer [turns], measured clockwise from the zero mark as seen by the reader. A mean rotation
+        that is not determined counts as 0.
 
         The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line,
         and an error of -1e-17 turns would move it to the cell before the line.
@@ -72,7 +74,9 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """Dial face to be drawn, with the indices of the pointers that are read on it; `name` is empty for a plain face."""
+    """Dial face to be drawn, with the indices of the pointers that are read on the face. `name` is empty for a plain
+    face.
+    """
 
     name: str
     scale: DialScale
@@ -80,7 +84,7 @@ class DialPicture:
     title: str = ""
     """Text above the face; empty to use the name."""
     ball: bool = False
-    """True for a half-black ball that shows the Moon's phase."""
+    """True if the pointer is a half-black ball that shows the Moon's phase."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
@@ -213,7 +217,7 @@ def _draw_moon(axes: Axes, reading: PointerReading, centre: tuple[float, float])
 
 
 def _usual_sense(pointers: Sequence[Pointer]) -> str:
-    """Return the sense in which most of the hands turn as read; empty if none turns."""
+    """Return the sense of rotation of most hands as seen by the reader; an empty string if no hand turns."""
     senses = Counter(pointer.text.removesuffix(" as read") for pointer in pointers if pointer.speed)
     return senses.most_common(1)[0][0] if senses else ""
 

@@ -58,7 +58,7 @@ _EDGE_STYLES: dict[str, tuple[float, Dash, str]] = {
     "gear": (3.2, "-", BLUE),
     "coupling": (2.2, (0, (4, 2)), PURPLE),
 }
-"""Width [pt], dashes and colour of an edge by its kind."""
+"""Line width [pt], dash pattern and colour of an edge, keyed by the kind of the edge."""
 _JOINTS = ("revolute", "prismatic")
 _LABEL_OFFSETS = (
     (0.0, 0.12),
@@ -87,7 +87,9 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return the edges of turning pairs, gear pairs and couplings, marked if their name is in `broken`."""
+    """Return the edges of turning pairs, gear pairs and couplings. An edge is marked as broken if its name is in
+    `broken`.
+    """
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -146,7 +148,9 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Return the positions of links [in], and the edges, each with its curve (3, 2) of start, control point and end."""
+    """Return the positions of links [in], and a list of the edges with their curves (3, 2): start, control point and
+    end.
+    """
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
@@ -176,7 +180,9 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
 
 
 def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -> list[Floats]:
-    """Return the curve of every edge; later edges between the same links bend more."""
+    """Return the curve of every edge. If several edges connect the same two links, each is bent more than the previous
+    one.
+    """
     turns: dict[frozenset[str], int] = {}
     found = []
     for edge in edges:
@@ -244,7 +250,9 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the inked area of edges that a box with a margin would hide; the edge `own` is not counted."""
+        """Return the inked area of edges that a box with a margin would hide. The edge with the index `own` is not
+        counted.
+        """
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))

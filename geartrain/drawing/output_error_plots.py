@@ -67,7 +67,7 @@ class _Trace(NamedTuple):
     """Name of the error on the axis: transmission error if the train has tooth forms, otherwise anomaly."""
     slides: bool
     first: tuple[Floats, Floats, Floats]
-    """Turns, error and relative speed at each of the first positions of the run."""
+    """Input turns, output error and relative output speed at the first positions of the run."""
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
@@ -87,8 +87,8 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def _error_chart(run: MotionRun, title: str) -> Figure:
-    """Return a chart of the errors of a run, which has been computed. Outputs that move uniformly have no row, unless
-    all outputs move uniformly.
+    """Return a chart of the output errors of a run that has been computed. Outputs that move uniformly have no row,
+    unless all outputs move uniformly.
     """
     uneven = [tally for tally in run.statistics if tally.peak_to_peak > _ROUNDING]
     ranked = sorted(uneven or run.statistics, key=lambda tally: -tally.peak_to_peak)
@@ -136,8 +136,8 @@ def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> F
 
 
 def _drawers(trace: _Trace) -> list[Callable[[Axes, _Trace], None]]:
-    """Return the functions that draw an output's panels; for many turns, only backward motion is shown, not the
-    angle.
+    """Return the functions that draw the panels of an output. For many turns, the angle is not drawn, only backward
+    motion.
     """
     errors: list[Callable[[Axes, _Trace], None]] = (
         [_error, _speed] if np.ptp(trace.error) > _ROUNDING or np.ptp(trace.speed) > _ROUNDING else []
@@ -169,8 +169,8 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the positions to draw: the first position of each bin, the extremes of deviation and speed in it, and all
-    reversals.
+    """Return the indices of the positions to draw: the first position of each bin, the positions of extreme error and
+    speed in each bin, and all reversals.
     """
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
@@ -328,7 +328,9 @@ def _torque(panel: Axes, found: TorqueCycle) -> None:
 
 
 def _mean_speed(found: TorqueCycle) -> float:
-    """Return the mean turns of a link per turn of the input: 0 if the link only swings, 1 if its speed is not known."""
+    """Return the mean turns of a link per turn of the input: 0 if the link only oscillates, 1 if its mean speed is not
+    known.
+    """
     assert found.turns is not None
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0
@@ -339,7 +341,7 @@ def _mean_speed(found: TorqueCycle) -> float:
 
 
 def _loss_rows(found: TorqueCycle) -> tuple[list[Row], str]:
-    """Return rows with the losses of parts in descending order, and the label of their axis.
+    """Return chart rows with the losses of parts in descending order, and the label of the loss axis.
 
     Losses beyond the maximum number of rows are combined in one row.
     """
@@ -370,6 +372,6 @@ def _loss_rows(found: TorqueCycle) -> tuple[list[Row], str]:
 
 
 def _bounds(values: Floats) -> tuple[float, float]:
-    """Return the axis limits of unbounded values, from their 2 % and 98 % quantiles; they include 0."""
+    """Return axis limits for values that may diverge: their 2 % and 98 % quantiles, extended to include 0."""
     low, high = np.nanquantile(values, (0.02, 0.98))
     return _CUT * min(low, 0.0), _CUT * max(high, 0.0)

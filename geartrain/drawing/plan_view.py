@@ -76,7 +76,7 @@ def from_below(projected: ProjectedScene) -> list[SceneWheel]:
 
 
 def draw_flat(page: ScaledPage, projected: ProjectedScene) -> None:
-    """Draw all wheels, arms, wave generators, couplings and hubs of a scene in plan."""
+    """Draw all wheels, arms, wave generators, couplings and hubs of a scene in the plan."""
     scene, wheels = projected.scene, from_below(projected)
     heights = sorted({round(float(projected.seen(projected.centre(wheel))[2]), 6) for wheel in wheels})
     red = broken_wheels(scene)
@@ -199,11 +199,11 @@ class PlanNames:
 
     wheels: Sequence[SceneWheel]
     centres: Floats
-    """Centres of the wheels (n, 2) [in]."""
+    """Centres of the wheels, shape (n, 2) [in]."""
     reach: Floats
-    """Radius of the disc that each wheel hides (n,) [in]; 0 for a ring, which is open."""
+    """Radii of the discs that the wheels hide, shape (n,) [in]; 0 for a ring gear, which is open."""
     arms: Floats
-    """Points (m, 2) on arms, slots and pins in holes, which names must not cover [in]."""
+    """Points on arms, slots and pins in holes, shape (m, 2) [in]. Names must not cover these points."""
     scale: float
     """Inches per millimetre."""
 
@@ -235,7 +235,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved away from callout lines (2, 2) where there is space."""
+        """Return the names on wheels, moved away from the leader lines of callouts (2, 2) where there is space."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -246,7 +246,7 @@ class PlanNames:
         return found
 
     def _room(self, lines: Sequence[Floats]) -> LabelSpace:
-        """Return a label space in which hubs, arms and lines are occupied."""
+        """Return a label space in which hubs, arms and leader lines are marked as occupied."""
         room = LabelSpace()
         for x, y in (*self.centres, *self.arms):
             room.take((float(x), float(y), _HUB, _HUB))
@@ -255,7 +255,7 @@ class PlanNames:
         return room
 
     def _on_face(self, order: int) -> Iterator[Box]:
-        """Yield boxes for a name within the visible part of its wheel's face; yield nothing for a ring."""
+        """Yield boxes for the name of a wheel within the visible part of its face. A ring gear has no such box."""
         wheel, centre = self.wheels[order], self.centres[order]
         if wheel.kind == "ring":
             return
@@ -377,7 +377,7 @@ class _PlanSize:
     """Dimensions of a plan on paper [in]; `bottom` and `depth` are in mm, before scaling."""
 
     scale: float
-    """Inches per millimetre."""
+    """Scale of the plan: inches on paper per millimetre of the train."""
     low: Floats
     """Lower left corner (2,) of the plan, relative to the origin of the train [in]."""
     size: Floats
@@ -391,7 +391,7 @@ class _PlanSize:
 
     @classmethod
     def of(cls, projected: ProjectedScene) -> _PlanSize:
-        """Return the dimensions of a scene in its pose."""
+        """Return the dimensions of the plan of a scene in its pose."""
         wheels, bodies = projected.scene.wheels, projected.scene.bodies
         hubs = [[projected.pose.point(at, body.point)] for at, body in enumerate(bodies)]  # without wheels: the size
         shapes = [projected.pose.point(part.body, part_points(part)) for part in projected.scene.shapes]
@@ -405,7 +405,7 @@ class _PlanSize:
         return cls(scale, scale * low[:2], scale * size[:2], float(low[2]), float(size[2]), deep)
 
     def at(self, seen: Floats) -> Floats:
-        """Return inches (..., 2) from the origin of the train for view coordinates (..., 3)."""
+        """Convert view coordinates (..., 3) [mm] to distances (..., 2) from the origin of the train on the page [in]."""
         return np.asarray(self.scale * seen[..., :2])
 
     @property
@@ -445,7 +445,9 @@ def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> N
 
 
 def _verdict(scene: Scene, width: float) -> str:
-    """Return the verdict, wrapped to a width [in] and at most four lines; empty for a determined train."""
+    """Return the verdict on the train, wrapped to a width [in] and at most four lines; an empty string for a determined
+    train.
+    """
     if scene.verdict["kind"] == "determined":
         return ""
     room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
@@ -454,7 +456,7 @@ def _verdict(scene: Scene, width: float) -> str:
 
 
 def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
-    """Return lines that list the closed, then the open brakes and clutches, each with its colour."""
+    """Return lines of text that list the closed brakes and clutches, then the open ones, each line with its colour."""
     room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
     lines = []
     for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
@@ -464,7 +466,7 @@ def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
 
 
 def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
-    """Return points around a wheel that determine its bounding box."""
+    """Return points on the circumference of a wheel that determine its bounding box."""
     most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
     half = wheel.thickness / 2
     return np.concatenate([projected.circle(wheel, most, half), projected.circle(wheel, most, -half)])

@@ -1,4 +1,6 @@
-"""Sankey diagram of power flow: input at the left, shafts and pairs, output at the right, losses leaving downwards."""
+"""Sankey diagram of power flow: input at the left, shafts and pairs, output at the right, and losses that leave
+downwards.
+"""
 
 from __future__ import annotations
 
@@ -76,13 +78,13 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
 
 
 class _NodeLabels:
-    """Labels of the nodes of a diagram, with powers as fractions of the power input."""
+    """Labels of the nodes of a diagram, in which powers are fractions of the power input."""
 
     def __init__(self, flow: PowerFlow, watts: float | None) -> None:
         self.whole, self.watts = flow.power_in, watts
 
     def lines(self, node: PowerNode, power: Fraction) -> tuple[str, str]:
-        """Return the name and the power of a node."""
+        """Return the two lines of a node's label: its name and its power."""
         amount = percent_text(power / self.whole, 3)
         if node.kind == "bearing":
             return f"bearing {node.name}", amount
@@ -108,7 +110,7 @@ class _NodeLabels:
 
 
 def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
-    """Draw a forward band with its circulating power above and its transmitted power below."""
+    """Draw a forward band, with the circulating power as its upper part and the transmitted power as its lower part."""
     circling = float(band[0].stream.circling) * placed.scale
     for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
         if width > 0:
@@ -143,7 +145,7 @@ def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color
 
 
 def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
-    """Draw a return band: out to the right, up, leftwards above all other bands, down and in."""
+    """Draw a return band: from its source to the right, up, leftwards above all other bands, down, and into its target."""
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2

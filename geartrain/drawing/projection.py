@@ -53,7 +53,9 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """Scene in a pose as a reader sees it; the rows of `screen` (3, 3) point right, up and towards the reader."""
+    """Scene in a pose as seen by a reader. The rows of the matrix `screen` (3, 3) point right, up and towards the
+    reader.
+    """
 
     scene: Scene
     pose: ScenePose
@@ -78,14 +80,14 @@ class ProjectedScene:
         return self.pose.way(wheel.body, wheel.direction)
 
     def centre(self, wheel: SceneWheel) -> Floats:
-        """Return the centre of the pitch circle of a wheel in the pose [mm]."""
+        """Return the centre [mm] of the pitch circle of a wheel in the current pose."""
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
         """Return the tooth outline of a wheel (points, 3), multiplied by `scale` and moved by `height` [mm] along its
-        axis, with the rotation of its helix.
+        axis, rotated with its helix.
 
-        For a lantern pinion, or a wheel with too many teeth to be visible, the result is the tip circle.
+        For a lantern pinion, and for a wheel whose teeth are too small to be visible, the result is the tip circle.
 
         chord   maximum distance [mm] of omitted points from the outline
         """
@@ -126,7 +128,7 @@ class ProjectedScene:
         return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
 
     def lobes(self, wave: SceneWave) -> Floats:
-        """Return the points (lobes, 3) [mm] of the bore of a flexible wheel with the maximum outward deflection."""
+        """Return the points (lobes, 3) [mm] at which the outward deflection of a flexible wheel's bore is a maximum."""
         wheel = self.scene.wheels[wave.wheel]
         bore = wave.middle + wave.rise - wave.wall / 2
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
@@ -156,8 +158,8 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return the height along the axis [mm] and the scale of each end of a wheel, the large end of a bevel wheel
-        first.
+        """Return two pairs, one for each end of a wheel: the height along the axis [mm] and the scale. The large end of
+        a bevel wheel is first.
         """
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
@@ -186,19 +188,19 @@ def screen_of(view: Floats) -> Floats:
 
 
 class ScaledPage:
-    """Page in inches, on which millimetres are drawn to scale; `foot` is the height of text below a side view."""
+    """Page in inches, on which millimetres are drawn to scale. `foot` is the height of the text below a side view [in]."""
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
 
     def at(self, seen: Floats) -> Floats:
-        """Return positions on the page (..., 2) [in] of view coordinates (..., 3) [mm]."""
+        """Return the positions on the page (..., 2) [in] that correspond to view coordinates (..., 3) [mm]."""
         return np.asarray(seen[..., :2] * self.scale + self.shift)
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield each arm of a carrier as the index of the carrier's body, a point of its axis, and a point of the carried
-    axis.
+    """Yield a tuple for each arm of a carrier: the index of the carrier's body, a point of its axis, and a point of the
+    carried axis.
     """
     scene = projected.scene
     seen = set()
@@ -275,7 +277,9 @@ def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 def broken_wheels(scene: Scene) -> set[str]:
-    """Return the names of the wheels of broken pairs, whose loop does not close or whose teeth cannot run."""
+    """Return the names of the wheels of broken pairs. A pair is broken if its loop does not close or its teeth cannot
+    run.
+    """
     return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}
 
 
@@ -297,8 +301,8 @@ class _Face:
 
 
 def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, and arms above
-    all.
+    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, then draw the
+    arms over the wheels.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
@@ -310,7 +314,9 @@ def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
-    """Return a callout for each wheel, anchored where possible at a point of its faces that no nearer wheel hides."""
+    """Return a callout for each wheel. If possible, its anchor is a point of the wheel's faces that no nearer wheel
+    hides.
+    """
     ends = {wheel.id: _ends(projected, wheel) for wheel in projected.scene.wheels if wheels}
     seen = {name: place(np.concatenate([face.points for face in both])) for name, both in ends.items()}
     outlines = {name: Path(points[ConvexHull(points).vertices]) for name, points in seen.items()}
@@ -367,7 +373,9 @@ def _draw_faces(
 
 
 def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield strips between a wheel's ends, or a worm's thread as tiles, then its far end and its near end."""
+    """Yield the faces of a wheel: strips between its ends (tiles of the thread for a worm), then its far end and its
+    near end.
+    """
     far, near = _ends(projected, wheel)
     if wheel.kind == "worm":
         yield from _thread(projected, wheel)
@@ -428,7 +436,7 @@ _FACE = (_DARK + _LIGHT) / 2  # colour of a bar
 
 
 class SideScale:
-    """Conversion of heights towards the reader of the plan [mm] to abscissae of the side view [in]."""
+    """Conversion of heights [mm], measured towards the reader of the plan, to abscissae of the side view [in]."""
 
     def __init__(self, left: float, width: float, low: float, size: float) -> None:
         self.left, self.scale, self.low = left, width / size, low
@@ -439,9 +447,7 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw a train as seen from its left side, at the height of the plan, with its layers side by side and the reader
-    of the plan on the right.
-    """
+    """Draw a train as seen from its left side: its layers are side by side, and the reader of the plan is on the right."""
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: -float(projected.seen(projected.centre(each))[0])):

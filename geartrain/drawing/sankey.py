@@ -26,7 +26,7 @@ _WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
 
 @dataclass(eq=False)
 class SankeySpot:
-    """Node in its column, or the position where a band passes a column if `node` is None."""
+    """Node in its column of the diagram; if `node` is None, the position at which a band passes a column."""
 
     node: PowerNode | None
     column: int
@@ -46,12 +46,12 @@ class SankeySpot:
 
     @property
     def above(self) -> float:
-        """Space above the box: for the name of a node, or between passing bands [in]."""
+        """Space above the box [in], which contains the name of a node or separates passing bands."""
         return NAME if self.node else _BETWEEN
 
     @property
     def below(self) -> float:
-        """Space below the box: for the loss of a node, or to the next spot [in]."""
+        """Space below the box [in], which contains the loss of a node or separates the box from the next spot."""
         return DROP + self.head + 0.24 if self.shed else _BETWEEN
 
     @property
@@ -88,7 +88,9 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Band that leads power back, with its turning distances from source and target, and the top of its lane [in]."""
+    """Band that leads power back, with its horizontal distances from the source and target to its turns, and the top of
+    its lane [in].
+    """
 
     piece: BandSegment
     right: float
@@ -98,7 +100,7 @@ class ReturnBand:
 
 @dataclass(frozen=True)
 class SankeyLayout:
-    """Positions and sizes of all parts of a Sankey diagram [in]."""
+    """Positions and sizes of all parts of a Sankey diagram, in inches unless noted."""
 
     spots: Sequence[SankeySpot]
     bands: Sequence[Sequence[BandSegment]]
@@ -109,7 +111,7 @@ class SankeyLayout:
     scale: float
     """Inches per unit of power."""
     sheds: Mapping[PowerNode, Fraction]
-    """Power lost at each node with a loss."""
+    """Power lost at each node that has a loss, keyed by node."""
     low: float
     width: float
     height: float
@@ -173,7 +175,9 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return the losses by node, and the streams. A bearing that only one shaft feeds becomes a loss of that shaft."""
+    """Return the losses, keyed by node, and the streams. A bearing fed by only one shaft is replaced by a loss of this
+    shaft.
+    """
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -239,7 +243,9 @@ def find_scale(
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Return streams as bands of segments, and the spots at which bands pass columns."""
+    """Return streams as bands of segments, and a table of spots by column that includes the spots at which bands pass
+    columns.
+    """
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):
@@ -286,7 +292,7 @@ def order_columns(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
-    """Swap spots of one column in place where that reduces crossings; return True if spots were swapped."""
+    """Swap spots of one column in place where a swap reduces crossings. Return True if spots were swapped."""
     column, swapped = table[at], False
     near = range(max(0, at - 1), min(len(table), at + 2))
     tangle = _crossing_cost(table, near)
@@ -307,8 +313,8 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of a spot's neighbours on one side, weighted by band width, or its own if it has
-    none.
+    """Return the mean position of a spot's neighbours in the next or previous column, weighted by band width. If the
+    spot has no neighbours there, return its own position.
     """
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
@@ -345,7 +351,7 @@ _HEIGHT_SWEEPS = 24
 
 
 def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
-    """Set the tops of all spots and of their bands in place, so that bands are level where possible."""
+    """Set the tops of all spots and bands in place, so that bands are level where possible."""
     for column in table:
         y = 0.0
         for spot in column:
@@ -380,7 +386,9 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 
 
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
-    """Return a column's separated tops nearest to the wanted tops by weighted least squares (isotonic regression)."""
+    """Return separated tops [in] of the spots of a column, as close to the wanted tops as possible in the sense of
+    weighted least squares (isotonic regression).
+    """
     import numpy as np
     from scipy.optimize import isotonic_regression
 
@@ -391,7 +399,9 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set both ends of bands in place, in the order of the spots at their other ends, with return bands uppermost."""
+    """Set the tops of both ends of all bands in place, in the order of the spots at their opposite ends. Return bands
+    are uppermost.
+    """
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))

@@ -80,7 +80,7 @@ _FAR = 24  # steps that a name may be moved beyond its vertical line
 
 @dataclass(frozen=True, slots=True)
 class _Label:
-    """Text to be written, with its candidate positions from the best to the worst."""
+    """Text to be written on the diagram, with its candidate positions from best to worst."""
 
     text: str
     color: str
@@ -90,7 +90,7 @@ class _Label:
 
 @dataclass(slots=True)
 class StickLabels:
-    """All labels of a diagram, which are placed in the order of links, wheels and axes."""
+    """All labels of a diagram. Labels of links are placed first, then labels of wheels, then labels of axes."""
 
     room: LabelSpace = field(default_factory=LabelSpace)
     links: list[_Label] = field(default_factory=list)
@@ -104,8 +104,8 @@ class StickLabels:
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add the name of a link to the left of its shaft, or above, to the right of or below it; the shaft extends
-        from `left` to `right` at height y [in].
+        """Add the name of a link to the left of its shaft, or above, below or to the right of the shaft; the shaft
+        extends from `left` to `right` at height y [in].
         """
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)

@@ -105,7 +105,9 @@ class RunOptions:
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
-    """Remove the journal of a complete computation. If the computation was interrupted (`cut`), print how to resume it."""
+    """Remove the journal of a complete computation. If the computation was interrupted (`cut`), print how to
+    resume it.
+    """
     if not cut:
         if journal is not None:
             journal.finish()

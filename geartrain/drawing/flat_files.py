@@ -184,7 +184,9 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
 
 
 def _csv(wheel: WheelOutline) -> str:
-    """Return closed contours as CSV rows, one for each point. Arcs are replaced by chords within the wheel's tolerance."""
+    """Return closed contours as CSV rows, one for each point. Arcs are replaced by chords within the
+    wheel's tolerance.
+    """
     rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):
         points = contour.flattened(wheel.tolerance)

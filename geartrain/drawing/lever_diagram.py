@@ -36,7 +36,9 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: its abscissa, its members, their closed brakes and clutches, and its speed (None if unknown)."""
+    """Point of a lever: its abscissa, its members, their closed brakes and clutches, and its speed (None
+    if unknown).
+    """
 
     x: Fraction
     links: list[str]

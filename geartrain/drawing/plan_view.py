@@ -405,7 +405,9 @@ class _PlanSize:
         return cls(scale, scale * low[:2], scale * size[:2], float(low[2]), float(size[2]), deep)
 
     def at(self, seen: Floats) -> Floats:
-        """Convert view coordinates (..., 3) [mm] to distances (..., 2) from the origin of the train on the page [in]."""
+        """Convert view coordinates (..., 3) [mm] to distances (..., 2) from the origin of the train on the
+        page [in].
+        """
         return np.asarray(self.scale * seen[..., :2])
 
     @property

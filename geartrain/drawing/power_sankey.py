@@ -145,7 +145,9 @@ def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color
 
 
 def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
-    """Draw a return band: from its source to the right, up, leftwards above all other bands, down, and into its target."""
+    """Draw a return band: from its source to the right, up, leftwards above all other bands, down, and into
+    its target.
+    """
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2

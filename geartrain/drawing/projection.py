@@ -188,7 +188,9 @@ def screen_of(view: Floats) -> Floats:
 
 
 class ScaledPage:
-    """Page in inches, on which millimetres are drawn to scale. `foot` is the height of the text below a side view [in]."""
+    """Page in inches, on which millimetres are drawn to scale. `foot` is the height of the text below a side
+    view [in].
+    """
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
@@ -447,7 +449,9 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw a train as seen from its left side: its layers are side by side, and the reader of the plan is on the right."""
+    """Draw a train as seen from its left side: its layers are side by side, and the reader of the plan is on
+    the right.
+    """
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: -float(projected.seen(projected.centre(each))[0])):

@@ -154,7 +154,7 @@ def _friction_trials(
 ) -> Any:
     """Repeat the torque analysis over the requested revolutions in trials with random friction.
 
-    run     number of samples per revolution, and the link whose torque is computed
+    run     number of samples, and the link whose torque is computed
     drawn   number of trials, and random seed
     """
     wing("workshop.monte_carlo.trial_run").check_trials(drawn[0])

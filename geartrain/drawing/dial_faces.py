@@ -84,7 +84,7 @@ class DialPicture:
     title: str = ""
     """Text above the face; empty to use the name."""
     ball: bool = False
-    """True if the pointer is a half-black ball that shows the Moon's phase."""
+    """True if the face shows a half-black ball for the Moon's phase instead of a scale."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:

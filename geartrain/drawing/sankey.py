@@ -243,9 +243,7 @@ def find_scale(
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Return streams as bands of segments, and a table of spots by column that includes the spots at which bands pass
-    columns.
-    """
+    """Return streams as bands of segments, and a list of the spots at which bands pass columns."""
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):

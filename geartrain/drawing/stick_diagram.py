@@ -121,12 +121,14 @@ class StickLabels:
         self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
 
     def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Add a label along a vertical line, on the right or left of the line, from the middle outwards."""
+        """Add a label along a vertical line, to the right or left of the line, as close to its middle as possible."""
         places = tuple(_along(text, x, ends))
         self.wheels.append(_Label(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
-        """Add the name of an axis to the right of its right end, or above or below its line near that end."""
+        """Add the name of an axis to the right of its right end, or near this end above or below the line of
+        the axis.
+        """
         wide = text_width(axis)
         spots = [
             (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
@@ -136,7 +138,7 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def name_element(self, name: str, closed: bool, x: float, y: float) -> None:
-        """Add the name of a brake or clutch above the middle (x, y) of its plates, or higher, or on either side."""
+        """Add the name of a brake or clutch above or beside its plates, whose middle is (x, y) [in]."""
         weight = "bold" if closed else "normal"
         beside = 0.22 + text_width(name, NAME, weight) / 2
         spots = [(x + aside, y + 0.2 + step * _STEP) for step in range(4) for aside in (0.0, 0.1, -0.1)]
@@ -146,7 +148,7 @@ class StickLabels:
         self.wheels.append(_Label(name, PURPLE if closed else GREY, places, how))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels, those with the fewest positions first.
+        """Place and write all labels. Labels with the fewest candidate positions are placed first.
 
         A label without a free position is written at its best position.
         """
@@ -177,39 +179,39 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """Gear pair or coupling in its column between two rows; `ring` is the name of its ring wheel, or empty if it has
-    none.
+    """Gear pair or coupling in its column between two rows; `ring` is the name of its ring wheel, or an empty string if
+    the mesh has none.
     """
 
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links of the mesh, with the link on the lower row first; `wheels` are their wheels, or these links for a
-    coupling.
+    """Links of the mesh; the link on the lower row is first. `wheels` contains the wheels of these links, or the links
+    themselves for a coupling.
     """
     wheels: tuple[str, str]
     ring: str
     x: float
     """Abscissa of the column [in]. The vertical line of a ring is one column further to the right."""
     low: float
-    """Lower end of the lines of the mesh in its column [in]."""
+    """Lower end of the vertical lines of the mesh [in]."""
     high: float
-    """Upper end of the lines of the mesh in its column [in]."""
+    """Upper end of the vertical lines of the mesh [in]."""
     meet: float
     """Height at which the wheels touch [in]."""
 
 
 @dataclass(frozen=True, slots=True)
 class StickSkeleton:
-    """Positions of all parts of a diagram [in], from the lower left corner."""
+    """Positions of all parts of a diagram [in], measured from its lower left corner."""
 
     rows: dict[str, tuple[float, float]]
-    """Axis -> heights of its lowest and highest shaft [in]."""
+    """Heights of the lowest and highest shaft of each axis [in], keyed by axis."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
     columns: StickColumns
     elements: dict[str, tuple[float, float]]
-    """Brake or clutch -> middle of its plates [in]."""
+    """Position of the middle of the plates [in], keyed by brake or clutch."""
     height: float
 
 
@@ -244,7 +246,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
 
 
 def _element_axes(train: GearTrain, name: str) -> list[str]:
-    """Return the axes of the links that a brake or clutch joins, each once."""
+    """Return the axes of the links that a brake or clutch joins, without duplicates."""
     axes = (train.kinematics.tree.axis(link) for link in train.declaration.clutches[name].links)
     return list(dict.fromkeys(axis for axis in axes if axis))
 
@@ -268,7 +270,9 @@ def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> i
 
 
 def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -> None:
-    """Extend the shaft of each carrier to its cranks, and one shaft on each carried axis to its crank, in place."""
+    """Extend shafts in place: the shaft of each carrier to its cranks, and one shaft on each carried axis to the crank
+    that carries it.
+    """
     for crank in cranks:
         shafts[crank.carrier].xs.append(crank.x)
         borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
@@ -296,8 +300,8 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
 def _set_heights(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
-    """Set the height of every shaft in `shafts`, and return the lowest and highest row of each axis and the total
-    height [in].
+    """Set the height of every shaft in `shafts`. Return the heights of the lowest and highest shaft of each axis, keyed
+    by axis, and the total height [in].
 
     Shafts of one axis that overlap are drawn above each other, with the longest shaft lowest.
     """
@@ -324,7 +328,7 @@ def _set_heights(
 
 
 def _fit_side_by_side(one: StickShaft, other: StickShaft) -> bool:
-    """Return True if two shafts, each with a name before it, do not overlap."""
+    """Return True if two shafts on the same row do not overlap, including the name before each shaft."""
     room = 0.35 + 0.07 * max(len(one.link), len(other.link))
     return max(one.xs) + room < min(other.xs) or max(other.xs) + room < min(one.xs)
 
@@ -355,8 +359,8 @@ def _mesh(
 
 
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
-    """Return the lower wheel's share of the height between two axes, proportional to its tooth count, limited so that
-    both labels fit.
+    """Return the fraction of the height between two axes that belongs to the lower wheel: proportional to its tooth
+    count, but limited so that both labels fit.
     """
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
     minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
@@ -415,7 +419,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
 
 
 class _Drawing:
-    """Drawing of a diagram in progress; wheels that appear in several columns are named once."""
+    """Drawing of a diagram in progress. A wheel that appears in several columns is named only once."""
 
     def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton, state: str | None) -> None:
         self.axes, self.train, self.skeleton, self.case = axes, train, skeleton, train.declaration.case(state)
@@ -448,7 +452,7 @@ class _Drawing:
             self.words.name_axis(axis, ends[1], low)
 
     def draw_shaft(self, shaft: StickShaft) -> None:
-        """Draw a link's shaft with its name, in a bearing if it turns in the frame."""
+        """Draw the shaft of a link with the link's name, and a bearing if the link turns in the frame."""
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
         draw_line(self.axes, [left, right], [shaft.y, shaft.y], "white", LINK + 3.0, zorder=5)
         draw_line(self.axes, [left, right], [shaft.y, shaft.y], BLACK, LINK, zorder=6, gid=f"link {shaft.link}")
@@ -482,7 +486,7 @@ class _Drawing:
         return [self.skeleton.shafts[link].y if link in self.skeleton.shafts else None for link in links]
 
     def draw_mesh(self, mesh: StickMesh) -> None:
-        """Draw two wheels up to the point where they touch, or the coupling of two links."""
+        """Draw two wheels up to the point where they touch, or draw the coupling of two links."""
         low, high = (self._foot(link, mesh) for link in mesh.ends)
         if mesh.kind == "ring":
             self._draw_ring(mesh, low, high)
@@ -502,7 +506,9 @@ class _Drawing:
         return self.skeleton.rows[self.skeleton.shafts[carrier].axis][0] - 0.22
 
     def _draw_ring(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw the planet beyond its axis, and the ring across the planet's end and next to the planet."""
+        """Draw the line of a planet, extended beyond its axis, and the ring wheel as lines across the planet's end and
+        next to the planet.
+        """
         ring = mesh.wheels.index(mesh.ring)
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
@@ -543,13 +549,13 @@ class _Drawing:
             self.words.name_upright(mesh.name, x, (low, high), PURPLE)
 
     def _name_wheel(self, wheel: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Add the name and tooth count of a wheel along its line, unless it is named at another line."""
+        """Add the name and tooth count of a wheel along its line, unless another line of the wheel has this label."""
         if wheel not in self.feet:
             self.feet[wheel] = (x, ends[0])
             self.words.name_upright(f"{wheel} {self.train.declaration.wheels[wheel][1].count}", x, ends, color)
 
     def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """Draw a wheel as a line from its shaft to its mate, connected to an earlier line of the same wheel, if any."""
+        """Draw a wheel as a line from its shaft to its mate, connected to any earlier line of the same wheel."""
         draw_line(self.axes, [x, x], [foot, end], BLUE, WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
@@ -579,8 +585,8 @@ class _Drawing:
         draw_bearing(self.axes, crank.x, far, ORANGE, slides)
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw a tooth mark at a wheel's end, which is level for spur wheels, slanted for bevel and contrate wheels,
-        and long and dashed for worms.
+        """Draw a tooth mark at the end of a wheel: level for spur wheels, slanted for bevel and contrate wheels, long
+        and dashed for worms.
         """
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = TICK * (1.6 if kind == "worm" else 1.0)

@@ -76,7 +76,7 @@ _ONE_AT_A_TIME = Lock()  # the salt of SVG ids is a global setting of matplotlib
 
 
 class ShownFigure(_Figure):
-    """Figure that a notebook displays inline, without a window and without state shared with other figures."""
+    """Figure that a notebook displays inline. The figure needs no window and shares no state with other figures."""
 
     def _repr_svg_(self) -> str:
         return render(self, ".svg").decode("utf-8")
@@ -134,7 +134,9 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield the texts of an artist, without hidden axes, whose ticks would be created only for this purpose."""
+    """Yield the text objects of an artist. Hidden axes are skipped, because their ticks would be created only for this
+    purpose.
+    """
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -149,7 +151,7 @@ _LIGHT = THEMES["light"]
 BLACK, GREY, PALE, WHITE, RED = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.paper, _LIGHT.fault
 FILL, SHADE, SKY = _LIGHT.fill, _LIGHT.shade, _LIGHT.band
 BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
-"""Colours of wheels, of carriers, of couplings, and of other parts next to them."""
+"""Colours of wheels, of carriers, of couplings, and of other parts next to couplings."""
 SCALE = SCALES["light"]
 """Colour scale of values on a map in the light theme."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
@@ -161,7 +163,9 @@ LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
 def series_look(at: int) -> dict[str, Any]:
-    """Return the colour and dashes of the series with an index from 0, as keyword arguments for matplotlib lines."""
+    """Return the colour and dash pattern of a series, whose index starts at 0, as keyword arguments for matplotlib
+    lines.
+    """
     return {"color": series_colour(at), "linestyle": series_dash(at)}
 
 
@@ -202,15 +206,17 @@ class Row(NamedTuple):
 
     name: str
     marks: Mapping[str, float]
-    """Value of each mark, by series."""
+    """Value of each mark in the row, keyed by series."""
     spans: Sequence[tuple[float, float]] = ()
-    """Ends of intervals, the widest first; each is drawn as a thicker line than the interval before it."""
+    """Ends of the intervals in the row, the widest first. Each interval is drawn as a thicker line than the one before
+    it.
+    """
     beside: Sequence[str] = ()
-    """Cells to the right of the row."""
+    """Texts of the cells to the right of the row."""
 
 
 DOT: Mapping[str, Any] = {"marker": "o", "markersize": 6, "color": BLACK, "markeredgecolor": WHITE}
-"""Mark of a chart with one series."""
+"""Properties of the marks in a chart that has only one series."""
 
 
 def interval_chart(
@@ -220,9 +226,10 @@ def interval_chart(
     title: str = "",
     log: bool = False,
 ) -> Figure:
-    """Return a chart of marks and intervals with a panel for each axis label, the first row of each at the top.
+    """Return a chart of marks and intervals with one panel for each key of `panels`, which labels its axis. The first
+    row of a panel is at the top.
 
-    looks   matplotlib properties of the marks, by series
+    looks   matplotlib properties of the marks, keyed by series
     heads   heads of the cells next to the rows
     log     True for logarithmic axes
     """
@@ -271,7 +278,7 @@ def figures(value: float, digits: int = 3) -> str:
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:
-    """Draw the colour scale next to a map; tick labels of the map and the scale have the same size."""
+    """Draw the colour scale next to a map. Tick labels of the map and of the colour scale have the same size."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, **how)
     bar.set_label(name, fontsize=TEXT)
     for each in (axes, bar.ax):
@@ -293,7 +300,7 @@ def legend_below(
 
 
 def legend_above(axes: Axes, columns: int) -> None:
-    """Draw a legend of a panel above it, at the right."""
+    """Draw the legend of a panel above the panel, at the right."""
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1, 1),
@@ -306,12 +313,12 @@ def legend_above(axes: Axes, columns: int) -> None:
 
 
 def short(name: str, letters: int = 20) -> str:
-    """Return a name shortened to a number of letters."""
+    """Return a name shortened to at most `letters` characters."""
     return shorten(name, letters, placeholder="...")
 
 
 def kept_extremes(values: Floats, most: int) -> Ints:
-    """Return the indices of the kept positions of a curve that is thinned without losing extremes.
+    """Return the indices of the positions to keep if a curve is thinned without losing its extremes.
 
     Each of about `most` / 3 intervals keeps its first position, its minimum and its maximum. All positions are kept if
     there are at most `most`.
@@ -326,8 +333,8 @@ def kept_extremes(values: Floats, most: int) -> Ints:
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
-    """Write text literally, and its halo as a separate text, because a single text with a halo would become outlines in
-    a vector file.
+    """Write a text without interpreting markup, and its halo as a separate text, because a single text with a halo
+    would become outlines in a vector file.
     """
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
@@ -361,7 +368,9 @@ def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
 
 
 def headed(figure: Figure, title: str) -> Figure:
-    """Return the figure with a title above all its panels, in as many lines as its width requires."""
+    """Return the figure with a title above all its panels. The title is broken into as many lines as the figure's width
+    requires.
+    """
     letters = int(figure.get_size_inches()[0] / (TEXT * LETTER))
     title = "\n".join(line for part in title.splitlines() for line in wrap(part, letters))
     figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
@@ -374,7 +383,9 @@ def title_of(name: str, title: str) -> str:
 
 
 def after_turns(scene: Scene, turns: Fraction) -> str:
-    """Return the end of a picture's title, which gives the `turns` of the driving link; empty for 0 turns."""
+    """Return the end of a picture's title, which states the number of `turns` of the driving link; an empty string for
+    0 turns.
+    """
     driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
     return f", after {turns} turns of {driver}" if turns else ""
 

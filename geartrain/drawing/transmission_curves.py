@@ -234,8 +234,8 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact with the speed ratios before and after it, at which a tooth pair separates and the next pair
-    drives.
+    """Draw each impact, at which a tooth pair separates and the next pair starts to drive, with the speed ratios before
+    and after the impact.
     """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
@@ -250,7 +250,7 @@ def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
 
 
 def _arms_key(axes: Axes) -> None:
-    """Draw a legend of the line styles of both wheels above their panel."""
+    """Draw a legend above the panel that explains the line styles of both wheels."""
     for name, (_, style) in zip(("$b_1$, driver", "$b_2$, driven"), _CURVES, strict=True):
         axes.plot([], [], color=BLACK, linewidth=1.2, linestyle=style, label=name)
     legend_above(axes, 2)
@@ -267,13 +267,15 @@ def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
 
 
 def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
-    """Return the speed ratio for a position of the instant centre, which is the inverse of `_centre_at`."""
+    """Return the speed ratio for a position of the instant centre (inverse function of `_centre_at`)."""
     first, second = signs
     return centre / np.maximum(first * (1 - second * centre), 0.1)
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return ticks for the instant centre between two speed ratios: round values that are not too close together."""
+    """Return tick positions for the instant centre between two speed ratios: round values that are not too close
+    together.
+    """
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
@@ -286,7 +288,9 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis for the instant centre: its distance from the driver's axis divided by the axis distance."""
+    """Draw a second axis that shows the distance of the instant centre from the driver's axis, divided by the centre
+    distance.
+    """
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -295,7 +299,7 @@ def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
 
 
 def _label_time(axes: Axes) -> None:
-    """Label the abscissa and draw an arrow in the direction of time, in which the driver's angle decreases."""
+    """Label the abscissa and draw an arrow in the direction of time. The driver's angle decreases with time."""
     axes.set_xlabel(r"driver angle $\alpha_1$ (deg)", fontsize=TEXT)
     axes.annotate(
         "time",
@@ -404,7 +408,7 @@ def _pitch_title(pitch: PitchSurfaces) -> str:
 
 
 def _places(path: PathOfContact) -> Floats:
-    """Return positions along the whole path of contact, except the pitch point [modules or rad]."""
+    """Return positions along the whole path of contact, without the pitch point [modules or rad]."""
     approach, recess = path.arcs
     if min(approach, recess) < 0:
         return np.linspace(-approach, recess, _PATH_SAMPLES)
@@ -419,7 +423,7 @@ def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:
 
 
 def _label_flank_panel(axes: Axes, text: str) -> None:
-    """Label a panel of flanks, which is not to scale, because steep flanks would coincide."""
+    """Label a panel of flanks. The panel is not to scale, because steep flanks would coincide if it were."""
     axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     name_axes(axes, title=text)
@@ -434,7 +438,9 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
-    """Yield each plotted quantity with its label; lengths in modules make spur and bevel gears comparable."""
+    """Yield the label and the function of each plotted quantity. Lengths are in modules so that spur and bevel gears
+    can be compared.
+    """
     # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)

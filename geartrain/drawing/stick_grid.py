@@ -218,7 +218,9 @@ def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
 
 
 def ring_of(train: GearTrain, circuit: Circuit) -> str:
-    """Return the name of the ring wheel of a gear pair; empty for a pair without a ring and for a coupling."""
+    """Return the name of the ring wheel of a gear pair; an empty string for a pair without a ring wheel and for a
+    coupling.
+    """
     if circuit.kind != "gear":
         return ""
     return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
@@ -231,7 +233,9 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column in which a mesh hides no other mesh, and add it to `taken`; a ring takes two columns."""
+    """Return the index of the first column in which a mesh hides no other mesh, and add the mesh to `taken`. A ring
+    wheel occupies two columns.
+    """
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

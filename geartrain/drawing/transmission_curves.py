@@ -58,8 +58,8 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
-    """Plot flanks, path of contact and losses of a pair, or its transmission function and efficiency if it has no path
-    of contact.
+    """Return a figure of flanks, path of contact and losses of a pair; if the pair has no path of contact, of its
+    transmission function and efficiency.
 
     alpha1   angle of the driving tooth from the line of centres [rad], at which triangular teeth are drawn in contact
     """
@@ -74,7 +74,7 @@ def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
 
 
 def comparison_figure(found: FormComparison) -> Figure:
-    """Plot flanks, paths of contact and losses of the compared tooth forms that run."""
+    """Return a figure of flanks, paths of contact and losses of the compared tooth forms that can run."""
     return shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs})
 
 

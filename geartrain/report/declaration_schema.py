@@ -40,7 +40,7 @@ _MERGED = (
     "Source",
     "Published",
 )
-"""Parts of a declaration that a child of `extends` may declare incompletely, so that an editor must not require all
+"""Parts of a declaration of which a child of `extends` may give only some keys, so that an editor must not require all
 their keys.
 """
 
@@ -70,7 +70,7 @@ def _models() -> Schema:
 
 
 def _without_sections(shape: Any) -> Any:
-    """Return a schema whose descriptions omit the numpydoc sections of docstrings."""
+    """Return a schema in which the descriptions omit the numpydoc sections of docstrings."""
     if isinstance(shape, list):
         return [_without_sections(part) for part in shape]
     if not isinstance(shape, dict):
@@ -82,13 +82,17 @@ def _without_sections(shape: Any) -> Any:
 
 
 def _options(shape: Schema) -> list[Schema]:
-    """Return the members of a union, with nested unions expanded, or a list of only the schema if it is not a union."""
+    """Return the members of a union, with nested unions expanded. If the schema is not a union, the list contains only
+    the schema itself.
+    """
     members = shape.get("anyOf") or shape.get("oneOf")
     return [shape] if members is None else [option for member in members for option in _options(member)]
 
 
 def _body(part: Schema) -> Schema:
-    """Return the schema of a part in its long form, a mapping, if the part may also have a short form."""
+    """Return the schema of a part. If the part also has a short form, this is the schema of its long form,
+    a mapping.
+    """
     return next((option for option in _options(part) if "properties" in option), part)
 
 

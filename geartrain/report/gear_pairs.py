@@ -119,5 +119,5 @@ def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
 
 
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
-    """Return the pin-and-slot couplings of a train with declared dimensions, each with the pin driving."""
+    """Return the pin-and-slot couplings of a train with declared dimensions. In each result the pin drives."""
     return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.transmission)) for joint in train.mechanics.pins)

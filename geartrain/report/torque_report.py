@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
 
 class Impact(NamedTuple):
-    """Power that the impacts of a pair dissipate."""
+    """Power that is dissipated by the impacts of a pair."""
 
     impact: float
-    """Power that the impacts of the pair dissipate [W]."""
+    """Power that is dissipated by the impacts of the pair [W]."""
 
 
 @dataclass(frozen=True)
 class LossFigures:
-    """Power loss of a pair or bearing, with the power of the pair's impacts if it is known."""
+    """Power loss of a pair or bearing. The power dissipated by the pair's impacts is included if it is known."""
 
     KEYS = (Key("", "loss"), Key("", "collisions"))
 
@@ -43,7 +43,7 @@ class LossFigures:
 
 @dataclass(frozen=True)
 class DrivenFigures:
-    """Efficiency of a train that is driven in one direction, with the verdict."""
+    """Efficiency of a train that is driven in one direction, and the verdict on this direction."""
 
     KEYS = (
         *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),
@@ -69,7 +69,7 @@ class DrivenFigures:
 
 
 class DrivenWays(NamedTuple):
-    """Efficiency when driven from the input (`forward`) and from the output (`backward`)."""
+    """Efficiency of a train when driven from the input (`forward`) and from the output (`backward`)."""
 
     forward: DrivenFigures
     backward: DrivenFigures
@@ -83,17 +83,19 @@ class TorqueFigures(Result):
 
     torques: Torques
     drives: DrivenWays | None
-    """Efficiencies in both directions; None unless power enters at one link and leaves at one link."""
+    """Efficiencies in both directions; None unless power enters at exactly one link and leaves at exactly one link."""
     watts_per_unit: float | None
     """Watts per unit of power (torque unit times speed unit); None if torques or speeds are numbers without a unit."""
     in_newton_metres: bool
     """True if torques are in N m, False if they are in the unit of the loads."""
     flow: PowerFlow
     impact_power: Mapping[str, float]
-    """Power that the impacts of each pair dissipate [W], by pair; empty unless inertias and a rate are declared."""
+    """Power that is dissipated by the impacts of each pair [W], keyed by pair; empty unless inertias and a rate are
+    declared.
+    """
     belt_pulls: Mapping[str, float]
-    """Difference between the tensions of the tight and the slack side at the driven pulley [N], by row of a belt; empty
-    unless diameters and torques have units.
+    """Difference between the tensions of the tight and the slack strand at the driven pulley [N], keyed by row of a
+    belt; empty unless diameters and torques have units.
     """
 
     @property
@@ -119,9 +121,9 @@ class TorqueReport(Result):
     states: tuple[TorqueFigures, ...]
     """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
-    """Torque over a run of some revolutions of the input in one state; None unless requested."""
+    """Torque over some revolutions of the input in one state; None if not requested."""
     friction_trials: Annotated[Any, WingResult("workshop.monte_carlo.friction_trials", "FrictionTrials")] | None = None
-    """Results of torque runs with random friction; None unless requested."""
+    """Results of torque analyses with random friction; None if not requested."""
 
 
 def collect_torque_report(
@@ -158,8 +160,8 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
-    """Yield the pull of each belt at the driven pulley [N], which is the torque divided by half of the pitch
-    diameter.
+    """Yield the name of each belt and its pull at the driven pulley [N], which is the torque divided by half of the
+    pitch diameter.
     """
     for belt in declared.couplings:
         if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
@@ -185,7 +187,7 @@ _SIGNS = (
 def describe_torques(found: TorqueReport) -> Document:
     """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
 
-    If requested, the torque over a run and trials with random friction follow.
+    Sections on the torque over some revolutions and on trials with random friction follow if they were requested.
     """
     sections = [section for each in found.states for section in torque_sections(each)]
     if found.over_turn is not None:
@@ -197,7 +199,9 @@ def describe_torques(found: TorqueReport) -> Document:
 
 
 def torques_document(found: Torques | TorqueCycle) -> Document | None:
-    """Return the output of `geartrain torques` for one state; None if the train of the result is not known."""
+    """Return the output of `geartrain torques` for one state; None if the train that belongs to the result is not
+    known.
+    """
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
 
@@ -262,7 +266,7 @@ _LOADED = "Loads of bearings follow from declared positions of axes; without axi
 
 
 class _Amounts:
-    """Conversion of powers and torques to strings, in W and N m if units are declared."""
+    """Conversion of powers and torques to strings, in W and N m if the train declares units."""
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit
@@ -300,7 +304,7 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _held(found: Torques, amounts: _Amounts) -> Iterator[Table]:
-    """Yield a table of brakes and locks with the torques that they exert on the links they hold."""
+    """Yield a table of brakes and locks, and of the torques that they exert on the links they hold."""
     rows = []
     for held in found.held:
         by_link = dict.fromkeys(held.links, "open")
@@ -315,7 +319,7 @@ def _held(found: Torques, amounts: _Amounts) -> Iterator[Table]:
 
 
 def uncounted_words(found: Torques) -> str:
-    """Return the effects that an efficiency neglects, as a suffix to its value; "" if there are none."""
+    """Return a suffix to an efficiency that lists the effects it neglects; an empty string if it neglects none."""
     uncounted = ", ".join(map(str, found.uncounted))
     return f" without {uncounted}" if uncounted else ", mean over a turn" if found.neglected else ""
 
@@ -335,7 +339,7 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
-    """Yield a table of the bearings whose friction depends on their load."""
+    """Yield a table of the bearings whose friction depends on the bearing load."""
     loaded = [each for each in found.bearings if each.load is not None]
     rows = [(each.link, each.carrier, figure(each.load, 6), amounts.plain(abs(each.torque), False)) for each in loaded]
     if rows:

@@ -122,8 +122,8 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return a document on suggested tooth counts of gears on a sphere, for which loops close and tooth tips clear each
-    other, and on rejected sets. The order is the order of `found`.
+    """Return a document on suggested tooth counts of gears on a sphere, in the order of `found`, and on rejected sets.
+    With the suggested counts, loops close and tooth tips clear each other.
     """
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = []

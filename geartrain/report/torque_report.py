@@ -350,7 +350,7 @@ def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
 
 
 def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
-    """Yield sentences on the amount of recirculating power and the pairs and shafts that transmit it."""
+    """Yield sentences on the amount of recirculating power and on the pairs and shafts that transmit this power."""
     if flow.loops:
         yield "Here power is torque times absolute speed, so that it is balanced at every shaft and pair."
     for loop in flow.loops:
@@ -362,7 +362,9 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """Yield a table of the losses of each pair and bearing, and their total; impacts have separate columns."""
+    """Yield a table of the losses of each pair and bearing, and of their total. Losses of impacts have separate
+    columns.
+    """
     if not flow.losses and not impact_power:
         return
     struck = {node: impact_power[node.name] for node in flow.nodes if node.kind == "pair" and node.name in impact_power}
@@ -383,8 +385,8 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a table row with a loss and its shares of the input power and of all losses, and the power of impacts and
-    its share.
+    """Return a table row with a loss, its fractions of the input power and of all losses, the power dissipated by
+    impacts, and the fraction of that power.
     """
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
@@ -394,7 +396,9 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Return the efficiency and the losses by cause as a string, or why the efficiency is not determined."""
+    """Return a text with the efficiency and the losses by cause, or with the reason why the efficiency is not
+    determined.
+    """
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     lost = {"teeth": torques.loss - torques.bearing_loss, "bearings": torques.bearing_loss}
@@ -427,7 +431,9 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
-    """Yield sections on the crank torque over a run, on energies, and on the losses of each pair, pin and bearing."""
+    """Yield sections on the crank torque over the positions of `found`, on energies, and on the losses of each pair,
+    pin and bearing.
+    """
     head = titled(found.state, "torque over a turn")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
@@ -461,8 +467,8 @@ def _run(found: TorqueCycle) -> str:
 
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
-    """Yield sentences on the fractions of the run in which the train locks, all energy is lost, or results are
-    ambiguous, and on efficiency, the largest loss, flank changes and recirculating power.
+    """Yield sentences on the fractions of the revolutions in which the train locks, all energy is lost, or results are
+    ambiguous. Further sentences report efficiency, largest loss, flank changes and recirculating power.
     """
     shares = {
         "no torque balances: the train locks": found.locked_share,
@@ -519,8 +525,8 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return a table of energies over a run with their shares of the energy input; amounts as small as rounding errors
-    are omitted.
+    """Return a table of energies and of their fractions of the total energy input `whole`. Amounts as small as rounding
+    errors are omitted.
     """
     rows = [
         (name, figure(value, digits), _share(value, whole))
@@ -531,7 +537,7 @@ def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: 
 
 
 def _parts(found: TorqueCycle) -> Iterator[Table]:
-    """Yield a table of the lost and transmitted energy of each pair, pin and bearing, the largest loss first."""
+    """Yield a table of the lost and transmitted energy of each pair, pin and bearing, in descending order of loss."""
     assert found.energy is not None
     lost = found.energy.lost
     rows = []

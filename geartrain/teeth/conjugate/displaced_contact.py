@@ -37,10 +37,11 @@ Value = TypeVar("Value")
 
 
 def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Floats:
-    """Return the azimuths [rad, 0 or more] of points at distance `own` from a gear's axle and `other` from its mate's.
+    """Return the azimuths [rad, 0 or more] of points from their distances `own` from a gear's axle and `other` from the
+    mate's axle.
 
-    The azimuth is measured at the axle of `gear` from the line of centres, by the law of cosines, plane or
-    spherical. It is NaN if no such point exists. The axle of a ring gear's mate is on the opposite side.
+    The azimuth is measured at the axle of `gear` from the line of centres, and computed by the plane or spherical law
+    of cosines. The azimuth is NaN if no such point exists. The axle of a ring gear's mate is on the opposite side.
     """
     D = pitch.R1 + pitch.R2
     if gear == 2:
@@ -55,11 +56,11 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 
 
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the arcs X by which both gears have rotated while the tip of `gear` touches given points of its mate's
+    """Return the arcs X by which both gears have rotated when the tip of `gear` touches given points of the mate's
     flank.
 
-    The points are given by radius and azimuth [rad] in the mate's position X = 0. The tip of gear 1 touches beyond the
-    recess; the tip of gear 2 touches before the approach.
+    The points are given by radius and azimuth [rad] in the position of the mate at X = 0. The tip of gear 1 touches
+    beyond the recess; the tip of gear 2 touches before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)
@@ -71,7 +72,9 @@ def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floa
 
 
 def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
-    """Return radii and azimuths [rad] of the mate's flank that the tip of `gear` touches beyond the end of the path."""
+    """Return radii, and azimuths [rad], of the part of the mate's flank that the tip of `gear` touches beyond the end
+    of the path of contact.
+    """
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
     # quadratic spacing, as the corner leaves the path along a parabola
@@ -90,12 +93,12 @@ def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
 
 
 def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the displacement of a flank along its normal at the contacts X, per 1 rad of rotation about its pitch
-    point.
+    """Return the displacement of a flank, along its normal at the contacts X, per radian of rotation of the flank about
+    its pitch point.
 
-    The rotation is anticlockwise in a view with X to the right and gear 2 above. With contact P, pitch point P0 of
-    the flank, unit normal n and unit vector z out of the plane, the displacement is z . ((P - P0) x n), on the
-    sphere P0 . (P x n).
+    The rotation is anticlockwise in a view with X to the right and gear 2 above. For a contact P, the pitch point P0 of
+    the flank, the unit normal n and the unit vector z out of the plane, the displacement is z . ((P - P0) x n), or P0 .
+    (P x n) on the sphere.
     """
     pitch, at = path.pitch, path.at(X)
     middle = np.zeros((len(X), 3 if pitch.bevel else 2))
@@ -108,30 +111,34 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class CornerLag:
-    """Lag of the driven wheel [rad] while a tip corner touches beyond an end of the path of contact, tabulated at
-    equal steps.
+    """Lag of the driven wheel [rad] while the corner of a tip is in contact beyond an end of the path of contact,
+    tabulated at equal steps.
     """
 
     step: float
-    """Step of the driver's angle beyond the end of the path [rad]."""
+    """Increment of the driver's angle between tabulated lags [rad]."""
     lags: Floats
-    """Lag of the driven wheel at each step [rad], starting with 0 at the end of the path."""
+    """Lags of the driven wheel at equal increments of the driver's angle [rad], starting with 0 at the end of the path
+    of contact.
+    """
 
     def __call__(self, beyond: Floats) -> Floats:
-        """Return the lag [rad] at driver angles measured from the end of the path [rad]; 0 for negative angles,
-        infinite where the corner no longer touches.
+        """Return the lag of the driven wheel [rad] at driver angles `beyond` the end of the path of contact [rad]; 0
+        for negative angles, infinite where the corner no longer touches.
         """
         return np.interp(beyond, self.step * np.arange(len(self.lags)), self.lags, left=0.0, right=inf)
 
     @property
     def most(self) -> float:
-        """Driver angle from the end of the path to the last contact of the corner [rad]."""
+        """Driver angle between the end of the path of contact and the last contact of the corner [rad]."""
         return self.step * (len(self.lags) - 1)
 
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Sizes of one wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
+    """Sizes of one wheel by which its manufacturing errors are converted to displacements [module; rad for bevel
+    gears].
+    """
 
     z: int
     """Number of teeth."""

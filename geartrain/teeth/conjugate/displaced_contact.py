@@ -145,13 +145,13 @@ class DisplacedWheelSizes:
     depth: float
     """Radial extent of the active flank [module; rad for bevel gears]."""
     half_angle: float
-    """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
+    """Angle [rad] between the chord of the active flank and the centre line of the tooth, at least 10 degrees."""
     modules: float = 1.0
-    """Number of modules in the length unit of the sizes of the wheel; 1 if lengths are in modules."""
+    """Number of modules in the unit in which the sizes of the wheel are given; 1 if the sizes are in modules."""
 
     @property
     def pitch(self) -> float:
-        """Circular pitch in the length unit of the sizes of the wheel."""
+        """Circular pitch of the wheel, in the unit in which the sizes of the wheel are given."""
         return pi / self.modules
 
 
@@ -160,9 +160,9 @@ class DisplacedContact:
     """Contact of one tooth pair throughout its engagement, and the lag of the driven wheel caused by displaced
     flanks.
 
-    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel (rad)
-    for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). In pairs of columns, the
-    first column belongs to the driver, and the second to the driven wheel.
+    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel [rad]
+    for a unit displacement, at equally spaced driver angles from `start` to `end` [rad]. In pairs of columns, the first
+    column belongs to the driver, and the second to the driven wheel.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
@@ -172,30 +172,30 @@ class DisplacedContact:
     end: float
     """Driver angle at which a tooth pair leaves contact [rad]."""
     across: tuple[Floats, Floats]
-    """Lag [rad] per unit displacement of the teeth across the line of centres, in the direction of motion."""
+    """Lag [rad] per unit displacement of the teeth perpendicular to the line of centres, in the direction of motion."""
     along: tuple[Floats, Floats]
-    """Lag [rad] per unit displacement of the teeth along the line of centres, away from their axle."""
+    """Lag [rad] per unit displacement of the teeth along the line of centres, away from the axle of their wheel."""
     tilt: tuple[Floats, Floats]
-    """Lag [rad] for a flank rotated about its pitch point by 1 rad so that it becomes flatter."""
+    """Lag [rad] per radian of rotation of a flank about its pitch point in the sense that makes the flank flatter."""
     apart: Floats
     """Lag [rad] per unit increase of the centre distance or shaft angle."""
     normal: Floats
     """Lag [rad] per unit of material missing along the normal of a flank: the reciprocal of the moment arm."""
     entering: CornerLag
-    """Lag [rad] while a tip touches before the start of the path of contact."""
+    """Lag [rad] while the corner of a tip is in contact before the start of the path of contact."""
     leaving: CornerLag
-    """Lag [rad] while a tip touches beyond the end of the path of contact."""
+    """Lag [rad] while the corner of a tip is in contact beyond the end of the path of contact."""
     longer: tuple[float, float]
-    """Shift of the end and of the start of contact [rad of the driver] per unit increase of the driver's and the driven
-    wheel's tip radius.
+    """Shift of the end of contact per unit increase of the driver's tip radius, and shift of the start of contact per
+    unit increase of the driven wheel's tip radius [rad of the driver].
     """
     backlash: float
-    """Backlash [rad of the driven wheel]."""
+    """Backlash, as an angle of the driven wheel [rad]."""
     tooth_phase: float
-    """Angle of a tooth of the driven wheel past the line of centres while the driven angle is 0 [rad]."""
+    """Angle by which a tooth of the driven wheel is past the line of centres when the driven angle is 0 [rad]."""
     even: Floats
-    """Lag of error-free wheels [rad] at the driver angles of the columns, caused by a centre distance other than
-    the design distance.
+    """Lag of the driven wheel [rad] for wheels without manufacturing errors, at the driver angles of the columns. The
+    cause is a centre distance other than the design distance.
     """
     distance: float
     """Centre distance [module]; infinite if the axles are not parallel."""
@@ -211,13 +211,15 @@ class DisplacedContact:
         return 2 * pi / self.wheels[0].z, 2 * pi / self.wheels[1].z
 
     def apart_by(self, shift: float) -> DisplacedContact:
-        """Return the contact of the same teeth at a centre distance larger by `shift` [module]."""
+        """Return the contact of the same teeth at a centre distance that is increased by `shift` [module]."""
         return replace(self, even=self.even + shift * self.apart, distance=self.distance + shift)
 
 
 @lru_cache(maxsize=256)
 def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> DisplacedContact:
-    """Return the contact of a conjugate pair driven by gear `driver` at a centre distance larger by `gap` [module]."""
+    """Return the contact of a conjugate pair that is driven by gear `driver`, at a centre distance that exceeds the
+    design distance by `gap` [module].
+    """
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
         raise RangeError(
@@ -267,9 +269,10 @@ def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Va
 
 
 def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
-    """Return the lag of the driven wheel while the tip of `gear` touches beyond the path of contact.
+    """Return the lag of the driven wheel while the tip of `gear` is in contact beyond an end of the path of contact.
 
-    The driver's tip touches as the teeth leave contact; the driven tip touches as they enter contact.
+    The driver's tip is in contact while teeth leave contact; the driven wheel's tip is in contact while teeth enter
+    contact.
     """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)

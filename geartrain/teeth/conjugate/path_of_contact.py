@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 class PathPiece:
     """Piece of a path of contact from the distance `start` to the distance `end` from the pitch point.
 
-    Its three functions take and return arrays.
+    The three functions of a piece take and return arrays.
     """
 
     start: float

@@ -40,12 +40,12 @@ class PathPiece:
     sin_psi: Curve
     """Function that returns the sine of the pressure angle psi at distances d from the pitch point."""
     slope: Curve
-    """Function that returns the derivative of sin psi with respect to the distance d; it equals d(psi)/dX, with
-    the arc X along the pitch surfaces.
+    """Function that returns the derivative of sin psi with respect to the distance d. The derivative equals d(psi)/dX,
+    where X is the arc along the pitch surfaces.
     """
     travel: Curve
-    """Function that returns the arc X along the pitch surfaces from `start` to d: the integral of 1/cos psi,
-    docs/shapes.md (1).
+    """Function that returns the arc X along the pitch surfaces between the distances `start` and d: the integral of
+    1/cos psi, docs/shapes.md (1).
     """
 
 
@@ -63,8 +63,8 @@ def ray(psi: float, end: float) -> PathPiece:
 
 
 def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int = 64) -> PathPiece:
-    """Return the piece of a path of contact with a given sine of the pressure angle psi. Its arc X is an
-    integrated Chebyshev series of 1 / cos psi.
+    """Return the piece of a path of contact on which the sine of the pressure angle psi is the given function of d. The
+    arc X is computed as an integrated Chebyshev series of 1 / cos psi.
     """
     d = start + (end - start) * (points(nodes)[0] + 1) / 2
     travel = series_through(1 / np.sqrt(1 - sin_psi(d) ** 2), start, end).integ(lbnd=start)
@@ -72,12 +72,12 @@ def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int =
 
 
 def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> PathPiece:
-    """Return the piece of a path of contact with constant contact speed `u` along the dedendum, divided by the
-    pitch-line speed.
+    """Return the piece of a path of contact on which the contact speed along the dedendum, divided by the pitch-line
+    speed, has the constant value `u`.
 
-    By docs/shapes.md (12), sin psi = eta / S with eta = S(start) sin psi(start) + u (d - start) + b (integral of
-    S). S is d, or sin d for bevel gears, and b is the curvature of the pitch surface of the gear whose dedendum
-    works.
+    By docs/shapes.md (12), sin psi = eta / S with eta = S(start) sin psi(start) + u (d - start) + b (integral of S). S
+    is d, or sin d for bevel gears, and b is the curvature of the pitch surface of the gear whose dedendum is in
+    contact.
     """
     first, below = float(pitch.S(start)) * sin_start, float(pitch.S_integral(start))
 
@@ -94,28 +94,29 @@ def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_sta
 
 @dataclass(frozen=True)
 class PathSide:
-    """One side of a path of contact: consecutive pieces from the pitch point, or from the first contact, outwards.
+    """One side (approach or recess) of a path of contact: consecutive pieces from the pitch point, or from the first
+    contact, outwards.
 
-    If a side begins beyond the pitch point, its X is counted from its first contact.
+    If the side does not reach the pitch point, the arc X is measured from the contact closest to the pitch point.
     """
 
     pieces: Sequence[PathPiece]
 
     @property
     def start(self) -> float:
-        """Distance d of the first contact from the pitch point [module]; above 0 if the path does not reach
-        that point.
+        """Distance of the contact closest to the pitch point from this point [module]; 0 if the side begins at the
+        pitch point.
         """
         return self.pieces[0].start
 
     @property
     def end(self) -> float:
-        """Distance d of the last contact from the pitch point [module]."""
+        """Distance of the contact farthest from the pitch point from this point [module]."""
         return self.pieces[-1].end
 
     @cached_property
     def arc(self) -> float:
-        """Arc X along the pitch surfaces over the whole side [module]."""
+        """Arc X along the pitch surfaces that corresponds to the whole side [module]."""
         return float(self.travel(np.array(self.end)))
 
     @property
@@ -128,7 +129,9 @@ class PathSide:
         return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative of the sine of the pressure angle by the distance d from the pitch point."""
+        """Return the derivative of the sine of the pressure angle with respect to the distance d from the
+        pitch point.
+        """
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
@@ -142,12 +145,14 @@ class PathSide:
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
-        """Return the index of the piece that contains each distance d; a joint belongs to the piece that follows it."""
+        """Return the index of the piece that contains each distance d. A distance at which two pieces meet belongs to
+        the outer piece.
+        """
         return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
-        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces, by
-        Newton's method with dd/dX = cos psi.
+        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces. Newton's
+        method is used, with dd/dX = cos psi.
         """
         X = np.asarray(X, dtype=float)
         arc = self.arc
@@ -172,8 +177,8 @@ class PathSide:
 
 @dataclass(frozen=True)
 class PathContact(Shown):
-    """Geometry, speeds, stress and heat of the contact at given pitch-line displacements X. All arrays have the same
-    shape; X < 0 is in approach, X > 0 in recess.
+    """Geometry, speeds, stress and heat of the contacts at given pitch-line displacements X. All arrays have the same
+    shape. Contacts with X < 0 are in approach, contacts with X > 0 in recess.
     """
 
     X: Floats
@@ -193,11 +198,11 @@ class PathContact(Shown):
     U2: Floats
     """Speed of the contact point along the profile of gear 2, divided by the pitch-line speed."""
     k1: Floats
-    """Curvature of the profile of gear 1 [1/module]; positive where the profile is convex. For bevel gears, the
+    """Curvature of the profile of gear 1 [1/module], positive where the profile is convex. For bevel gears, it is the
     geodesic curvature on the sphere.
     """
     k2: Floats
-    """Curvature of the profile of gear 2 [1/module]; negative where the profile is convex. For bevel gears, the
+    """Curvature of the profile of gear 2 [1/module], negative where the profile is convex. For bevel gears, it is the
     geodesic curvature on the sphere.
     """
     kr: Floats
@@ -207,16 +212,20 @@ class PathContact(Shown):
     square root of this ratio.
     """
     Q1: Floats
-    """Frictional heat per area of the profile of gear 1, divided by friction coefficient times tangential force."""
+    """Frictional heat per area of the profile of gear 1, divided by the product of friction coefficient and tangential
+    force.
+    """
     Q2: Floats
-    """Frictional heat per area of the profile of gear 2, divided by friction coefficient times tangential force."""
+    """Frictional heat per area of the profile of gear 2, divided by the product of friction coefficient and tangential
+    force.
+    """
     flash: Floats
-    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, with F_n the normal force at unit tangential force. Blok's
-    flash temperature of equal materials is proportional to it.
+    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, where F_n is the normal force at unit tangential force. Blok's
+    flash temperature of equal materials is proportional to this quantity.
     """
     rub: Floats
-    """Ratio |S| / cos psi, where S is d, or sin d for bevel gears. The friction loss is proportional to its integral
-    over X.
+    """Ratio |S| / cos psi, where S is d, or sin d for bevel gears. The friction loss is proportional to the integral of
+    this ratio over X.
     """
 
     @property
@@ -380,11 +389,12 @@ class PathOfContact(Shown):
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Return speeds, curvatures, stress and heat of contacts at arcs X and distances d, docs/shapes.md (2) to (5).
+        """Return the speeds, curvatures, stress and heat of contacts at arcs X and distances d. `sine` is the sine of
+        the pressure angle psi, and `q` is d(psi)/dX. See docs/shapes.md (2) to (5).
 
-        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, with w the derivative of S sin psi with
-        respect to d, and A and B the curvatures of the pitch surfaces. The relative curvature is kr = (A + B) sin psi /
-        (U1 U2).
+        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, where w is the derivative of S sin psi
+        with respect to d, S is d (sin d for bevel gears), and A and B are the curvatures of the pitch surfaces. The
+        relative curvature is kr = (A + B) sin psi / (U1 U2).
         """
         pitch = self.pitch
         A, B = pitch.A, pitch.B

@@ -1,8 +1,8 @@
 """Coefficients of Coulomb friction and of restitution as a train declares them.
 
-Restitution is Newton's law of impact: two sides that approach each other at a speed u separate at the speed e u. The
-coefficient e is from 0 (they stay together) to 1 (no energy is lost), and the fraction 1 - e^2 of the kinetic energy of
-the approach is lost.
+Restitution follows Newton's law of impact: two bodies that approach each other at a speed u separate at the speed e u.
+The coefficient e is from 0 (the bodies stay together) to 1 (no energy is lost), and the fraction 1 - e^2 of the kinetic
+energy of the approach is lost.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, 
 
 
 class NumberOrKeys(BaseModel):
-    """Base class of parts that may be declared by a bare number instead of their keys."""
+    """Base class of parts of a declaration that may be given as a bare number instead of a mapping."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     @model_serializer(mode="wrap")
     def _declared(self, handler: Any) -> Any:
-        """Return the part as declared: a bare number if only one key is given."""
+        """Return the part in the form in which it is declared: a bare number if only one key is given."""
         given = [value for _, value in self if value is not None]
         return str(given[0]) if len(given) == 1 else handler(self)
 
@@ -40,7 +40,7 @@ class NumberOrKeys(BaseModel):
 
 
 class CoulombFriction(NumberOrKeys):
-    """Coulomb friction: friction force divided by normal force, independent of the sliding speed.
+    """Coefficient of Coulomb friction: friction force divided by normal force, independent of the sliding speed.
 
     A bare number is the coefficient `sliding`.
     """
@@ -72,7 +72,7 @@ class CoulombFriction(NumberOrKeys):
 
     @property
     def is_random(self) -> bool:
-        """True if the coefficient has a distribution of nonzero width."""
+        """True if the coefficient is a random variable with a distribution of nonzero width."""
         if self.range is not None:
             return self.range[0].value < self.range[1].value
         return self.deviation is not None and bool(self.deviation.value)

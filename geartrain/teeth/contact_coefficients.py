@@ -90,7 +90,7 @@ def _sliding(raw: object) -> object:
 
 
 DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
-"""Field type: Coulomb friction, or a bare number for its coefficient `sliding`."""
+"""Field type of a Coulomb friction coefficient. A bare number is accepted as the coefficient `sliding`."""
 
 
 def _check_restitution(figure: Figure) -> Figure:
@@ -142,4 +142,4 @@ def _efficiency(raw: object) -> object:
 
 
 DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
-"""Basic efficiencies, or one number for both directions."""
+"""Field type of basic efficiencies. One number is accepted for both driving directions."""

@@ -47,7 +47,7 @@ Lobes = Annotated[int, Field(ge=1, le=_MOST_LOBES)]
 
 
 class _VaryingPair(Coupling):
-    """Coupling of two links with a variable ratio."""
+    """Coupling of two links with a variable speed ratio."""
 
     pair: tuple[str, str] = Field(description="Driving link and driven link")
     phase: Angle | None = Field(None, description="Angle of the driver at the start; default 0")
@@ -59,7 +59,7 @@ class _VaryingPair(Coupling):
 
     @property
     def remark(self) -> str:
-        """Range of the deviation from uniform motion, in words."""
+        """Text that gives the range of the deviation from uniform motion."""
         if self.transmission is None:
             return "has an unknown angle"
         low, high = self.transmission.error_range()
@@ -91,12 +91,12 @@ class UniversalJoint(_VaryingPair):
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver, 2."""
+        """Number of periods of the transmission function in one revolution of the driver, which is 2."""
         return Fraction(2)
 
     @property
     def transmission(self) -> SeriesTransmission | None:
-        """Transmission function; None if the angle of the joint is not known."""
+        """Transmission function of the joint; None if the angle of the joint is not known."""
         if self.angle is None:
             return None
         from geartrain.teeth.couplings.series_transmission import SeriesTransmission
@@ -106,7 +106,7 @@ class UniversalJoint(_VaryingPair):
 
     @property
     def formula(self) -> str:
-        """Driven angle q in closed form."""
+        """Closed-form formula for the driven angle q."""
         return f"tan q = tan S / cos({self.angle.text if self.angle else 'beta'})"
 
 
@@ -119,12 +119,14 @@ class _LobedPair(_VaryingPair):
 
     @property
     def mean(self) -> Fraction:
-        """Mean ratio: minus the lobes of the driver divided by the lobes of the driven wheel."""
+        """Mean ratio: the number of lobes of the driver divided by the number of lobes of the driven wheel, with a
+        negative sign.
+        """
         return -Fraction(*self.lobes)
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver: its lobes."""
+        """Number of periods of the transmission function in one revolution of the driver: its number of lobes."""
         return Fraction(self.lobes[0])
 
 
@@ -161,7 +163,7 @@ class EllipticalPair(_LobedPair):
 
     @property
     def _root(self) -> float:
-        """Square root that occurs in the formula of `distance`."""
+        """Square root that occurs in the formula for `distance`."""
         e, m = float(self.eccentricity.value), self.lobes[0] / self.lobes[1]
         return sqrt(1 - (1 - e**2) * (1 - 1 / m**2))
 
@@ -183,7 +185,7 @@ class EllipticalPair(_LobedPair):
 
     @property
     def formula(self) -> str:
-        """Driven angle q in closed form."""
+        """Closed-form formula for the driven angle q."""
         rho = self.transmission.rho
         S, q = ({1: f"{of} / 2", 2: of}.get(n, f"{n} {of} / 2") for n, of in zip(self.lobes, "Sq", strict=True))
         return f"tan({q}) = {(1 + rho) / (1 - rho):.6g} tan({S})"
@@ -226,7 +228,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def distance(self) -> float:
-        """Distance between the axes [m], or in the unit of the radii if these are declared without a unit."""
+        """Distance between the axes [m], or in the unit of the radii if these are given without a unit."""
         from geartrain.teeth.couplings.pitch_curves import mate_distance
 
         return mate_distance(self._values, float(-self.mean))
@@ -237,7 +239,9 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function by quadrature of the ratio r/(C - r)."""
+        """Transmission function, computed by quadrature of the ratio r/(C - r), where r is the radius of the driver and
+        C the axis distance.
+        """
         from geartrain.teeth.couplings.pitch_curves import mate_deviation
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 
@@ -246,7 +250,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def formula(self) -> str:
-        """Speed ratio dq/dS in closed form."""
+        """Closed-form formula for the speed ratio dq/dS."""
         return f"dq/dS = r / (C - r), C = {self.distance:.6g}{'' if self.radii[0].unit is None else ' m'}"
 
 
@@ -307,17 +311,19 @@ class TabledLaw(_VaryingPair):
 
     @property
     def mean(self) -> Fraction:
-        """Exact mean ratio."""
+        """Exact mean speed ratio."""
         return self.mean_ratio.value
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver."""
+        """Number of periods of the transmission function in one revolution of the driver."""
         return 1 / self.per.value
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function; if the mean ratio is negative, the angles of the driven side are forward angles."""
+        """Transmission function. If the mean ratio is negative, angles of the driven side are positive in its mean
+        sense of rotation.
+        """
         from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicTable
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 
@@ -335,7 +341,7 @@ class TabledLaw(_VaryingPair):
 
     @property
     def formula(self) -> str:
-        """Driven angle q in closed form."""
+        """Closed-form formula for the driven angle q."""
         mean = f"{fraction_text(self.mean)} S + " if self.mean else ""
         turn = "S" if self.per.value == 1 else f"S/{self.per.text}"
         if self.harmonics is None:

@@ -55,7 +55,7 @@ class PinCoupling(Coupling):
 
 
 class _PinInSlot(PinCoupling):
-    """Pin in a slot; over one turn of the pin, the slot turns `WINDING` times."""
+    """Pin in a slot. In one turn of the pin, the slot turns `WINDING` times."""
 
     WINDING: ClassVar[int] = 1
 
@@ -92,12 +92,12 @@ class _PinInSlot(PinCoupling):
 
     @property
     def mean(self) -> Fraction:
-        """Mean ratio, which is the winding number of the pin about the slot's axis."""
+        """Mean ratio, which equals the winding number of the pin about the slot's axis."""
         return Fraction(self.WINDING)
 
     @property
     def transmission(self) -> PinToSlotTransmission | None:
-        """Transmission function with the pin driving; None if the dimensions are not declared."""
+        """Transmission function if the pin drives; None if the dimensions are not declared."""
         if self.pin_radius is None or self.offset is None:
             return None
         from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
@@ -175,10 +175,10 @@ class Parallel(_ParallelCoupling):
 def pin_transmission(
     pin_radius: float, offset: float, friction: float = 0.0, driver: Literal["pin", "slot"] = "pin"
 ) -> PinTransmission:
-    """Return the transmission function of a pin in a slot with either side driving.
+    """Return the transmission function of a pin in a slot that is driven by the pin or by the slot.
 
     `offset` is the distance between the two axes, in the unit of `pin_radius`. Raises `RangeError` if the coupling
-    cannot turn; the place of the error is `driver` or `friction` if that value must be changed.
+    cannot turn; the location of the error is `driver` or `friction` if this value must be changed.
     """
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 

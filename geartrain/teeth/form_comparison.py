@@ -111,9 +111,10 @@ class FormComparison(Pictured, Result):
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
     """Return the class and the parameters of each conjugate form, or variant (reading) of a form, that can be compared,
-    by name.
+    keyed by name.
 
-    A form with several readings is listed once without a reading and once for each, such as `uniform_temperature_b`.
+    A form with several readings is listed once without a reading and once for each reading, such as
+    `uniform_temperature_b`.
     """
     found: dict[str, tuple[type[ConjugateToothForm], dict[str, str]]] = {}
     for name, model in tooth_forms().items():
@@ -191,12 +192,14 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch] instead of addenda."""
+    """Return the 20 degree involute pair whose arcs of approach and recess [pitch] are given. These arcs determine the
+    addenda.
+    """
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 
 def arcs_error(text: str) -> QuestionError:
-    """Return the error for arcs of contact that are out of range."""
+    """Return the error that reports arcs of contact out of range."""
     why = f"arcs of approach and recess are numbers from 0 to {_MOST_PITCHES:g}, and not both 0"
     fix = "give two arcs in pitches with a sum of 1 or more, such as 0.5,0.5"
     return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "arcs"))
@@ -222,7 +225,7 @@ def _check(
 
 
 def _reference_error(base: MeasuredForm) -> QuestionError:
-    """Return the error for a reference involute that cannot run.
+    """Return the error that reports that the reference involute cannot run.
 
     Fixes that change the pressure angle are omitted, because the reference has 20 degrees by definition.
     """

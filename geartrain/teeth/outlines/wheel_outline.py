@@ -1,4 +1,4 @@
-"""Outline of a whole wheel: sizes of its blank, contours and resulting sizes.
+"""Outline of a whole wheel: sizes of its blank, contours, and the sizes that result.
 
 Conjugate teeth get roots that the mate's tips do not touch, and a bore or a rim as the blank specifies.
 """

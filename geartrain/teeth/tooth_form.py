@@ -1,4 +1,6 @@
-"""Base class of tooth forms, whose method `mesh` returns a gear mesh of two wheels, and field types of declarations."""
+"""Base class of tooth forms, whose method `mesh` returns the gear mesh of two wheels, and field types
+for declarations.
+"""
 
 from __future__ import annotations
 
@@ -24,12 +26,12 @@ ShaftAngle = Callable[[], float | None]
 
 
 def twice(raw: object) -> object:
-    """Return a single value as a pair of two equal values; return a pair unchanged."""
+    """Return a pair of two equal values if a single value is given. A pair is returned unchanged."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert "1" or "2" to an integer, since a declaration gives numbers as strings."""
+    """Convert "1" or "2" to an integer, because a declaration gives numbers as strings."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -39,17 +41,17 @@ def _schema(kind: str) -> WithJsonSchema:
 
 
 TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(twice), _schema("number")]
-"""Field type: one number for both wheels, or a list of two."""
+"""Field type of one number for both wheels, or a list of two numbers."""
 
 TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("length")]
-"""Field type: one length for both wheels, or a list of two; numbers without a unit are modules."""
+"""Field type of one length for both wheels, or a list of two lengths. Numbers without a unit are in modules."""
 
 TwoAngles = Annotated[tuple[Angle, Angle], BeforeValidator(twice), _schema("angle")]
-"""Field type: one angle for both wheels, or a list of two."""
+"""Field type of one angle for both wheels, or a list of two angles."""
 
 
 class ToothForm(BaseModel, ABC):
-    """Declared tooth form of a gear pair. Its method `mesh` returns the mesh of two wheels.
+    """Declared tooth form of a gear pair. Its method `mesh` returns the gear mesh of two wheels.
 
     See Also
     --------
@@ -59,28 +61,28 @@ class ToothForm(BaseModel, ABC):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     has_shape: ClassVar[bool] = True
-    """True if the form defines the shape of the teeth; otherwise standard teeth are cut and drawn."""
+    """True if the tooth form defines the shape of the teeth; False if standard teeth are cut and drawn instead."""
 
     any_distance: ClassVar[bool] = False
-    """True for teeth that run at any centre distance, not only at the design distance."""
+    """True if the teeth run at any centre distance, False if they run only at the design distance."""
 
     conjugate: ClassVar[bool] = False
-    """True for teeth designed from a path of contact, which are possible for ring gears and bevel wheels too.
+    """True if the teeth are designed from a path of contact, which is also possible for ring gears and bevel wheels.
 
-    Their form does not prescribe the roots.
+    Such a tooth form does not prescribe the roots of the teeth.
     """
 
     more_contact: ClassVar[str] = "declare longer `arcs`"
-    """Fix that increases the contact ratio, as part of a message."""
+    """Part of a message that states how to increase the contact ratio."""
 
     ringed: ClassVar[bool] = False
-    """True for teeth whose second wheel is a ring gear."""
+    """True if the second wheel must be a ring gear."""
 
     own_play: ClassVar[tuple[str, ...]] = ()
-    """Names of the fields that determine the backlash if they are declared."""
+    """Names of the fields that, if declared, determine the backlash."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
-    """Names of the fields that do not affect the tooth shape: stiffness and damping for dynamic simulations."""
+    """Names of the fields that do not affect the shape of the teeth: stiffness and damping for dynamic simulations."""
 
     if TYPE_CHECKING:
         form: str
@@ -123,7 +125,9 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return a validation error of pydantic as a problem, with the fix that the form provides, if there is one."""
+        """Return a validation error of pydantic as a problem. If the tooth form provides a remedy for this error, the
+        problem contains it.
+        """
         context = item.get("ctx") or {}
         # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
@@ -143,7 +147,7 @@ class ToothForm(BaseModel, ABC):
 
     @property
     def words(self) -> str:
-        """Name of the form as it appears in sentences."""
+        """Name of the tooth form as it is written in sentences."""
         return self.form.replace("_", " ")
 
     @abstractmethod

@@ -174,14 +174,14 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of results of a mesh of this form, from which the JSON schema is generated."""
+        """Return the class of the results of a mesh with this tooth form, from which the JSON schema is generated."""
         from geartrain.teeth.pair_results import PairFigures
 
         return PairFigures
 
     @property
     def has_lengths(self) -> bool:
-        """True if a length of the form is declared with a unit."""
+        """True if the tooth form declares a length with a unit."""
         return False
 
     @property
@@ -190,7 +190,7 @@ class ToothForm(BaseModel, ABC):
         return None
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
+        """Return the reason why the backlash given by the manufacturing options does not apply to this pair.
 
         Parameters
         ----------
@@ -213,7 +213,8 @@ class ToothForm(BaseModel, ABC):
         return None
 
     def thinned(self, backlash: Quantity) -> Self:
-        """Return a copy of the form with the given backlash, or the form itself if it has no parameter for backlash.
+        """Return a copy of the tooth form with the given backlash, or the tooth form itself if it has no parameter for
+        backlash.
 
         Parameters
         ----------
@@ -229,9 +230,7 @@ class ToothForm(BaseModel, ABC):
 
 
 def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
-    """Raise a validation error of the kind `kind` if a value of the named fields is given and is not greater than
-    0.
-    """
+    """Raise a validation error of the kind `kind` if any of the named fields has a value that is not greater than 0."""
     for name in names:
         given = getattr(form, name)
         for value in given if isinstance(given, tuple) else (given,):
@@ -240,7 +239,7 @@ def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
 
 
 def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
-    """Raise a validation error of the kind `kind` if both named fields are given."""
+    """Raise a validation error of the kind `kind` if both fields, `first` and `second`, are given."""
     if all(name in form.model_fields_set and getattr(form, name) is not None for name in (first, second)):
         raise bad(
             kind, f"{first} and {second} are both given", f"remove `{first}` or `{second}`: each determines the other"
@@ -248,10 +247,10 @@ def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
 
 
 def in_modules(length: Quantity, module: float | None, name: str) -> float:
-    """Convert a declared length to modules; a number without a unit is a number of modules.
+    """Convert a declared length to modules. A number without a unit is already in modules.
 
-    `name` is the name of the field, for the error message. Raises `GearTrainError` if the length has a unit and the
-    module [m] is unknown.
+    `name` is the name of the field in error messages. Raises `GearTrainError` if the length has a unit and the module
+    [m] is unknown.
     """
     if length.unit is None or not length.value:
         return float(length.value)
@@ -265,5 +264,5 @@ def in_modules(length: Quantity, module: float | None, name: str) -> float:
 
 
 def refused(what: str, why: str, fix: str) -> GearTrainError:
-    """Return the error for wheels that cannot have teeth of a form."""
+    """Return the error for wheels that cannot have teeth of a given tooth form."""
     return GearTrainError(Problem(what, why, fix))

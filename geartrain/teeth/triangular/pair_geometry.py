@@ -1,6 +1,6 @@
 """Sizes of a pair of wheels with triangular teeth: depth, radii, centre distance, range of contact.
 
-Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems". All lengths are in the same
+Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems". All lengths are in one
 arbitrary unit. Sorge treats external pairs. An internal pair follows from the same equations if the tooth number and
 the radius of the ring gear and the centre distance are negative (docs/teeth.md, internal pairs).
 """
@@ -21,24 +21,26 @@ _NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle f
 
 
 def depth(z: int, beta: float) -> float:
-    """Return the tooth depth divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq. (1).
+    """Return the tooth depth divided by the tip radius, for z teeth with a half aperture angle `beta` [rad], Eq. (1).
 
-    It is computed as a product, because the printed difference cancels at large z. For a ring gear of z teeth pass
-    -z and multiply by the negative radius.
+    The ratio is computed as a product, because the printed difference suffers from cancellation for large z. For a ring
+    gear of z teeth, pass -z and multiply the result by the negative radius.
     """
     return 2 * sin(pi / (2 * z)) * cos(beta + pi / (2 * z)) / sin(beta + pi / z)
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank divided by the tip radius for z teeth with half angle `beta` [rad], Eq. (2)."""
+    """Return the length of a flank divided by the tip radius, for z teeth with a half aperture angle `beta` [rad], Eq.
+    (2).
+    """
     return sin(pi / z) / sin(beta + pi / z)
 
 
 def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
-    """Return the maximum angle of a tip of wheel 1 from the line of centres at which tips can touch [rad], Eq. (4).
+    """Return the maximum angle [rad] between a tip of wheel 1 and the line of centres at which tips can touch, Eq. (4).
 
-    It follows from the overlap delta = R1 + R2 - D of the tip circles, with tip radii R1 and R2 and centre distance
-    D.
+    The angle follows from the overlap delta = R1 + R2 - D of the tip circles, where R1 and R2 are the tip radii and D
+    is the centre distance.
     """
     # half-angle form of the cosine rule: the cosine, near 1, would lose half the digits
     square = delta * (2 * R2 - delta) / (4 * D * R1)
@@ -48,7 +50,7 @@ def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
 
 def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
     """Return the direction psi [rad] of a flank of wheel 1 that is almost tangent to the tip circle of wheel 2, and
-    sin(psi + alpha_2), where alpha_2 is the angle of the touching apex of wheel 2 from the line of centres.
+    sin(psi + alpha_2), where alpha_2 is the angle between the touching apex of wheel 2 and the line of centres.
     """
     sine = min(1.0, (_GRAZING * R2 + R1 * sin(beta)) / D)
     return asin(sine), (D * sine - R1 * sin(beta)) / R2
@@ -56,7 +58,7 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TriangularSizes(Shown):
-    """Geometry of a pair of wheels with triangular teeth, of which the first drives. All lengths are in the same
+    """Geometry of a pair of wheels with triangular teeth, in which the first wheel drives. All lengths are in one
     arbitrary unit.
 
     At `deepest_distance` a tip touches the bottom between two teeth. For an external pair this is the minimum centre

@@ -123,19 +123,21 @@ class TriangularSizes(Shown):
 
     @property
     def signs(self) -> tuple[int, int]:
-        """Sign of the tooth number and radius of each wheel in the equations for external pairs; -1 for a ring gear,
-        otherwise 1.
+        """Sign of the tooth number and radius of each wheel in the equations for external pairs: -1 for a ring gear, 1
+        for an external wheel.
         """
         return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
 
     @property
     def side(self) -> int:
-        """Sign of the centre distance and of the angle alpha_2: 1 for an external pair, -1 for an internal pair."""
+        """Sign of the centre distance and of the angle alpha_2 in the equations: 1 for an external pair, -1 for an
+        internal pair.
+        """
         return -1 if self.ring else 1
 
     @property
     def signed_radii(self) -> tuple[float, float]:
-        """Tip radii of both wheels, in the common length unit; negative for a ring gear."""
+        """Tip radii of both wheels, in the common length unit. The radius of a ring gear is negative."""
         return self.signs[0] * self.R1, self.signs[1] * self.R2
 
     @property
@@ -150,19 +152,21 @@ class TriangularSizes(Shown):
 
     @cached_property
     def depths(self) -> tuple[float, float]:
-        """Tooth depths of both wheels, Eq. (1), in the common length unit."""
+        """Tooth depths of both wheels, in the common length unit, Eq. (1)."""
         (s1, s2), (R1, R2) = self.signs, self.signed_radii
         return R1 * depth(s1 * self.z1, self.beta1), R2 * depth(s2 * self.z2, self.beta2)
 
     @cached_property
     def flanks(self) -> tuple[float, float]:
-        """Lengths of the flanks of both wheels, Eq. (2), in the common length unit."""
+        """Lengths of the flanks of both wheels, in the common length unit, Eq. (2)."""
         (s1, s2), (R1, R2) = self.signs, self.signed_radii
         return R1 * flank(s1 * self.z1, self.beta1), R2 * flank(s2 * self.z2, self.beta2)
 
     @cached_property
     def deepest_distance(self) -> float:
-        """Centre distance at which a tip touches the bottom of a space (clearance factor 1)."""
+        """Centre distance at which a tip touches the bottom of a tooth space (clearance factor 1), in the common length
+        unit.
+        """
         return self.side * (sum(self.signed_radii) - min(self.depths))
 
     @cached_property
@@ -172,14 +176,16 @@ class TriangularSizes(Shown):
 
     @property
     def pitch_sum(self) -> int:
-        """Sum z1 + z2, or the difference for an internal pair. The centre distance divided by this value is half the
-        working module.
+        """Sum z1 + z2 of the tooth numbers, or their difference for an internal pair. The centre distance divided by
+        this number is half the operating module.
         """
         return abs(self.signs[0] * self.z1 + self.signs[1] * self.z2)
 
     @property
     def surrounds(self) -> bool:
-        """True if the tip circles of an internal pair overlap at every angle, so that the pinion has no free space."""
+        """True if the tip circles of an internal pair overlap at every angle, so that the teeth of the pinion cannot
+        come free.
+        """
         return bool(self.ring) and sum(self.signed_radii) >= self.D
 
     @property
@@ -195,13 +201,13 @@ class TriangularSizes(Shown):
         Parameters
         ----------
         excess : float
-            Fraction as in the field `excess`.
+            Relative deviation of the centre distance, as in the field `excess`.
         """
         return 1 + self.side * excess
 
     @cached_property
     def delta(self) -> float:
-        """Overlap of the tip circles, in the common length unit; 0 or less if the teeth cannot touch."""
+        """Overlap of the tip circles, in the common length unit; 0 or negative if the teeth cannot touch."""
         # R1 + R2 - D would cancel at large tooth numbers
         return min(self.depths) - self.excess * self.deepest_distance
 
@@ -217,27 +223,27 @@ class TriangularSizes(Shown):
 
     @cached_property
     def ratio(self) -> float:
-        """Mean speed ratio, driven speed divided by driver speed, without sign."""
+        """Mean speed ratio: absolute value of the driven speed divided by the driver speed."""
         return self.z1 / self.z2
 
     @cached_property
     def reach1(self) -> float:
-        """Maximum angle alpha_1max of a tip of the driver from the line of centres at which tips can touch [rad], Eq.
-        (4).
+        """Maximum angle alpha_1max [rad] between a tip of the driver and the line of centres at which tips can touch,
+        Eq. (4).
         """
         return contact_half_angle(*self.signed_radii, self.side * self.D, self.delta)
 
     @cached_property
     def reach2(self) -> float:
-        """Maximum angle alpha_2max of a tip of the driven wheel from the line of centres at which tips can touch [rad],
-        Eq. (4).
+        """Maximum angle alpha_2max [rad] between a tip of the driven wheel and the line of centres at which tips can
+        touch, Eq. (4).
         """
         return contact_half_angle(*self.signed_radii[::-1], self.side * self.D, self.delta)
 
     @cached_property
     def matching(self) -> float:
-        """Angle alpha_1m of the driver's apex from the line of centres in the matching position, in which the flanks of
-        both teeth coincide [rad], Eq. (10). It is also defined for unequal aperture angles.
+        """Angle alpha_1m [rad] between the driver's apex and the line of centres in the matching position, in which the
+        flanks of both teeth coincide, Eq. (10). It is also defined for unequal aperture angles.
 
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The expression for the
         sine of alpha_1m avoids the difference of nearly equal angles. The value is infinite if no such position exists.
@@ -254,8 +260,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def lean(self) -> tuple[bool, bool]:
-        """Flag for each wheel: True if its flanks overhang, that is, lean beyond the perpendicular to the mate's radius
-        where tips meet.
+        """Flag for each wheel: True if its flanks overhang. A flank overhangs if it leans beyond the perpendicular to
+        the mate's radius where tips meet.
 
         Flanks overhang in wheels with few, deep teeth. They never overhang in an internal pair, because flank and
         driven radius turn in the same sense.
@@ -267,7 +273,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def entry(self) -> float:
-        """Angle alpha_1 of the driver's apex from the line of centres at which a tooth pair comes into contact [rad].
+        """Angle alpha_1 [rad] between the driver's apex and the line of centres at which a tooth pair comes into
+        contact.
 
         The angle is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that
         position.
@@ -278,7 +285,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def exit(self) -> float:
-        """Angle alpha_1 of the driver's apex from the line of centres at which a tooth pair ceases to drive [rad].
+        """Angle alpha_1 [rad] between the driver's apex and the line of centres at which a tooth pair ceases to drive.
 
         The angle is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
         """
@@ -289,22 +296,23 @@ class TriangularSizes(Shown):
 
     @cached_property
     def maximum_excess(self) -> float:
-        """Maximum excess at which the teeth can touch. Beyond it, tips never touch or, in an internal pair, the tip
-        circles overlap at every angle.
+        """Maximum excess at which the teeth can touch. If the excess is larger, tips never touch, or the tip circles of
+        an internal pair overlap at every angle.
         """
         apart = min(self.depths) / self.deepest_distance
         return apart if not self.ring else min(apart, 1 + self.side * sum(self.signed_radii) / self.deepest_distance)
 
     @cached_property
     def has_valleys(self) -> bool:
-        """True if neighbouring flanks of both wheels meet in a valley: half aperture angle + 180 deg/z < 90 deg, or
-        half aperture angle > 180 deg/z for a ring gear.
+        """True if neighbouring flanks of both wheels meet in a valley. The condition is: half aperture angle + 180
+        deg/z < 90 deg for an external wheel, and half aperture angle > 180 deg/z for a ring gear, where z is the tooth
+        number.
         """
         wheels = zip(self.signs, (self.z1, self.z2), self.half_angles, strict=True)
         return all(0 < beta + sign * pi / z < pi / 2 for sign, z, beta in wheels)
 
     def swapped(self) -> TriangularSizes:
-        """Return the pair with the same sizes and the second wheel driving."""
+        """Return the pair with the same sizes, in which the second wheel drives."""
         ring: Literal[0, 1, 2] = 2 if self.ring == 1 else 1 if self.ring == 2 else 0
         return TriangularSizes(self.z2, self.z1, self.R2, self.R1, self.beta2, self.beta1, self.excess, ring)
 
@@ -314,7 +322,7 @@ class TriangularSizes(Shown):
         Parameters
         ----------
         excess : float
-            Fraction as in the field `excess`.
+            Relative deviation of the centre distance, as in the field `excess`.
         """
         return replace(self, excess=excess)
 

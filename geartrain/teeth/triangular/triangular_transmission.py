@@ -127,7 +127,8 @@ class TriangularTransmission(ToothTransmission):
         phase, x
             Same as in `sliding`.
         by : PairFriction or None
-            Coefficient of friction as a function of sliding speed. If None, the constant coefficient of this transmission function is returned.
+            Coefficient of friction as a function of sliding speed. If None, the constant coefficient of this
+            transmission function is returned.
         """
         return self.friction if by is None else by(self.sliding(phase, x))
 

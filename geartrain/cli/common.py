@@ -61,7 +61,7 @@ Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:
-    """Load all trains. Raise one `GearTrainError` with the problems of every file that cannot be read."""
+    """Load all trains. If files cannot be read, raise one `GearTrainError` with the problems of all these files."""
     from geartrain.analysis.gear_train import load
 
     trains: list[GearTrain] = []
@@ -105,7 +105,7 @@ def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]
 
 
 def option_error(place: str, what: str, fix: str, why: str = "") -> QuestionError:
-    """Return an error that is reported at an argument or option of the command line."""
+    """Return an error whose location `place` is an argument or option of the command line."""
     return QuestionError(Problem(what, why, fix, place))
 
 
@@ -115,7 +115,7 @@ def tell(text: str) -> None:
 
 
 def complain(error: GearTrainError) -> None:
-    """Print every problem on standard error."""
+    """Print every problem that an error contains on standard error."""
     for problem in error.problems:
         tell(f"error: {problem}")
 
@@ -167,7 +167,7 @@ def is_standard(out: Path) -> bool:
 def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: str = "-o") -> Sink:
     """Return the destination of a result, after checking that it can be written.
 
-    allowed   allowed suffixes; empty for all
+    allowed   allowed suffixes; all suffixes are allowed if empty
 
     Raises `GearTrainError` if the file cannot be written, or if packages that an HTML page needs are not installed.
     """
@@ -220,8 +220,8 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Write documents to an HTML or Markdown file, or print them at the width of the terminal (80 columns in a
-    pipe).
+    """Write documents to an HTML or Markdown file, or print them at the width of the terminal (80 columns if the output
+    is piped).
     """
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
@@ -252,7 +252,7 @@ def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[],
 
 
 def draw(figure: Any, out: Sink) -> None:
-    """Write a figure atomically to a file; the default format is .svg."""
+    """Write a figure atomically to a file. The default format is .svg."""
     from geartrain.drawing import render
 
     out.write(render(figure, out.suffix or ".svg", theme=out.theme))

@@ -57,7 +57,9 @@ class ProgressBar:
         self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
 
     def reach(self, done: int, total: int) -> None:
-        """Set the number of completed steps and the total; the bar is hidden if the total is 1 or less."""
+        """Set the number of completed steps and the total number of steps. The bar is hidden if the total is 1
+        or less.
+        """
         self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
@@ -224,7 +226,7 @@ class TimeRequest:
     fast: bool | None = None
 
     def arguments(self) -> dict[str, Any]:
-        """Return the arguments of `GearTrain.dynamics`. Raises `GearTrainError` for a value that is not allowed."""
+        """Return the arguments of `GearTrain.dynamics`. Raise `GearTrainError` if a value is not allowed."""
         turns, skip = TURNS if self.turns is None else self.turns, SKIP if self.skip is None else self.skip
         return {
             "rate": None if self.rate is None else input_rate(self.rate),
@@ -239,7 +241,7 @@ class TimeRequest:
 
 
 def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) -> TimeRun:
-    """Run a simulation in the time domain with a progress bar; Ctrl-C ends it after the current step."""
+    """Run a simulation in the time domain with a progress bar. Ctrl-C ends the simulation after the current step."""
     with interruptible("motion in time") as on_done:
         return train.dynamics(state=state, **requested, on_done=on_done)
 

@@ -378,7 +378,9 @@ def read_operation(inertia: str | None, rate: str | None, load: str | None) -> P
 
 
 def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """Run a parameter sweep; write its results as a table and, if a file is named, as a picture."""
+    """Run a parameter sweep, and write its results as a table. If a file is named for a picture, also write
+    a picture.
+    """
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
     from geartrain.teeth.triangular.triangular_mesh import TriangularMesh

@@ -40,17 +40,18 @@ PAIR = ("friction", "z1", "z2")
 
 
 def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
-    """Return the parameters of a form that describe one pair, by name.
+    """Return the fields of a tooth form that describe one pair, keyed by name.
 
-    Forms whose teeth run only at the design centre distance have no parameter `centre_distance`. Parameters for the
-    time domain, and values that only Python can give (fields without `repr`), are omitted.
+    The field `centre_distance` is omitted for forms whose teeth run only at the design centre distance. Fields for
+    simulations in the time domain, and fields whose values only Python can give (fields without `repr`), are also
+    omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden and field.repr}
 
 
 def describe_parameters(form: str, model: type[ToothForm]) -> Document:
-    """Return the parameters of a form as a table: key, default, meaning."""
+    """Return a document with a table of the parameters of a tooth form: key, default value and meaning."""
     from geartrain.report.document import Document, Section, Table
 
     required = model.with_defaults({})
@@ -64,7 +65,7 @@ def describe_parameters(form: str, model: type[ToothForm]) -> Document:
 
 
 def _meaning(field: FieldInfo) -> str:
-    """Return the description of a parameter, in which lists are described as two values separated by a comma."""
+    """Return the description of a parameter. A list is described as two values separated by a comma."""
     text = (field.description or "").replace("a list of two gives", "a,b gives").replace("a list of two", "two: a,b")
     words = [word for word in _words(field.annotation) if word not in text]
     return f"{text}: {', '.join(words)}" if words else text
@@ -96,7 +97,8 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
 
 
 def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
-    """Create the tooth form from its parameters, with defaults for parameters that a declaration must give.
+    """Create the tooth form from the given parameters, with default values for missing parameters that a declaration
+    must give.
 
     Raises `GearTrainError` with the location `-p KEY`.
     """
@@ -120,8 +122,8 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert a value as in a declaration: parse a value in brackets or braces as YAML, split it into a list if it
-    contains a comma, and convert it to an integer if the field allows this integer.
+    """Convert the text of a value as in a declaration: parse a value in brackets or braces as YAML, split a value with
+    commas into a list, and convert an integer if the field allows this integer.
     """
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml
@@ -146,7 +148,7 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels.
+    """Parse the helix angle [rad] of a pair on parallel axes. Return 0, for spur wheels, if `helix` is None.
 
     Raises `GearTrainError` if the angle is not from 0 to less than 90 deg, or if it is given for bevel wheels.
     """
@@ -169,7 +171,9 @@ def read_module(module: str | None) -> float | None:
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
-    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if they cannot mesh."""
+    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if the wheels cannot
+    mesh.
+    """
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))
@@ -182,14 +186,14 @@ def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> Wh
 
 @dataclass(frozen=True)
 class PairRequest:
-    """Pair of wheels described by options, some of which can be varied."""
+    """Pair of wheels that is described by options. Some of the options can be varied."""
 
     model: type[ToothForm]
     teeth: tuple[int, int]
     own: Mapping[str, str]
     """Parameters of the tooth form as text, keyed by parameter name."""
     module: float | None = None
-    """Module of the pair [m]; None if not given."""
+    """Module of the pair [m]; None if no module is given."""
     friction: str = "0"
     driver: int = 1
     rate: str | None = None
@@ -200,9 +204,9 @@ class PairRequest:
     """Helix angle of the first wheel [rad]; 0 for spur wheels."""
 
     def mesh(self, **varied: str) -> GearMesh:
-        """Create the pair in mesh, with some parameters replaced by the values in `varied`.
+        """Create the gear mesh of the pair, with some parameters replaced by the values in `varied`.
 
-        Raises `GearTrainError` if the form cannot mesh in this pair.
+        Raises `GearTrainError` if the pair cannot have teeth of this form.
         """
         from geartrain.teeth.meshing_wheels import MeshDriver
 
@@ -222,7 +226,9 @@ class PairRequest:
             raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
-        """Create the tooth form with some parameters replaced; a varied clearance replaces all given clearances."""
+        """Create the tooth form with some parameters replaced. A varied clearance parameter replaces all given
+        clearance parameters.
+        """
         replaced = {*CLEARANCES} if {*varied} & {*CLEARANCES} else set()
         return read_form(
             self.model, {name: text for name, text in self.own.items() if name not in replaced} | dict(varied)
@@ -237,8 +243,8 @@ def two_wheels(
     shaft_angle: float | None = None,
     helix: float = 0.0,
 ) -> MeshingWheels:
-    """Create the wheels of a pair without a train; `module` is the normal module [m], `helix` is the helix angle of the
-    first wheel [rad].
+    """Create the wheels of a pair that does not belong to a train. `module` is the normal module [m], and `helix` is
+    the helix angle of the first wheel [rad].
     """
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
@@ -260,9 +266,10 @@ BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
-    """Write the outline of a wheel and return it in a list, which is empty if no file is named.
+    """Write the outline of a wheel and return it in a list. If no file is named, nothing is written, and the list is
+    empty.
 
-    `blank` contains sizes of the wheel by name.
+    `blank` contains sizes of the wheel as text, keyed by name.
     """
     if to.path is None:
         return []
@@ -294,10 +301,10 @@ FINE = "0.001mm"
 
 @dataclass(frozen=True)
 class PairFrictionOption:
-    """Value of `--friction`: a coefficient, or a friction law."""
+    """Value of the option `--friction`: a coefficient of friction, or a friction law."""
 
     coefficient: float
-    """Coefficient of friction; 0 if a law is given."""
+    """Coefficient of friction; 0 if a friction law is given."""
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
@@ -331,7 +338,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction, or a friction law with its parameters; raise `GearTrainError` if it is
+    """Parse a coefficient of friction, or a friction law with its parameters. Raise `GearTrainError` if the text is
     invalid.
     """
     name = text.split(",")[0].strip()

@@ -150,14 +150,14 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation in the time domain that the page shows, with as many samples as a page can hold."""
+    """Run the simulation in the time domain that a page shows, with as many samples as a page can contain."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """Return the states to be shown: the named state if one is named, otherwise all states, or only the first if
-    `first` is True.
+    """Return the states to be shown: the state `state` if it is not None, or the first state if `first` is True, or all
+    states.
     """
     if state is not None:
         return (state,)
@@ -166,7 +166,9 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
 
 
 def _page_sink(path: Path, force: bool) -> Sink:
-    """Return the destination of a page. Raises `QuestionError` for a suffix that browsers do not open as a page."""
+    """Return the destination of a page. Raises `QuestionError` if browsers do not open files with this suffix as a
+    page.
+    """
     if is_standard(path) or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"

@@ -53,7 +53,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
 
 
 def breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
-    """Return the items in breadth-first order, starting at the first item of each connected component."""
+    """Return the items in breadth-first order. The search starts at the first item of each connected component."""
     mates = neighbours(items, pairs)
     seen: dict[str, None] = {}
     for item in items:
@@ -67,7 +67,7 @@ def breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
 
 
 def neighbours(items: Sequence[str], pairs: Pairs) -> dict[str, list[str]]:
-    """Return a dictionary from each item to the items with which it is paired, in the order of the pairs."""
+    """Return a dictionary that maps each item to the items with which it is paired, in the order of the pairs."""
     mates: dict[str, list[str]] = {item: [] for item in items}
     for one, other in pairs:
         if one in mates and other in mates and one != other:
@@ -90,7 +90,7 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
     The sum of the squared distances from the wanted centres is minimised.
 
     needs    width of each box
-    bounds   interval that contains the boxes as far as there is space
+    bounds   interval that contains the boxes if there is enough space
     """
     if not len(wanted):
         return []
@@ -185,7 +185,7 @@ class LabelSpace:
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
 
     def free(self, box: Box) -> bool:
-        """Return True if a box does not overlap the occupied boxes."""
+        """Return True if a box does not overlap any occupied box."""
         near = np.abs(self.taken[:, :2] - box[:2]) < (self.taken[:, 2:] + box[2:]) / 2
         return not near.all(axis=1).any()
 
@@ -218,17 +218,17 @@ class Callout:
     """One or more lines of text next to a picture, and the point of the picture [in] that the text names."""
 
     words: Sequence[tuple[str, str]]
-    """Lines of text, each as (identifier of the text in a vector file, string)."""
+    """Lines of text. Each line is a pair: identifier of the text in a vector file, and the text itself."""
     anchor: Spot
 
     @property
     def height(self) -> float:
-        """Height of the callout within its column [in]."""
+        """Height of the callout in its column [in]."""
         return PITCH * len(self.words) + (_APART if len(self.words) > 1 else 0.0)
 
     @property
     def width(self) -> float:
-        """Width of the longest line [in]."""
+        """Width of the longest line of text [in]."""
         return max(text_width(words) for _, words in self.words)
 
 
@@ -256,13 +256,13 @@ class CalloutMargin:
 
     @property
     def lines(self) -> list[Floats]:
-        """Both ends (2, 2) of the leader line of every callout [in]."""
+        """End points (2, 2) of the leader line of every callout [in]."""
         sides = zip((self.left, self.right), self.edges, strict=True)
         return [np.array([(edge, y), each.anchor]) for side, edge in sides for each, y in side]
 
     @property
     def has_lists(self) -> bool:
-        """True if a callout has several lines of text."""
+        """True if any callout has several lines of text."""
         return any(len(each.words) > 1 for side in (self.left, self.right) for each, _ in side)
 
     def moved(self, x: float, y: float) -> CalloutMargin:
@@ -292,7 +292,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
     """Return the callouts in two columns, close to the points that they name.
 
     edges    inner edges of the columns; all anchors lie between them
-    bounds   interval of y that contains the callouts as far as there is space
+    bounds   interval of y that contains the callouts if there is enough space
     """
     ordered = sorted(callouts, key=lambda each: (each.anchor, each.words))
     lines = np.cumsum([0, *(len(each.words) for each in ordered)])
@@ -338,7 +338,9 @@ def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[floa
 
 
 def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts with ordinates [in] as close to their anchors as the order permits (isotonic regression)."""
+    """Return the callouts with ordinates [in] that are as close to their anchors as the order permits (isotonic
+    regression).
+    """
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 

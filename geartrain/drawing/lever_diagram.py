@@ -47,7 +47,7 @@ class Point(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """Names of the members, each with its closed brakes and clutches in brackets."""
+        """Names of the members. The closed brakes and clutches of each member follow in brackets."""
         return [link + mark for link, mark in zip(self.links, self.marks, strict=True)]
 
 
@@ -142,7 +142,7 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state with its name, its closed brakes and clutches, the verdict if speeds are not
+    """Return the heading of a state: its name, its closed brakes and clutches, the verdict if speeds are not
     determined, and, for the first state, the unit of speeds.
     """
     said = [] if answer.state is None else [f"state {answer.state}"]
@@ -177,7 +177,9 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
 
 
 def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
-    """Return a dictionary from each link to the names, in brackets, of closed brakes and clutches that act on it."""
+    """Return a dictionary that maps each link to a text in brackets with the names of closed brakes and clutches that
+    act on the link.
+    """
     found: dict[str, list[str]] = {}
     for name in train.kinematics.cases[state].engaged:
         clutch = train.declaration.clutches[name]
@@ -187,7 +189,8 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever in ascending order of abscissa, with speeds about the carrier's reference direction.
+    """Return the points of a lever in ascending order of abscissa. Speeds are about the reference direction of the
+    carrier.
 
     The carrier has its own point, even if other members have the same abscissa.
     """
@@ -249,7 +252,9 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
 
 
 def _speed_text(value: Fraction | None) -> str:
-    """Format a short fraction as a fraction, a long fraction as a decimal number, and None as a question mark."""
+    """Return a text for a speed: a fraction if it is short, a decimal number if the fraction is long, and a question
+    mark for None.
+    """
     if value is None:
         return "?"
     return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

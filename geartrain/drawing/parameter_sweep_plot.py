@@ -138,13 +138,15 @@ def sweep_figure(
 
 
 def parameter_label(name: str, unit: str = "") -> str:
-    """Return the axis label of a parameter with its unit, by default the unit of triangular teeth."""
+    """Return the axis label of a parameter with its unit. The default is the unit that the parameter has in triangular
+    teeth.
+    """
     unit = unit or _NAMES.get(name, ("", ""))[1]
     return f"{parameter_name(name)} ({unit})" if unit else parameter_name(name)
 
 
 def parameter_name(name: str) -> str:
-    """Return the name of a parameter of triangular teeth in words."""
+    """Return a parameter of triangular teeth as a name in words."""
     return _NAMES[name][0] if name in _NAMES else name.replace("_", " ")
 
 

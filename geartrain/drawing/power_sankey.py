@@ -44,7 +44,7 @@ _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a qua
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """Return a Sankey diagram of the power flow, in which bands of recirculating power return above the other bands."""
+    """Return a Sankey diagram of the power flow. Bands of recirculating power return above the other bands."""
     if isinstance(flow, Torques):
         flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:
@@ -94,15 +94,15 @@ class _NodeLabels:
         return node.name, amount
 
     def width(self, node: PowerNode, power: Fraction) -> float:
-        """Return the width of the longer line of a node's label [in]."""
+        """Return the width of the longer of the two lines of a node's label [in]."""
         return max(map(len, self.lines(node, power))) * SMALL * LETTER
 
     def loss(self, node: PowerNode, power: Fraction) -> str:
-        """Return the label of the loss at a node."""
+        """Return the label of the power lost at a node."""
         return percent_text(power / self.whole, 3)
 
     def loss_width(self, node: PowerNode, power: Fraction) -> float:
-        """Return the width of the label of a node's loss [in]."""
+        """Return the width of the label of the power lost at a node [in]."""
         return len(self.loss(node, power)) * SMALL * LETTER
 
 
@@ -120,7 +120,7 @@ def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegm
 def _ribbon(
     axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
 ) -> None:
-    """Draw a strip of a band over all columns, with a notch where power enters and a tip where it leaves."""
+    """Draw a strip of a band across all columns, with a notch where power enters and a tip where power leaves."""
     upper: list[tuple[float, float]] = []
     codes: list[int] = []
     for piece in band:
@@ -163,7 +163,7 @@ def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> Non
 def _band_edge(
     right: float, far: float, left: float, near: float, start: float, end: float, lane: float, r: float
 ) -> list[tuple[float, float]]:
-    """Return one edge of a return band, with rounded corners of radius r."""
+    """Return the points of one edge of a return band [in], with corners rounded to the radius `r`."""
     k = r * (1 - _ROUND)
     return [
         (right, start),
@@ -204,7 +204,7 @@ def _draw_node(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNo
 
 
 def _draw_loss(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
-    """Draw the loss of a node as a band that leaves at the lower right corner and turns downwards."""
+    """Draw the power lost at a node as a band that leaves at the lower right corner and turns downwards."""
     w, r, k = spot.shed, BEND, _ROUND
     y = spot.top + spot.height
     far, neck = x + r + w, y + DROP

@@ -76,7 +76,9 @@ class ProjectedScene:
         return np.asarray(np.asarray(points, dtype=float) @ self.screen.T)
 
     def axis(self, wheel: SceneWheel) -> Floats:
-        """Return the unit vector along the axis of a wheel, in the direction of its body's axis."""
+        """Return the unit vector along the axis of a wheel, in the direction of the axis of the body that carries the
+        wheel.
+        """
         return self.pose.way(wheel.body, wheel.direction)
 
     def centre(self, wheel: SceneWheel) -> Floats:
@@ -111,13 +113,13 @@ class ProjectedScene:
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return the line of a flexible wheel's bore (points, 3) [mm], which its wave generator touches."""
+        """Return points (points, 3) [mm] along the bore of a flexible wheel, which its wave generator touches."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) in the deflected middle plane of a flexible wheel for the radius and angle (n,) in the
-        undeformed wheel.
+        """Return the points (n, 3) in the deflected middle plane of a flexible wheel that have the given radius and
+        angle, each of shape (n,), in the undeformed wheel.
         """
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
@@ -138,12 +140,12 @@ class ProjectedScene:
         return self.pose.point(wave.by, np.array(wheel.centre) + bore * ring)
 
     def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
-        """Return points (points, 3) [mm] on a circle about the axis of a wheel."""
+        """Return points (n, 3) [mm] on a circle about the axis of a wheel."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._around(wheel, np.full(_ROUND, radius), angle, height)
 
     def pins(self, wheel: SceneWheel) -> Iterator[Floats]:
-        """Yield the outline (points, 3) of each pin of a lantern pinion; yield nothing for other wheels."""
+        """Yield the outline (n, 3) [mm] of each pin of a lantern pinion; yield nothing for other wheels."""
         profile = self.scene.profiles[wheel.profile]
         if profile.hole and wheel.teeth <= _FINE:
             tooth = np.array(profile.points)
@@ -169,8 +171,8 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """Return a scene after `turns` of its driving link, seen from the front if most wheels face it, otherwise
-    obliquely.
+    """Return a scene after `turns` of its driving link. The view is from the front if most wheels face the front, or
+    oblique if they do not.
     """
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
@@ -178,7 +180,7 @@ def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
 
 
 def screen_of(view: Floats) -> Floats:
-    """Return the matrix (3, 3) with rows right, up and `view`, the direction towards the reader."""
+    """Return the matrix (3, 3) whose rows point right, up and towards the reader (`view`)."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
@@ -219,7 +221,7 @@ def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
 def coupling_spans(
     projected: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
 ) -> list[Floats]:
-    """Return lines (2, 2) [in] across the area of a coupling: one along its slot, or two diameters of each of its
+    """Return lines (2, 2) [in] across the area of a coupling: one line along its slot, or two diameters of each of its
     holes.
 
     at      conversion of view coordinates (..., 3) to inches (..., 2)
@@ -239,8 +241,8 @@ def coupling_spans(
 
 
 def part_points(part: ScenePart, outline: int = 0) -> Floats:
-    """Return points (n, 3) of a part in the zero pose [mm], either of an outline of a flat part or of the section of a
-    turned part.
+    """Return points (n, 3) of a part in the zero pose [mm]: on an outline of a flat part, or on the section of a turned
+    part.
     """
     x, z = np.array(part.across), np.array(part.direction)
     if part.outlines:
@@ -253,7 +255,8 @@ def part_points(part: ScenePart, outline: int = 0) -> Floats:
 
 
 def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the shapes of couplings: flat parts by their outlines, turned parts by their section or their circle.
+    """Draw the shapes of couplings. Flat parts are drawn by their outlines, and turned parts by their section or their
+    circle.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
@@ -337,7 +340,7 @@ def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[S
 
 
 def _inner_points(rim: Floats, place: Place) -> Floats:
-    """Return points (n, 2) within a face, from its rim inwards [in]."""
+    """Return points (n, 2) [in] within a face, ordered from its rim inwards."""
     middle = rim.mean(0)
     return place(np.concatenate([middle + share * (rim[::4] - middle) for share in (0.85, 0.6, 0.35, 0.1)]))
 
@@ -345,7 +348,7 @@ def _inner_points(rim: Floats, place: Place) -> Floats:
 def draw_across(
     axes: Axes, projected: ProjectedScene, wheel: SceneWheel, place: Place, red: set[str], order: float
 ) -> None:
-    """Draw a wheel that faces sideways in the plan, as seen from its side."""
+    """Draw a wheel that faces sideways in the plan as it appears from its side."""
     faces = sorted(_faces(projected, wheel), key=lambda face: face.depth)
     _draw_faces(axes, [(wheel, face) for face in faces], place, red, order)
 
@@ -353,7 +356,7 @@ def draw_across(
 def _draw_faces(
     axes: Axes, faces: Sequence[tuple[SceneWheel, _Face]], place: Place, red: set[str], order: float
 ) -> None:
-    """Draw faces in order, the last face on top; wheels whose name is in `red` have red edges."""
+    """Draw faces in the given order, so that the last face is on top. Wheels whose name is in `red` have red edges."""
     tints = [_DARK + (_LIGHT - _DARK) * face.light for _, face in faces]
     edges = [
         (RED if wheel.id in red else BLACK)
@@ -398,7 +401,7 @@ def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
 
 
 def _thread(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield the visible surface of a worm as tiles between sections along its axis."""
+    """Yield the visible surface of a worm's thread as tiles between sections along its axis."""
     heights = np.linspace(-0.5, 0.5, _SECTIONS + 1) * wheel.thickness
     rows = np.array([projected.seen(projected.outline(wheel, height=height)) for height in heights])
     after = np.roll(rows, -1, axis=1)
@@ -423,7 +426,9 @@ def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
 
 
 def _draw_arbors(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the axes of wheels through their centres, and an arm from each carrier to each axis that it carries."""
+    """Draw the axes of wheels as lines through the wheel centres, and an arm from each carrier to each axis that it
+    carries.
+    """
     for wheel in projected.scene.wheels:
         centre, along = projected.centre(wheel), projected.axis(wheel)
         reach = max(2.5 * wheel.thickness, 0.25 * wheel.radius)
@@ -444,7 +449,9 @@ class SideScale:
         self.left, self.scale, self.low = left, width / size, low
 
     def at(self, height: Any) -> Any:
-        """Return the abscissa on the page [in] of a height towards the reader [mm], or of an array of heights."""
+        """Return the abscissa on the page [in] of a height [mm] measured towards the reader, or of an array
+        of heights.
+        """
         return self.left + (height - self.low) * self.scale
 
 
@@ -478,10 +485,11 @@ def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> 
 def _draw_slants(
     axes: Axes, wheel: SceneWheel, ends: tuple[float, float], height: tuple[float, float], color: str
 ) -> None:
-    """Draw three lines on the bar of a helical wheel or worm, along its teeth on the side towards the reader.
+    """Draw three lines on the bar of a helical wheel or worm. The lines follow the teeth on the side towards the
+    reader.
 
-    ends     left and right end of the bar [in]
-    height   middle and half the height of the bar [in]
+    ends     abscissae of the left and right end of the bar [in]
+    height   ordinate of the middle, and half the height, of the bar [in]
     """
     # right-hand teeth fall towards the right, because the axis is level
     rise = -float(np.tan(wheel.helix)) * (ends[1] - ends[0])
@@ -495,7 +503,9 @@ def _draw_slants(
 def _draw_across_side(
     page: ScaledPage, projected: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
 ) -> None:
-    """Draw a wheel that does not face the reader: its teeth if it faces right, otherwise its silhouette."""
+    """Draw a wheel that does not face the reader: with its teeth if it faces right, or as a silhouette if it
+    does not.
+    """
     ends = [face.points for face in _ends(projected, wheel)]
     places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
     if abs(float(projected.seen(projected.axis(wheel))[0])) > _FACES_RIGHT:

@@ -32,14 +32,14 @@ class SankeySpot:
     column: int
     height: float
     power: Fraction = Fraction(0)
-    """Power that passes through the node; `shed` is the width of the node's loss [in]."""
+    """Power that passes through the node. `shed` is the width of the band of the node's loss [in]."""
     shed: float = 0.0
     left: float = 0.0
     """Space for text to the left of the node's centre [in]."""
     right: float = 0.0
     """Space for text to the right of the node's centre [in]."""
     lost: float = 0.0
-    """Space for the label of the loss, below the box, to the right of the node's centre [in]."""
+    """Space for the label of the loss, below the node's box and to the right of the node's centre [in]."""
     top: float = 0.0
     before: list[BandSegment] = field(default_factory=list)
     after: list[BandSegment] = field(default_factory=list)
@@ -56,18 +56,19 @@ class SankeySpot:
 
     @property
     def head(self) -> float:
-        """Length of the arrow head of the node's loss [in]."""
+        """Length of the arrow head at the end of the node's loss band [in]."""
         return min(max(0.3 * self.shed, 0.08), 0.2)
 
     @property
     def width(self) -> float:
-        """Width of the node's box [in]; 0 for inputs, outputs and passing bands."""
+        """Width of the node's box [in]; 0 for inputs, outputs, and positions of passing bands."""
         return _WIDTHS[self.node.kind] if self.node else 0.0
 
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band between two spots; `start` and `end` are the positions of its upper edge at these spots [in].
+    """Segment of a band between two spots. `start` and `end` are the positions of the upper edge of the segment at
+    these spots [in].
 
     Only return bands skip columns.
     """
@@ -104,12 +105,12 @@ class SankeyLayout:
 
     spots: Sequence[SankeySpot]
     bands: Sequence[Sequence[BandSegment]]
-    """Forward bands, each as a sequence of segments from column to column; `turns` are the return bands."""
+    """Forward bands. Each band is a sequence of segments from column to column. `turns` contains the return bands."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
     """Abscissa of the centre of each column [in]."""
     scale: float
-    """Inches per unit of power."""
+    """Scale of the widths of bands [inches per unit of power]."""
     sheds: Mapping[PowerNode, Fraction]
     """Power lost at each node that has a loss, keyed by node."""
     low: float
@@ -124,10 +125,10 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, the shortest innermost, and the space [in] that they require on either side of each
-    column.
+    """Return the return bands, with the shortest band innermost, and the space [in] that they require on either side of
+    each column.
 
-    The keys of the space are (column, True) for the right side and (column, False) for the left side.
+    The space is keyed by (column, True) for the right side and (column, False) for the left side.
     """
     taken: dict[tuple[int, bool], float] = {}
     turns: list[ReturnBand] = []
@@ -150,8 +151,8 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the abscissae of the column centres [in], with space for names and return bands; the width is at least
-    `minimum` [in].
+    """Return the abscissae of the column centres [in], with space for names and return bands. The total width is at
+    least `minimum` [in].
     """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
@@ -193,7 +194,9 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return forward streams without loops, and one purely circulating stream of each loop as a return stream."""
+    """Return two lists: forward streams without loops, and, as return streams, one purely circulating stream of each
+    loop.
+    """
     import networkx as nx
 
     # depth-first search from the inputs, the largest stream of a node first: the last stream closes its loop
@@ -217,8 +220,8 @@ def _graph(streams: Sequence[PowerStream]) -> Any:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return the column of each node, to the right of all nodes that feed it (longest path); outputs are in the last
-    column.
+    """Return the index of the column of each node. A node is to the right of all nodes that feed it (longest path), and
+    outputs are in the last column.
     """
     import networkx as nx
 
@@ -231,7 +234,7 @@ def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
 def find_scale(
     columns: Mapping[PowerNode, int], through: Mapping[PowerNode, Fraction], back: Sequence[PowerStream]
 ) -> float:
-    """Return the scale [inches per unit of power], limited by the fullest column and by the return bands."""
+    """Return the scale [inches per unit of power], which is limited by the fullest column and by the return bands."""
     sums = [Fraction(0)] * (max(columns.values()) + 1)
     for node, at in columns.items():
         sums[at] += through[node]
@@ -322,8 +325,8 @@ def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float
 
 
 def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the cost of crossings within a range of columns; a crossing costs the product of the widths of both bands
-    plus a constant.
+    """Return the cost of crossings within a range of columns. The cost of a crossing is the product of the widths of
+    both bands, plus a constant.
     """
     total = 0.0
     for at in columns:
@@ -371,7 +374,9 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top [in] at which a spot's bands are level, and its weight, largest for bands that pass a column."""
+    """Return the top [in] of a spot at which its bands are level, and the weight of this position, which is largest for
+    bands that pass a column.
+    """
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:

@@ -98,7 +98,7 @@ class StickLabels:
     axes: list[_Label] = field(default_factory=list)
 
     def keep_off(self, xs: tuple[float, float], ys: tuple[float, float]) -> None:
-        """Mark the box between two abscissae and two heights [in] as occupied, so that labels avoid it."""
+        """Mark the box between two abscissae and two ordinates [in] as occupied, so that labels avoid it."""
         (left, right), (low, high) = sorted(xs), sorted(ys)
         wide, tall = max(right - left, 0.03), max(high - low, 0.03)
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
@@ -192,7 +192,7 @@ class StickMesh:
     wheels: tuple[str, str]
     ring: str
     x: float
-    """Abscissa of the column [in]. The vertical line of a ring is one column further to the right."""
+    """Abscissa of the column [in]. The vertical line of a ring wheel is one column further to the right."""
     low: float
     """Lower end of the vertical lines of the mesh [in]."""
     high: float
@@ -216,7 +216,7 @@ class StickSkeleton:
 
 
 def find_skeleton(train: GearTrain) -> StickSkeleton:
-    """Return the positions of axes, shafts, meshes and cranks, with related parts close together."""
+    """Return the positions of axes, shafts, meshes and cranks. Related parts are placed close together."""
     axis_of = {link: train.kinematics.tree.axis(link) or "" for link in train.declaration.links}
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
@@ -252,7 +252,7 @@ def _element_axes(train: GearTrain, name: str) -> list[str]:
 
 
 def _element_height(axes: Sequence[str], rows: dict[str, tuple[float, float]]) -> float:
-    """Return the height of the plates of a brake or clutch: above the shafts of its axis, or between two axes [in]."""
+    """Return the height of the plates of a brake or clutch [in]: above the shafts of its axis, or between two axes."""
     if len({rows[axis] for axis in axes}) == 1:
         return rows[axes[0]][1] + _RISE
     low, high = sorted(rows[axis] for axis in axes)
@@ -467,7 +467,9 @@ class _Drawing:
         self.words.name_link(shaft.link, left, right, shaft.y)
 
     def _is_held(self, link: str) -> bool:
-        """Return True if a link is fixed by the declaration or by an input of 0, not by a brake."""
+        """Return True if a link is fixed by the declaration or by an input of 0. A link that is fixed by a brake does
+        not count.
+        """
         braked = {self.train.declaration.clutches[name].fixes for name in self.case.engaged}
         return (link in self.case.fixed and link not in braked) or self.case.inputs.get(link) == 0
 
@@ -478,8 +480,8 @@ class _Drawing:
         self.words.name_element(name, closed, *place)
 
     def _ends(self, name: str) -> list[float | None]:
-        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame, the first member of a
-        brake.
+        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame, which is the first
+        member of a brake.
         """
         clutch = self.train.declaration.clutches[name]
         links = clutch.locks or (self.train.declaration.frame, *clutch.links)
@@ -520,7 +522,7 @@ class _Drawing:
         self._draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw a coupling by the symbol of its kind, with its name and the names of its pulleys."""
+        """Draw a coupling by the symbol of its kind, with the name of the coupling and the names of its pulleys."""
         coupling, axes, x = self.couplings[mesh.name], self.axes, mesh.x
         circuit = next(circuit for circuit in self.train.circuits if circuit.id == mesh.name)
         # the driving link of a coupling is j

@@ -128,8 +128,8 @@ def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) 
 
 
 def find_planes(train: GearTrain) -> list[list[Circuit] | str]:
-    """Return groups of meshes that share wheels, and names of brakes and clutches, ordered so that the groups and
-    clutches of each link are close together.
+    """Return groups of meshes that share wheels, and the names of brakes and clutches. They are ordered so that the
+    groups, brakes and clutches of each link are close together.
     """
     circuits = {circuit.id: circuit for circuit in train.circuits}
     by_wheel: dict[str, list[str]] = {}
@@ -160,7 +160,7 @@ def find_columns(
     axis_of: dict[str, str],
     shafts: dict[str, StickShaft],
 ) -> StickColumns:
-    """Return the columns of all meshes, brakes, clutches, cranks, and wheels without a mesh.
+    """Return the columns of all meshes, brakes, clutches and cranks, and of all wheels without a mesh.
 
     A crank is placed before the first group in which its carried axis meshes. Abscissae are appended to `shafts` in
     place.

@@ -170,7 +170,7 @@ def series_look(at: int) -> dict[str, Any]:
 
 
 def plain(axes: Axes) -> None:
-    """Set the style of a panel: text of uniform size, a light grid, and no frame at the top and right."""
+    """Set the style of a panel: uniform text size, a light grid, and no frame at the top and at the right."""
     axes.tick_params(labelsize=SMALL)
     axes.grid(True, color=PALE, linewidth=0.5, alpha=0.6)
     axes.set_axisbelow(True)
@@ -179,7 +179,7 @@ def plain(axes: Axes) -> None:
 
 
 def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT, **how: Any) -> None:
-    """Write the labels of the axes and the title of a panel; `how` contains further text properties."""
+    """Write the labels of the axes and the title of a panel. Further text properties are given in `how`."""
     if x:
         axes.set_xlabel(x, fontsize=size, **how)
     if y:
@@ -189,7 +189,8 @@ def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float
 
 
 def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = True) -> tuple[Figure, list[Axes]]:
-    """Return a figure and its panels for curves, below each other, with a common abscissa unless `share` is False.
+    """Return a figure and its panels for curves, which are placed one below the other. The panels have a common
+    abscissa unless `share` is False.
 
     heights   heights of the panels [in]
     margin    additional height of the figure [in]
@@ -202,7 +203,7 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 class Row(NamedTuple):
-    """Row of a chart of intervals."""
+    """One row of a chart of marks and intervals."""
 
     name: str
     marks: Mapping[str, float]
@@ -251,7 +252,7 @@ def interval_chart(
 def draw_rows(
     axes: Axes, rows: Sequence[Row], looks: Mapping[str, Mapping[str, Any]], heads: Sequence[str] = ()
 ) -> None:
-    """Draw marks and intervals in rows of a panel, with cells to the right of the panel."""
+    """Draw the marks and intervals of the rows of a panel, and text cells to the right of the panel."""
     axes.grid(False, axis="y")
     axes.set_yticks(range(len(rows)), [short(row.name, 30) for row in rows], parse_math=False)
     axes.set_ylim(len(rows) - 0.4, -0.6)
@@ -273,7 +274,9 @@ def draw_rows(
 
 
 def figures(value: float, digits: int = 3) -> str:
-    """Format a value with significant digits and without a power of ten; large values are formatted as integers."""
+    """Return a number as text with `digits` significant digits and without a power of ten. Large numbers are rounded to
+    integers.
+    """
     return f"{value:.{digits}g}" if not 10**digits <= abs(value) < 1e9 else f"{value:.0f}"
 
 
@@ -292,7 +295,7 @@ def legend_below(
     side: Literal["center", "left"] = "center",
     **how: Any,
 ) -> None:
-    """Draw a legend of the given handles, or by default of all labelled artists, below all panels."""
+    """Draw a legend below all panels. It contains the given handles or, if `handles` is None, all labelled artists."""
     how = {"fontsize": SMALL, "frameon": False, "ncols": columns, **how}
     if handles is not None:
         how["handles"] = handles
@@ -345,15 +348,15 @@ def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: f
 def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **how: Any) -> None:
     """Write text with a halo at an offset [pt] from a point of a panel.
 
-    The text is to the right of the point if the horizontal offset is positive, otherwise to the left.
+    The text is to the right of the point if the horizontal offset is positive, or to the left if it is not.
     """
     how = {"ha": "left" if offset[0] > 0 else "right", "fontsize": SMALL, "path_effects": HALO, **how}
     axes.annotate(text, at, xytext=offset, textcoords="offset points", **how)
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """Return a figure with one panel, whose coordinates are inches from the lower left corner, and a title of at most
-    two lines.
+    """Return a figure with one panel and a title of at most two lines. The coordinates of the panel are inches from its
+    lower left corner.
     """
     figure = Figure(figsize=(width, height), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -378,7 +381,7 @@ def headed(figure: Figure, title: str) -> Figure:
 
 
 def title_of(name: str, title: str) -> str:
-    """Return the title above a picture of a train: its name, and its title if it has one."""
+    """Return the title above a picture of a train: the name of the train, followed by its title if there is one."""
     return f"{name}: {title}" if title else name
 
 

@@ -168,7 +168,7 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
     """Return the theme's equivalent of a colour of the light theme.
 
     A colour of the palette becomes the palette colour of the theme, and a mixture of the two face colours becomes the
-    same mixture. Any other colour gets the same relative lightness between paper and ink.
+    same mixture. Any other colour is converted to the same relative lightness between paper and ink.
     """
     light, theme = THEMES["light"], THEMES[name]
     known = dict(zip(_named(light), _named(theme), strict=True))

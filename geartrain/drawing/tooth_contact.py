@@ -48,7 +48,7 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
-    """Return a pair's tooth counts, half angle, clearance factor and friction coefficient as a string.
+    """Return a text with the tooth counts, half angles, clearance factor and friction coefficient of a pair.
 
     friction   coefficient to print; by default the coefficient of the pair
     """
@@ -141,7 +141,7 @@ class ToothPairPose:
 
     @property
     def contact(self) -> Point:
-        """Contact point of the tooth pair: the tip of the driven tooth in approach, and of the driver's tooth in
+        """Contact point of the tooth pair: the tip of the driven tooth in approach, or the tip of the driver's tooth in
         recess.
         """
         which = DRIVEN if self.phase == APPROACH else DRIVER
@@ -151,7 +151,7 @@ class ToothPairPose:
 
     @property
     def normal(self) -> Point:
-        """Unit vector normal to the flank in contact, in the direction in which the driver pushes the driven tooth."""
+        """Unit normal of the flank in contact, in the direction in which the driver pushes the driven tooth."""
         return sin(self.lean), -self.direction * cos(self.lean)
 
     @property
@@ -162,8 +162,8 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose in which a tooth of the driver is at `alpha1` [rad], by default the middle of the first interval
-    of contact.
+    """Return the pose in which a tooth of the driver is at the angle `alpha1` [rad]. The default is the middle of the
+    first interval of contact.
     """
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
@@ -191,7 +191,9 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 def teeth_figure(
     transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
 ) -> Figure:
-    """Draw two triangular teeth in contact, to scale, with their contact point and the line of centres."""
+    """Return a figure of two triangular teeth in contact, to scale, with their contact point and the line
+    of centres.
+    """
     require_contact(transmission)
     here = tooth_pair_pose(transmission, alpha1)
     whole = transmission.sizes.z1 + transmission.sizes.z2 <= _FEW if whole is None else whole

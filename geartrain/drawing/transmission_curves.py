@@ -118,8 +118,8 @@ _BEYOND = 4.0  # maximum extension of an axis beyond the real path, over the ran
 
 
 def triangular_figure(transmission: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
-    """Draw driven angle, speed ratio, sliding efficiency and moment arms of a pair with triangular teeth against
-    the angle of the driver.
+    """Return a figure of driven angle, speed ratio, sliding efficiency and moment arms of a pair with triangular teeth
+    against the angle of the driver.
 
     Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11); thick lines show the real path
     of all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position
@@ -184,7 +184,7 @@ def _values(
     x: Floats,
     held: float | None = None,
 ) -> tuple[tuple[Floats, ...], ...]:
-    """Return the curves of each panel at the driver angles alpha_1 = x [rad].
+    """Return the curves of each panel at driver angles alpha_1 = x [rad].
 
     The curves are the driven angle alpha_2 [deg], the speed ratio tau, the efficiency, and the relative moment arms of
     driver and driven wheel. Efficiency and moment arms are NaN during a dwell, and the efficiency is NaN where friction
@@ -205,7 +205,9 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits around the real path and the nearby part of the ideal path; 0 and 1 if no value is finite."""
+    """Return axis limits that contain the real path and the nearby part of the ideal path; 0 and 1 if no value is
+    finite.
+    """
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -257,10 +259,11 @@ def _arms_key(axes: Axes) -> None:
 
 
 def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
-    """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at speed ratio
-    tau.
+    """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at the speed
+    ratio tau.
 
-    The denominator is bounded below, for speed ratios far from the real path; a sign in `signs` is -1 for a ring.
+    The denominator has a lower bound, which applies to speed ratios far from the real path. A sign in `signs` is -1 for
+    a ring gear.
     """
     first, second = signs
     return tau / np.maximum(first + second * tau, 0.1)
@@ -352,8 +355,8 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Return a figure that compares the flanks, path of contact, stress, heat, flash temperature, sliding and loss of
-    tooth forms for one pair.
+    """Return a figure that compares the flanks, paths of contact, stress, heat, flash temperature, sliding and loss of
+    several tooth forms for one pair.
     """
     if not paths:
         what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"

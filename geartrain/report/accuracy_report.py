@@ -39,7 +39,7 @@ def describe_accuracy(found: AccuracyReport) -> Document:
 
 
 def accuracy_document(found: TrainAccuracy) -> Document:
-    """Return the output of `geartrain inspect bench` for one state, as a document."""
+    """Return the output of `geartrain inspect bench` for one state as a document."""
     name = "" if found._declaration is None else found._declaration.name
     return describe_accuracy(AccuracyReport(name, "", (found,)))
 

@@ -68,7 +68,9 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
 
 
 def closed_mark(declared: Train, clutch: str) -> str:
-    """Return the mark of a closed clutch or brake in a shift table: `x`, or `*` if it is one-way."""
+    """Return the mark of a closed clutch or brake in a shift table: `*` for a one-way clutch, `x` for any other clutch
+    or brake.
+    """
     return "x" if declared.clutches[clutch].one_way is None else "*"
 
 
@@ -416,7 +418,7 @@ def _shift(value: float | None) -> str:
 
 
 def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:
-    """Return the speeds of one state, or of one output, as lines of text.
+    """Return lines of text with the speeds of one state, or, if `output` is not None, with the speed of one output.
 
     oblique   links whose speeds are sums of joint speeds about axes that are not parallel
     """
@@ -477,7 +479,7 @@ def clutch_lines(answer: Answer) -> Iterator[str]:
 
 
 def answer_text(answer: Answer) -> str:
-    """Return the output of `geartrain solve` for one state."""
+    """Return the text that `geartrain solve` prints for one state."""
     declared = answer._declaration
     oblique = frozenset() if declared is None else GearTrain(declared).kinematics.joint_sums
     return speeds_text(answer, answer._output, oblique)

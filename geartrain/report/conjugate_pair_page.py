@@ -141,14 +141,14 @@ def _friction(design: PairDesign) -> Section:
 
 
 def pair_name(path: PathOfContact) -> str:
-    """Return the tooth counts and the kind of a pair as a string, such as `24/18 spur`."""
+    """Return a text with the tooth counts and the kind of a pair, such as `24/18 spur`."""
     pitch = path.pitch
     kind = f"bevel, {degrees(pitch.R1 + pitch.R2):.6g} deg" if pitch.bevel else "internal" if pitch.R2 < 0 else "spur"
     return f"{pitch.z1}/{pitch.z2} {kind}"
 
 
 def cost(value: float) -> str:
-    """Return a loss or stress as a string; `inf` if it is infinite."""
+    """Return a text with a loss or stress; `inf` if the value is infinite."""
     return f"{value:.9g}" if isfinite(value) else "inf"
 
 

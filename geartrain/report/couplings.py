@@ -40,18 +40,18 @@ def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
 
 @dataclass(frozen=True)
 class VaryingCoupling(Result):
-    """Coupling with a variable ratio other than a pin in a slot, and its transmission function."""
+    """Coupling with a variable ratio, other than a pin in a slot, and its transmission function."""
 
     coupling: str
     """Name of the coupling."""
     kind: str
     """Kind of the coupling."""
     driver: str
-    """Driving link."""
+    """Name of the driving link."""
     driven: str
-    """Driven link."""
+    """Name of the driven link."""
     ratio: Fraction
-    """Exact mean speed of the driven link divided by the speed of the driver, relative to the carrier."""
+    """Exact mean ratio: speed of the driven link divided by speed of the driving link, relative to the carrier."""
     swing: float
     """Maximum minus minimum deviation of the driven link from uniform motion [rad] (peak-to-peak value)."""
     speed_ratio: tuple[float, float]

@@ -171,7 +171,7 @@ class _Chapter:
 
     @property
     def anchor(self) -> str:
-        """Fragment of the section's address within the page."""
+        """Anchor of the section, which is the fragment of its address within the page."""
         return _anchor(self.title)
 
     @property
@@ -185,7 +185,7 @@ def _anchor(title: str) -> str:
 
 
 def declaration_reference() -> str:
-    """Return the reference of all keys as Markdown: the top-level keys, then the keys of their parts."""
+    """Return the reference of all keys as Markdown text: first the top-level keys, then the keys of their parts."""
     models = _models()
     chapters = [_Chapter(_TITLE, 2, ("Train",)), *_chapters(models, "Train", 2, set())]
     kinds = {part: f"[keys](#{each.anchor})" for each in reversed(chapters) for part in each.parts}

@@ -28,7 +28,7 @@ class ExactText(str):
     _value: Fraction | float | str
 
     def __new__(cls, text: str, value: Fraction | float | None = None) -> ExactText:
-        """Return a cell that shows `text` for `value`. Without a value, the text itself is complete."""
+        """Return a cell that shows `text` for the exact `value`. If `value` is None, the text itself is complete."""
         made = super().__new__(cls, text)
         made._value = text if value is None else value
         return made
@@ -60,7 +60,7 @@ class SceneText(str):
 
     @property
     def scene(self) -> int:
-        """Number of the scene in the viewer; the first is 1."""
+        """Number of the scene in the viewer. The first scene has the number 1."""
         return self._scene
 
 
@@ -85,7 +85,9 @@ class Table(Shown):
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return a document of one table: the first `most` rows of a result's columns, and the number of omitted rows."""
+    """Return a document with one table: the first `most` rows of the columns of a result, and the number of omitted
+    rows.
+    """
     count = len(next(iter(columns.values()), ()))
     rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
     more = [f"{count - most:,} more rows."] if count > most else []
@@ -109,7 +111,7 @@ _CellColumn = tuple[str, Callable[[Any], str]]
 
 
 def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
-    """Return a table with one row for each result; all results have the same class.
+    """Return a table with one row for each result. All results have the same class.
 
     columns   name of a field, or `field:digits` for a number; the head of the column is the name with the unit from the
               field's docstring, unless it is given as in `head=field:digits`. A column can also be a pair of a head and
@@ -193,7 +195,9 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, and otherwise prints it."""
+    """Bibliographic reference. On an HTML page, `url` becomes a link if it is an http or https address, and plain text
+    if it is not.
+    """
 
     cite: str
     url: str = ""
@@ -266,7 +270,7 @@ def titled(state: str | None, words: str) -> str:
 def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
     """Return a document without its detail sections.
 
-    requested   words of section titles; if given, only the sections whose titles contain one of them are kept
+    requested   words of section titles; if given, only sections whose titles contain one of these words are kept
 
     Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a requested
     word is in no title.
@@ -319,7 +323,7 @@ def one_to(ratio: Fraction | float | None) -> str:
 
 
 def ppm(value: float | None) -> str:
-    """Return parts per million as a string with a sign; a dash for None."""
+    """Return a text with a sign and a value in parts per million; a dash for None."""
     # a relative error below 1e-15 is rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
@@ -370,7 +374,7 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
 
 def column_widths(table: Table, width: int) -> list[int]:
-    """Return the width of each column in characters, at most the length of its longest cell.
+    """Return the width of each column in characters. A column is not wider than its longest cell.
 
     The columns that need the fewest characters in addition to their longest word are widened first. The sum exceeds
     `width` only if the longest words do not fit.

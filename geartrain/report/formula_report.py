@@ -74,8 +74,8 @@ def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) 
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Return a document with the formula, value and locking condition of each output, and with the elasticities if
-    `found` contains them.
+    """Return a document with the formula, value and locking condition of each output. If `found` contains elasticities,
+    the document includes them.
     """
     states = dict.fromkeys(each.state for each in found.formulas)
     sections = [section for state in states for section in _state(found, state, latex, inverse)]

@@ -82,7 +82,7 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
 
 
 def joined_table(rows: Sequence[AccountTable]) -> Table:
-    """Return one table with the rows of several pairs of the same tooth form."""
+    """Return one table that contains the rows of several pairs with the same tooth form."""
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 

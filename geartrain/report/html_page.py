@@ -90,7 +90,7 @@ def to_html(documents: Sequence[Document]) -> str:
 
 
 def to_fragment(documents: Sequence[Document]) -> str:
-    """Return documents as HTML for a notebook, without the style and script of a page; pictures are omitted.
+    """Return documents as HTML for a notebook, without the style and script of a page. Pictures are omitted.
 
     Raise `MissingExtraError` if jinja2 is not installed (extra `report`).
     """
@@ -100,7 +100,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
 
 
 def check_pages() -> None:
-    """Raise `MissingExtraError` if jinja2 is not installed, before the contents of a page are computed."""
+    """Raise `MissingExtraError` if jinja2 is not installed. It is called before the contents of a page are computed."""
     try:
         import jinja2  # noqa: F401
     except ImportError:
@@ -148,7 +148,8 @@ def is_web(url: str) -> bool:
 
 
 def inline(svg: str, number: int) -> str:
-    """Return an SVG document as an element of a page, with ids made unique by `number` and without a fixed size.
+    """Return an SVG document as an element of an HTML page. Its ids are made unique by `number`, and its fixed size is
+    removed.
 
     Lengths in paths are cut to two decimals, because no screen or printer resolves a hundredth of a point.
     """

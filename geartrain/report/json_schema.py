@@ -213,7 +213,7 @@ def _typed_dict(kind: Any) -> Schema:
 
 
 def _one_of(shapes: list[Schema]) -> Schema:
-    """Return the schema of a union without duplicate alternatives; a single alternative is returned unchanged."""
+    """Return the schema of a union without duplicate alternatives. A single alternative is returned unchanged."""
     # nested unions become one list of alternatives
     flat = [each for shape in shapes for each in shape.get("anyOf", [shape])]
     different = [each for at, each in enumerate(flat) if each not in flat[:at]]
@@ -326,13 +326,15 @@ class _Names(dict[str, Any]):
 
 @cache
 def _imports(module: ModuleType) -> dict[str, str]:
-    """Return the source module of each name that a module imports, including imports only for annotations."""
+    """Return a dictionary that maps each name that a module imports, including imports only for annotations, to the
+    module from which it is imported.
+    """
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
 
 
 class DefaultsAsWritten(GenerateJsonSchema):
-    """JSON Schema generator that writes default numbers and quantities as in a declaration file."""
+    """JSON Schema generator that writes default numbers and quantities in the form of a declaration file."""
 
     def encode_default(self, dft: Any) -> Any:
         """Return a default value as JSON data."""

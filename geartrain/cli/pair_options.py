@@ -111,8 +111,8 @@ def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
 
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
-    """Return the error with a location in each problem: `-p KEY` if the problem names a key, the option if it names an
-    option, otherwise `place`. `fix` is added to problems that have none.
+    """Return a copy of the error in which each problem has a location: `-p KEY` if the problem names a key, the option
+    if it names an option, and `place` if it names neither. The remedy `fix` is added to problems that have no remedy.
     """
 
     def located(named: str) -> str:

@@ -41,10 +41,11 @@ class Verbs(Mapping[str, Command]):
     Parameters
     ----------
     modules
-        Function or module of each command, keyed by the command's name, in the order in which `--help` lists the commands. Commands of an
-        optional part that is not installed are omitted.
+        Function or module of each command, keyed by the command's name, in the order in which `--help` lists the
+        commands. Commands of an optional part that is not installed are omitted.
     entry_points
-        Group of entry points (`importlib.metadata`) through which other distributions add commands. The group is read only when a name is unknown or when all names are listed, because a scan of the installed distributions takes
+        Group of entry points (`importlib.metadata`) through which other distributions add commands. The group is read
+        only when a name is unknown or when all names are listed, because a scan of the installed distributions takes
         longer than most commands.
     panels
         Names of the commands below each heading in `--help`, keyed by heading.

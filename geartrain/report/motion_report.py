@@ -54,14 +54,14 @@ class PartialRun(NamedTuple):
 
 @dataclass(frozen=True)
 class OutputMotion:
-    """Motion of one output over a run. Results that were not requested are None."""
+    """Motion of one output over a run. A result that was not requested is None."""
 
     KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "spectrum")
 
     tally: RunningStatistics
-    """Extreme values and moments of the deviation and of the speed over the run."""
+    """Extreme values and moments of the deviation, and of the speed, over the run."""
     setting: float
-    """Constant offset of the pointer that makes its deviation 0 at turn 0 [rad]."""
+    """Constant offset of the pointer [rad] by which its deviation at turn 0 becomes 0."""
     sensitivity: Mapping[str, float]
     """Rotation of the output per rotation error of the driven wheel of each pair [rad/rad], keyed by pair."""
     phases: PhaseRange | None
@@ -72,8 +72,8 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state. Angles
-    are in rad, and travels of links that slide are in mm.
+    """Deviations and speeds, over a run in one state, of the outputs of a train with declared tooth forms or pins.
+    Angles are in rad, and travels of links that slide are in mm.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -84,7 +84,7 @@ class MotionFigures(Result):
     )
 
     run: MotionRun
-    """Run from which the results are taken; it is not included in the JSON data."""
+    """Motion run from which the results are taken. It is not included in the JSON data."""
     name: str
     """Name of the train."""
     state: str | None
@@ -98,11 +98,13 @@ class MotionFigures(Result):
     period: Fraction | None
     """Turns of the driving link after which the motion repeats; None if every output moves uniformly."""
     drivers: Mapping[str, MeshDriver]
-    """Driving wheel of each pair whose speed ratio varies."""
+    """Driving wheel of each pair whose speed ratio varies, keyed by pair."""
     reversing_drivers: Sequence[str]
-    """Pairs whose driving wheel temporarily turns against its mean sense of rotation."""
+    """Names of the pairs whose driving wheel temporarily turns against its mean sense of rotation."""
     rigid: Sequence[str]
-    """Pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no transmission error."""
+    """Names of the pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no
+    transmission error.
+    """
     outputs: Mapping[str, OutputMotion]
     """Deviation, speed and further requested results of each output, keyed by output name."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
@@ -129,13 +131,13 @@ class UnfollowedMotion:
     name: str
     """Name of the train."""
     state: str | None
-    """Name of the state; None for a train without states."""
+    """Name of the state; None if the train has no states."""
     why: GearTrainError
     """Error that prevents the computation of the motion."""
 
     @property
     def error(self) -> str:
-        """Reason why the motion cannot be computed, as a string."""
+        """Text that states why the motion cannot be computed."""
         return str(self.why)
 
 
@@ -284,7 +286,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Yield a section on the motion in each state of a train with declared tooth forms or pins.
+    """Yield a section on the motion in each state of a train that declares tooth forms or pins.
 
     toothed   True if the train declares tooth forms
     """

@@ -95,8 +95,8 @@ def describe_pair(
 ) -> Document:
     """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
-    The arguments are the same as in `collect_pair`. The document gives the permitted range of a friction coefficient or
-    of a clearance factor that is out of range.
+    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or of a
+    clearance factor that is out of range.
     """
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."

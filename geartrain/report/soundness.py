@@ -40,7 +40,7 @@ class Soundness:
         return not self.failures
 
     def lines(self, quiet: bool = False) -> Iterator[str]:
-        """Yield the lines of `geartrain check`.
+        """Yield the output lines of `geartrain check`.
 
         quiet   True to omit the remarks on a train without failures
         """
@@ -64,7 +64,9 @@ class Soundness:
 
 
 def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness:
-    """Check every state of a train that was read from a file. Raise `GearTrainError` for teeth that cannot be made."""
+    """Check every state of a train that was read from a file, and return the findings. Raise `GearTrainError` if
+    declared teeth cannot be made.
+    """
     answers = list(train.answers())
     failures = [line for answer in answers for line in _failures(train, answer, file)]
     failures += map(str, build_errors(train.build_findings))

@@ -102,8 +102,8 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """Return a document with a table of polyhedra, which shows whether their gears turn, how many meshes must be
-    removed otherwise, and the angles between axes.
+    """Return a document with a table of polyhedra. The table states whether the gears turn, how many meshes must be
+    removed if they do not, and the angles between axes.
     """
     table = result_table(
         rows,

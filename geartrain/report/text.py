@@ -116,7 +116,7 @@ def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
 
 
 def to_terminal(documents: Sequence[Document], console: Console, marks: str = "") -> None:
-    """Print documents on a console, within its width.
+    """Print documents on a console, wrapped to the width of the console.
 
     marks   characters that underline headings of the first and second level if colours cannot distinguish them
     """

@@ -54,12 +54,12 @@ class DrivenFigures:
 
     @property
     def verdict(self) -> TorqueVerdict:
-        """Verdict on whether the train can be driven in this direction."""
+        """Verdict on whether the train can be driven in this direction of power flow."""
         return self.way.torques.verdict
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output divided by power input; None if it is not determined."""
+        """Power output divided by power input; None if the efficiency is not determined."""
         return self.way.torques.efficiency if self.verdict else None
 
     @property
@@ -87,7 +87,7 @@ class TorqueFigures(Result):
     watts_per_unit: float | None
     """Watts per unit of power (torque unit times speed unit); None if torques or speeds are numbers without a unit."""
     in_newton_metres: bool
-    """True if torques are in N m, False if they are in the unit of the loads."""
+    """True if torques are in N m, False if they are in the unit of the declared loads."""
     flow: PowerFlow
     impact_power: Mapping[str, float]
     """Power that is dissipated by the impacts of each pair [W], keyed by pair; empty unless inertias and a rate are
@@ -140,7 +140,7 @@ def collect_torque_report(
 
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
-    """Return the torques of one state with the power flow and the efficiency in both directions."""
+    """Return the torques, the power flow, and the efficiency in both directions, of a train in one state."""
     from geartrain.dynamics.torques.power_flow import find_power_flow, watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
 
@@ -214,14 +214,14 @@ def torques_document(found: Torques | TorqueCycle) -> Document | None:
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
-    """Yield sections on the torques in each loaded state of a train; the first section explains the units."""
+    """Yield sections on the torques in each loaded state of a train. The first section explains the units."""
     sections = (section for each in found for section in torque_sections(each))
     for at, section in enumerate(sections):
         yield section if at else replace(section, paragraphs=(_units(found), *section.paragraphs))
 
 
 def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
-    """Yield a section on the verdict, links and pairs of one state, then a section on its power flow and losses."""
+    """Yield two sections on one state: the verdict, links and pairs, and then the power flow and losses."""
     found, flow, state = figures.torques, figures.flow, figures.torques.state
     head = titled(state, "torques")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
@@ -280,7 +280,7 @@ class _Amounts:
         return self.plain(torque, True) if link in self.sliding else f"{figure(torque, 6)}{self.unit}"
 
     def plain(self, torque: Fraction, force: bool) -> str:
-        """Return a torque as a string without its unit, or a force with its unit."""
+        """Return a string with a torque without its unit, or, if `force` is True, with a force and its unit."""
         return f"{figure(torque, 6)}{self.force if force else ''}"
 
 
@@ -450,7 +450,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
 
 
 def turns_text(turns: float) -> str:
-    """Return a number of turns as a string, such as `1 turn` or `2.5 turns`."""
+    """Return a string with a number of turns, such as `1 turn` or `2.5 turns`."""
     return f"{turns:g} turn{'' if turns == 1 else 's'}"
 
 

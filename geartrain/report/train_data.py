@@ -66,10 +66,10 @@ def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = T
 
 @dataclass(frozen=True)
 class AdjacencyLetters:
-    """Adjacency matrix of the links, with letters for turning pairs, gear pairs and couplings."""
+    """Adjacency matrix of the links. Its cells contain letters for turning pairs, gear pairs and couplings."""
 
     links: tuple[str, ...]
-    """Names of the links, in the order of rows and columns."""
+    """Names of the links, in the order of the rows and columns of the matrix."""
     cells: list[list[str]]
     """Connections between two links, row by row: R denotes a turning pair, G a gear pair, C a coupling."""
 
@@ -83,7 +83,7 @@ class StateSensitivity:
     state: str | None
     """Name of the state; None if the train has no states."""
     change: Sensitivity
-    """Relative changes of the output with one tooth fewer and one tooth more."""
+    """Relative change of the output if the wheel has one tooth fewer, and if it has one tooth more."""
 
 
 @dataclass(frozen=True)

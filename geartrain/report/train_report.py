@@ -150,7 +150,9 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 
 def _loaded(found: TrainReport) -> Iterator[Section]:
-    """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
+    """Yield the sections on teeth, torques, strength and motion. The modules of these sections are imported only if
+    needed.
+    """
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
@@ -173,7 +175,7 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
 
 
 def _fusees(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the torque of each spring with a fusee over its run."""
+    """Yield a section on the torque of each spring with a fusee, from the wound to the unwound state."""
     runs: dict[FuseeSpring, str | None] = {}
     for state in train.states or (None,):
         drive = train.declaration.case(state).drive
@@ -410,7 +412,7 @@ def adjacency_table(train: GearTrain) -> Table:
 
 
 def describe_adjacency(train: GearTrain) -> Document:
-    """Return a document with only the adjacency matrix of a train."""
+    """Return a document that contains only the adjacency matrix of a train."""
     return Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (adjacency_table(train),)),))
 
 
@@ -459,7 +461,9 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Yield a table of wheels with sources, status and notes; yield nothing if only tooth counts are declared."""
+    """Yield a section with a table of wheels, their sources, status and notes; yield nothing if only tooth counts are
+    declared.
+    """
     rows = []
     for name, (link, wheel) in declared.wheels.items():
         uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None

@@ -310,12 +310,12 @@ class ArcTooth:
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle [module]."""
+        """Radius of the tip circle of the wheel [module]."""
         return self.z / 2 + self.addendum
 
     @property
     def root(self) -> float:
-        """Radius of the root circle [module]."""
+        """Radius of the root circle of the wheel [module]."""
         return self.z / 2 - self.dedendum
 
     @property
@@ -375,10 +375,10 @@ class ArcTooth:
         return GearOutline((ToothFlanks.symmetric(side),), self.z)
 
     def vertices(self) -> Iterator[Vertex]:
-        """Yield the vertices (x, y, bulge) of one tooth from root to root [module]; the tooth's centre line is the x
+        """Yield the vertices (x, y, bulge) of one tooth from root to root [module]. The tooth's centre line is the x
         axis.
 
-        The bulge of an edge is the tangent of a quarter of its arc's angle, so that circular arcs are exact.
+        The bulge of an edge is the tangent of a quarter of the angle of its arc, so that circular arcs are exact.
         """
         (start, lean), (cx, cy) = self.flank, self.centre
         sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)

@@ -119,7 +119,8 @@ Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
 class Efficiencies(NumberOrKeys):
     """Basic efficiency of a pair (with fixed carrier) for each driving side, as a number up to 1 or a percentage.
 
-    A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
+    A value of 0 or less declares that the pair is self-locking if that side drives. At least one of the two values is
+    above 0.
     """
 
     forward: Efficiency = Field(

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 
 class CouplingKind(NamedTuple):
-    """Module and class of one kind of coupling."""
+    """Module and class that implement one kind of coupling."""
 
     module: str
-    """Name of the module in `geartrain.teeth.couplings`."""
+    """Name of the module, in the package `geartrain.teeth.couplings`."""
     model: str
     """Name of the class that describes couplings of this kind."""
     varies: bool = False
@@ -72,13 +72,13 @@ class CouplingRow(NamedTuple):
     """
 
     id: str
-    """Name of the row: the name of the coupling, unless it has several rows."""
+    """Name of the row, which is the name of the coupling unless the coupling has several rows."""
     driven: str
     """Driven link i. Its speed is m times the speed of the driving link, relative to the carrier."""
     driver: str
     """Driving link j."""
     a: int
-    """Coefficient of link i, above 0."""
+    """Coefficient of link i; it is positive."""
     b: int
     """Coefficient of link j, equal to -m a, where m is the mean ratio."""
     wheels: tuple[str, str] | None = None
@@ -88,12 +88,12 @@ class CouplingRow(NamedTuple):
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
-    """Return the row of a coupling with the mean ratio `mean`, driven speed divided by driver speed."""
+    """Return the row of a coupling whose mean ratio `mean` is the driven speed divided by the driver speed."""
     return CouplingRow(name, driven, driver, mean.denominator, -mean.numerator)
 
 
 class Coupling(BaseModel):
-    """Declared coupling of two or more links; base class of all kinds of couplings."""
+    """Declared coupling of two or more links. It is the base class of all kinds of couplings."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
@@ -118,7 +118,9 @@ class Coupling(BaseModel):
     NEGLECTED: ClassVar[tuple[str, str] | None] = None
     """Effect on torques that is not computed, and the reason; None for kinds of couplings without such an effect."""
     HOLDS: ClassVar[bool] = False
-    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
+    """True if the driven side cannot separate from the driver, because the coupling holds the driven side in both
+    senses of rotation.
+    """
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")

@@ -161,11 +161,11 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
 
 
 def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
-    """Return the distance d from the pitch point [module] at which the mate's addendum ends.
+    """Return the distance d [module] between the pitch point and the contact at the end of the mate's addendum.
 
-    `tip` is the mate's tip radius and `mate` its pitch radius, negative for a ring gear; R, A and B are as in
-    `lantern`. The squared distance of the contact from the mate's axle is mate^2 + d^2 + 2 mate d sin psi. Here d
-    sin psi = d (L^2 + R^2 - A^2) / (2 R L), with L = B + d, is monotonic in d.
+    `tip` is the mate's tip radius, and `mate` is the mate's pitch radius, negative for a ring gear. R, A and B are
+    defined in `lantern`. The squared distance of the contact from the mate's axle is mate^2 + d^2 + 2 mate d sin psi.
+    Here d sin psi = d (L^2 + R^2 - A^2) / (2 R L), where L = B + d, is monotonic in d.
     """
 
     def off(d: float) -> float:
@@ -277,8 +277,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum angle of the pin at which the contact has zero speed along the mate's flank [rad]; None if no
-    such cusp exists.
+    """Return the maximum pin angle [rad] at which the contact has zero speed along the mate's flank (a cusp of the
+    flank); None if there is no cusp.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe

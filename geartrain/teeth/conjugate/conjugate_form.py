@@ -72,8 +72,8 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the form, even if the
-        pair names it first.
+        """Return the mesh of a pair in which the first wheel drives. A ring gear is always gear 2 of the tooth form,
+        even if the pair names it first.
         """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
@@ -366,7 +366,7 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
-    """Raise a validation error if a pressure angle is not between 0 and `below` turns (0.25 by default)."""
+    """Raise a validation error if a pressure angle is not between 0 and `below` turns."""
     turns = angle.si / tau
     if not 0 < turns < below:
         raise bad(
@@ -416,10 +416,10 @@ def _are_skew(shaft_angle: ShaftAngle) -> bool:
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
-    """Return the shaft angle of a bevel pair [rad]; None for wheels on parallel axes, contrate wheels and helical
-    wheels.
+    """Return the shaft angle [rad] of a pair of bevel wheels; None for wheels on parallel axes, contrate wheels and
+    helical wheels.
 
-    Raises `GearTrainError` for bevel wheels without a declared shaft angle.
+    Raises `GearTrainError` if the shaft angle of bevel wheels is not declared.
     """
     if {"contrate", "helical"} & set(wheels.kinds):
         return None

@@ -47,16 +47,20 @@ _HEADER = (
 
 
 class ConjugateDetails(NamedForm, Protocol):
-    """Methods of a conjugate tooth form that its mesh uses."""
+    """Methods of a conjugate tooth form that the mesh of a pair uses."""
 
     more_contact: ClassVar[str]
-    """Advice on how to increase the contact ratio."""
+    """Text that advises how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if undefined."""
+        """Return the bottom clearance between the root of `gear` and the tip of its mate [module]; None if the tooth
+        form does not define it.
+        """
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
+        """Return the backlash [module] at the design centre distance increased by `gap` [module]; None if the tooth
+        form does not define it.
+        """
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
         """Return the round pins that form the teeth of one wheel; None if both wheels have teeth."""
@@ -113,7 +117,9 @@ class ConjugateMesh(GearMesh):
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the mate's tip."""
+        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the tip of the
+        mate.
+        """
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -147,7 +153,9 @@ class ConjugateMesh(GearMesh):
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
     def backlash_apart(self, gap: float) -> float | None:
-        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
+        """Return the backlash [module] at the centre distance increased by `gap` [module]; None if the tooth form does
+        not define it.
+        """
         return self.tooth_form.backlash_apart(self.wheel_pair, gap)
 
     @property
@@ -180,7 +188,7 @@ class ConjugateMesh(GearMesh):
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Results of a pair with conjugate teeth, including its path of contact as designed."""
+    """Results of a pair with conjugate teeth, including the designed path of contact."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -193,7 +201,7 @@ class ConjugateFigures(PairFigures):
     )
 
     arcs: tuple[float, float]
-    """Arcs of approach and recess of the driver [pitch]."""
+    """Arcs of approach and recess for the actual driver [pitch]."""
     contact_ratio: float
     """Contact ratio: arc of contact divided by pitch."""
     pressure_angle: float
@@ -254,17 +262,19 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class DesignLosses(Result):
-    """Losses, stress, heat and sliding of a pair as designed, from its path of contact."""
+    """Losses, stress, heat and sliding of a pair at its design distance, computed from its path of contact."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
-    """Loss, contact stress, heat, flash temperature and working depth, normalised by friction coefficient and load."""
+    """Loss, contact stress, heat, flash temperature and working depth. They are normalised by friction coefficient and
+    load.
+    """
     sliding: float
     """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
-    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite where the
-    lower speed is 0.
+    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite if the
+    lower speed is 0 at a contact.
     """
 
 
@@ -277,7 +287,7 @@ class SharedEfficiency(Result):
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Efficiency with sliding friction of the teeth, an exact function of the friction coefficient."""
+    """Efficiency with sliding friction of the teeth, as an exact function of the friction coefficient."""
     assumption: str = SHARED
     """Text that states the assumption on how tooth pairs in contact share the load."""
 
@@ -307,12 +317,12 @@ class PairDesign(Result):
 
     @property
     def path(self) -> PathOfContact:
-        """Path of contact of the design."""
+        """Path of contact of the pair at its design distance."""
         return self.mesh.path
 
     @property
     def runs(self) -> bool:
-        """True if the teeth can run, even if friction locks them."""
+        """True if the teeth can run. Friction is disregarded, so that it may lock these teeth."""
         return bool(self.mesh.verdict)
 
     @property
@@ -322,7 +332,7 @@ class PairDesign(Result):
 
     @property
     def pitch_radii(self) -> tuple[float, float]:
-        """Pitch radii of gear 1 and gear 2 [module; rad for bevel gears]; negative for a ring gear."""
+        """Pitch radii of gear 1 and gear 2 [module; rad for bevel gears]. The radius of a ring gear is negative."""
         return self.path.pitch.R1, self.path.pitch.R2
 
     @cached_property

@@ -48,7 +48,7 @@ class ConjugatePair(Shown):
     of contact and the tooth thickness.
     """
     extra: tuple[ToothFault, ...] = ()
-    """Design faults in addition to those that follow from the path of contact and the tooth thickness."""
+    """Design faults other than those that follow from the path of contact and the tooth thickness."""
     solid: tuple[bool, bool] = (True, True)
     """Flag for gear 1 and for gear 2: True if the gear has teeth, False if it has round pins."""
 

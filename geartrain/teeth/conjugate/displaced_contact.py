@@ -180,7 +180,9 @@ class DisplacedContact:
     apart: Floats
     """Lag [rad] per unit increase of the centre distance or shaft angle."""
     normal: Floats
-    """Lag [rad] per unit of material missing along the normal of a flank: the reciprocal of the moment arm."""
+    """Lag [rad] per unit of material removed along the normal of a flank. It is the reciprocal of the moment arm of the
+    normal.
+    """
     entering: CornerLag
     """Lag [rad] while the corner of a tip is in contact before the start of the path of contact."""
     leaving: CornerLag
@@ -198,11 +200,11 @@ class DisplacedContact:
     cause is a centre distance other than the design distance.
     """
     distance: float
-    """Centre distance [module]; infinite if the axles are not parallel."""
+    """Centre distance [module]; infinite if the axes are not parallel."""
 
     @property
     def ratio(self) -> Fraction:
-        """Mean speed ratio, driven divided by driver."""
+        """Mean speed ratio: driven speed divided by driver speed."""
         return Fraction(self.wheels[0].z, self.wheels[1].z)
 
     @property

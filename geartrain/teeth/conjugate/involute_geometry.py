@@ -18,7 +18,7 @@ _ROUNDING = 1e-12  # modules: a negative arc of less counts as 0
 
 
 def inv(angle: float) -> float:
-    """Return the involute function tan x - x of an angle x [rad]."""
+    """Return the involute function of an angle x [rad], tan x - x."""
     return tan(angle) - angle
 
 

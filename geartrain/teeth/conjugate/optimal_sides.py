@@ -351,7 +351,9 @@ def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats,
     matrix[0] = 0.0
 
     def residual(v: Floats) -> tuple[Floats, Floats]:
-        """Return the residual of the differential equation at each node, and the diagonal df/dv of the Jacobian."""
+        """Return the residual of the differential equation at each node, and the derivative df/dv at each node (the
+        diagonal part of the Jacobian).
+        """
         off, slope = f(d, v)
         off[0], slope[0] = v[0] - first, 1.0
         return matrix @ v + off, slope

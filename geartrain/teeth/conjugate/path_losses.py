@@ -84,7 +84,9 @@ class PathLosses(Result):
     point; 0 if there are no such contacts.
     """
     heat: float
-    """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force."""
+    """Maximum frictional heat per area of either profile, divided by the product of friction coefficient and tangential
+    force.
+    """
     flash: float
     """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path of contact. Blok's flash temperature is
     proportional to this quantity. F_n is the normal force, kr is the relative curvature, and U1 and U2 are the contact
@@ -111,7 +113,7 @@ class PathMeasures(Result):
     one_pair: PathLosses
     """Losses and loads if one tooth pair carries the whole load."""
     shared: PathLosses
-    """Losses and loads if the tooth pairs in contact share the load equally."""
+    """Losses and loads if the tooth pairs in contact share the load in equal parts."""
     depth: float
     """Working depth |eta_a| + eta_r, where eta_a and eta_r are the heights of the first and the last contact above the
     pitch line [module; rad for bevel gears].

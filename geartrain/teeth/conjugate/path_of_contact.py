@@ -50,8 +50,8 @@ class PathPiece:
 
 
 def ray(psi: float, end: float) -> PathPiece:
-    """Return the piece of a path of contact with constant pressure angle `psi` [rad] up to the distance `end`
-    from the pitch point, as for an involute.
+    """Return the piece of a path of contact with a constant pressure angle `psi` [rad], which extends to the distance
+    `end` from the pitch point. An involute has such a path.
     """
     return PathPiece(
         0.0,
@@ -121,7 +121,7 @@ class PathSide:
 
     @property
     def joints(self) -> tuple[float, ...]:
-        """Distances d from the pitch point at which the pieces end [module]."""
+        """Distances d from the pitch point at which the pieces of the side end [module]."""
         return tuple(piece.end for piece in self.pieces)
 
     def sin_psi(self, d: Floats) -> Floats:
@@ -135,13 +135,15 @@ class PathSide:
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X along the pitch surfaces [module] while the contact moves from `start` to the distance d."""
+        """Return the arc X along the pitch surfaces [module] that corresponds to the motion of the contact from `start`
+        to the distance d.
+        """
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 
     @cached_property
     def _offsets(self) -> Floats:
-        """Arc X at the start of each piece [module]."""
+        """Arcs X along the pitch surfaces at the starts of the pieces [module]."""
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
@@ -186,13 +188,13 @@ class PathContact(Shown):
     d: Floats
     """Signed distance of the contact from the pitch point [module; rad for bevel gears]."""
     sin_psi: Floats
-    """Sine of the pressure angle psi."""
+    """Sines of the pressure angle psi."""
     cos_psi: Floats
-    """Cosine of the pressure angle psi."""
+    """Cosines of the pressure angle psi."""
     q: Floats
-    """Derivative d(psi)/dX of the pressure angle [rad per module]."""
+    """Derivative d(psi)/dX of the pressure angle psi with respect to the arc X [rad per module]."""
     w: Floats
-    """Derivative d(S sin psi)/dd, where S is d, or sin d for bevel gears."""
+    """Derivative of S sin psi with respect to the distance d, where S is d, or sin d for bevel gears."""
     U1: Floats
     """Speed of the contact point along the profile of gear 1, divided by the pitch-line speed."""
     U2: Floats
@@ -208,8 +210,8 @@ class PathContact(Shown):
     kr: Floats
     """Relative curvature k1 - k2 of the two profiles [1/module]."""
     H: Floats
-    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the
-    square root of this ratio.
+    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the square
+    root of this quotient.
     """
     Q1: Floats
     """Frictional heat per area of the profile of gear 1, divided by the product of friction coefficient and tangential
@@ -230,7 +232,7 @@ class PathContact(Shown):
 
     @property
     def psi(self) -> Floats:
-        """Pressure angle at the contact [rad]."""
+        """Pressure angles at the contacts [rad]."""
         found: Floats = np.arctan2(self.sin_psi, self.cos_psi)
         return found
 
@@ -268,12 +270,12 @@ class PathOfContact(Shown):
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess in which the teeth touch [module]. One of them may be negative."""
+        """Arcs X of approach and recess in which the teeth touch [module]. One of the two arcs may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     @property
     def pitches(self) -> tuple[float, float]:
-        """Arcs of approach and recess in which the teeth touch [pitch]. One of them may be negative."""
+        """Arcs of approach and recess in which the teeth touch [pitch]. One of the two arcs may be negative."""
         approach, recess = self.arcs
         return approach / self.pitch.p, recess / self.pitch.p
 
@@ -299,7 +301,8 @@ class PathOfContact(Shown):
         return (start, end) if end > start else None
 
     def legs(self, low: float = -inf, high: float = inf) -> Iterator[tuple[bool, PathPiece, float, float]]:
-        """Yield each piece on which the teeth touch, with its side and the range of distances d.
+        """Yield each piece on which the teeth touch, together with its side and with the range of distances d of
+        contact.
 
         Parameters
         ----------
@@ -416,7 +419,8 @@ class PathOfContact(Shown):
         return PathContact(X, d, sine, cosine, q, w, U1, U2, k1, k2, kr, H, Q1, Q2, flash, rub)
 
     def flank(self, gear: int, X: ArrayLike) -> Floats:
-        """Return the points of one gear's profile that are in contact at the arcs X, in the gear's position at X = 0.
+        """Return the points of one gear's profile that are in contact at the arcs X. Coordinates refer to the position
+        of the gear at X = 0.
 
         Parameters
         ----------

@@ -61,12 +61,14 @@ class PitchSurfaces:
 
     @property
     def reach(self) -> float:
-        """Arc X per radian of rotation of gear 1: R1, or sin R1 on cones."""
+        """Arc X along the pitch surfaces per radian of rotation of gear 1: R1, or sin R1 on cones."""
         return sin(self.R1) if self.bevel else self.R1
 
     @property
     def reach2(self) -> float:
-        """Arc X per radian of rotation of gear 2: R2 (negative for a ring gear), or sin R2 on cones."""
+        """Arc X along the pitch surfaces per radian of rotation of gear 2: R2 (negative for a ring gear), or sin R2 on
+        cones.
+        """
         return sin(self.R2) if self.bevel else self.R2
 
     def teeth_of(self, gear: int) -> float:
@@ -74,7 +76,7 @@ class PitchSurfaces:
         return self.z1 if gear == 1 else self.z2
 
     def reach_of(self, gear: int) -> float:
-        """Return the absolute arc |X| per radian of rotation of gear 1 or 2."""
+        """Return the absolute value of the arc X along the pitch surfaces per radian of rotation of gear 1 or 2."""
         return self.reach if gear == 1 else abs(self.reach2)
 
     def axle_of(self, gear: int) -> float:
@@ -89,7 +91,7 @@ class PitchSurfaces:
         return 2 * pi * self.reach / self.z1
 
     def S(self, d: ArrayLike) -> Floats:
-        """Return the function S(d) of the distance d from the pitch point: S = d on cylinders, S = sin d on cones."""
+        """Return the function S of the distance d from the pitch point: S = d on cylinders, S = sin d on cones."""
         # with S instead of d, docs/shapes.md (2) to (5) hold for spur and bevel gears
         found: Floats = np.sin(d) if self.bevel else np.asarray(d, dtype=float)
         return found
@@ -100,7 +102,7 @@ class PitchSurfaces:
         return found
 
     def S_integral(self, d: ArrayLike) -> Floats:
-        """Return the integral of S from 0 to d: d^2/2 on cylinders, 1 - cos d on cones."""
+        """Return the integral of S from 0 to the distance d: d^2/2 on cylinders, 1 - cos d on cones."""
         d = np.asarray(d, dtype=float)
         # 1 - cos d would cancel near the pitch point
         found: Floats = 2 * np.sin(d / 2) ** 2 if self.bevel else d * d / 2
@@ -153,12 +155,12 @@ class PitchSurfaces:
         return found
 
     def _side(self, gear: int) -> float:
-        """Return 1 if the pitch point is above the axle of a gear, -1 if it is below."""
+        """Return 1 if the pitch point is above the axle of a gear, or -1 if it is below."""
         return 1.0 if self.axle_of(gear) < 0 else -1.0
 
     def _axis_and_up(self, gear: int) -> tuple[Floats, Floats]:
-        """Return two unit vectors of a pitch cone: the axis of the gear, and the direction normal to the axis
-        towards the pitch point.
+        """Return two unit vectors of a pitch cone: the direction of the gear's axis, and the direction perpendicular to
+        the axis towards the pitch point.
         """
         R, side = self.axle_of(gear), self._side(gear)
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])

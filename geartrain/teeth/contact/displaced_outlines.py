@@ -47,7 +47,7 @@ class ToothPairContact(NamedTuple):
     point: Floats
     """Contact points [module], shape (2, n)."""
     normal: Floats
-    """Unit vectors in the direction in which the driver pushes, shape (2, n)."""
+    """Unit vectors in the direction in which the driver pushes the driven wheel, shape (2, n)."""
     angle: Floats
     """Angle of the driven tooth from the line of centres, positive in the direction of motion [rad]."""
     corner: Indices

@@ -142,11 +142,11 @@ class FlankSegments(NamedTuple):
     """
 
     tooth_pair: Indices
-    """Index of the tooth pair, shape (n,)."""
+    """Index of the tooth pair of each segment, shape (n,)."""
     piece1: Indices
-    """Index of the polynomial piece of the driver's flank, shape (n,)."""
+    """Index of the polynomial piece of the driver's flank for each segment, shape (n,)."""
     piece2: Indices
-    """Index of the polynomial piece of the driven flank, shape (n,)."""
+    """Index of the polynomial piece of the driven flank for each segment, shape (n,)."""
     u: Floats
     """Parameters of `piece1` at the two ends of each segment, shape (2, n)."""
     polar2: Floats

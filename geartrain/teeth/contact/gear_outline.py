@@ -40,8 +40,8 @@ class OutlineCurve(Shown):
     points: Callable[[Floats], Floats]
     """Function that maps parameters (n,) to points: (n, 2) for spur wheels, (n, 3) on the unit sphere for bevel wheels.
 
-    The x axis points forward, the y axis outward along the middle of the tooth, and the axle is at the origin. For
-    bevel wheels the axis is along z.
+    The x axis points forward, the y axis points outward along the middle of the tooth, and the axle is at the origin.
+    The axis of a bevel wheel is the z axis.
     """
     start: float = 0.0
     """Parameter at the beginning of the curve."""
@@ -98,7 +98,7 @@ class OutlineCurve(Shown):
 
 
 def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
-    """Return the straight segments that join the given points in order; on the sphere, the segments are great-circle
+    """Return the straight segments that join the given points in order. On the sphere, the segments are great-circle
     arcs.
 
     Parameters
@@ -154,7 +154,7 @@ class ToothFlanks(Shown):
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """Flank that leads when the wheel turns forward; it has larger azimuths than the other flank."""
+    """Flank that leads when the wheel turns forward. It has larger azimuths than the other flank."""
     behind: tuple[OutlineCurve, ...]
     """Flank that trails when the wheel turns forward."""
 
@@ -226,12 +226,12 @@ class GearOutline(Shown):
     """
 
     teeth: tuple[ToothFlanks, ...]
-    """Shapes of the teeth: one shape for all teeth, or one for each of the z teeth."""
+    """Shapes of the teeth: one shape that applies to all teeth, or one shape for each of the z teeth."""
     z: int
     """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
-    """Pitch deviations [rad], z values: the angle by which each tooth is ahead of its nominal position. Empty if all
-    pitches are equal.
+    """Pitch deviations of the z teeth [rad]: the angle by which each tooth is ahead of its nominal position. The tuple
+    is empty if all pitches are equal.
     """
     ring: bool = False
     """True for a ring gear, whose teeth point inwards."""
@@ -262,18 +262,18 @@ class GearOutline(Shown):
 
     @cached_property
     def bevel(self) -> bool:
-        """True for a bevel wheel, whose points are on the unit sphere."""
+        """True if the wheel is a bevel wheel, whose points are on the unit sphere."""
         curve = self.teeth[0].ahead[0]
         return bool(curve.at([curve.start]).shape[1] == 3)
 
     @cached_property
     def ahead(self) -> FlankTable:
-        """Leading flanks of all teeth as polynomial pieces."""
+        """Leading flanks of all teeth, as a table of polynomial pieces."""
         return _table([tooth.ahead for tooth in self.teeth])
 
     @cached_property
     def behind(self) -> FlankTable:
-        """Trailing flanks of all teeth as polynomial pieces."""
+        """Trailing flanks of all teeth, as a table of polynomial pieces."""
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:
@@ -499,7 +499,7 @@ class FlankTable:
 
     @cached_property
     def reach(self) -> tuple[float, float, float, float]:
-        """Minimum and maximum radius, and minimum and maximum azimuth [rad], over all teeth."""
+        """Minimum radius, maximum radius, minimum azimuth [rad] and maximum azimuth [rad] over all teeth."""
         u = np.linspace(-1, 1, 33)
         azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
         # allowance for extremes of the azimuth between two samples
@@ -513,7 +513,7 @@ class FlankTable:
 
     @cached_property
     def span(self) -> tuple[Floats, Floats]:
-        """Minimum and maximum radius of each tooth, each of shape (teeth,)."""
+        """Minimum radius and maximum radius of each tooth, two arrays of shape (teeth,)."""
         low, high = (
             np.minimum.reduceat(self.ends[0], self.first[:-1]),
             np.maximum.reduceat(self.ends[1], self.first[:-1]),

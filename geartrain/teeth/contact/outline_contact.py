@@ -194,15 +194,19 @@ class FlankContact(Shown):
     """
 
     angle: Floats
-    """Angle of the driven wheel in contact [rad]; NaN where no tooth is within reach."""
+    """Angle of the driven wheel at which the flanks are in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN without contact."""
+    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where the teeth do
+    not touch.
+    """
     pair: Indices
     """Number of the driver's tooth that is in contact; 0 where the teeth do not touch. Teeth are counted forward from
-    tooth 0, beyond z after a revolution.
+    tooth 0, and the count continues beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do not touch."""
+    """Kind of contact (between two flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do
+    not touch.
+    """
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
@@ -210,10 +214,10 @@ class FlankContact(Shown):
     """Distance of the contact from the driven axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
     sharing: Indices
-    """Number of tooth pairs whose gap is within the tolerance."""
+    """Number of tooth pairs whose gap is smaller than the tolerance."""
     curves: Indices
-    """Numbers of the curves in contact on both outlines, counted through all teeth, shape (2, ...); -1 where the teeth
-    do not touch.
+    """Numbers of the curves in contact on both outlines, shape (2, ...); -1 where the teeth do not touch. Curves are
+    numbered consecutively over all teeth.
     """
 
     def to_dict(self) -> dict[str, Any]:

@@ -61,14 +61,16 @@ class OutlineMesh(GearMesh):
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of a single tooth pair of the outlines, and lag of the driven wheel caused by displaced flanks."""
+        """Contact of a single tooth pair of the outlines, and the lag of the driven wheel that displaced
+        flanks cause.
+        """
         from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
         return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: speed ratio, transmission error, backlash, and efficiency with either wheel
-        driving.
+        """Return the report on the pair: speed ratio, transmission error, backlash, and the efficiency for either wheel
+        as the driver.
         """
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 

@@ -111,7 +111,9 @@ class OutlineTransmission(ToothTransmission):
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN without contact."""
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN where the teeth do not
+        touch.
+        """
         return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:

@@ -46,14 +46,16 @@ _MOST = 100_000  # maximum number of stretches per driver pitch
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """Driven angle as a periodic piecewise polynomial of the driver angle phi1: ratio phi1 + error [rad]."""
+    """Driven angle as a periodic function of the driver angle phi1: ratio phi1 + error [rad], where the error is a
+    piecewise polynomial.
+    """
 
     ratio: Fraction
     """Mean speed ratio: absolute value of the driven speed divided by the driver speed."""
     period: float
-    """Period in driver angle [rad]."""
+    """Period of the function, as a driver angle [rad]."""
     breaks: Floats
-    """Ends of the intervals [rad], shape (n + 1,), ascending over one period of the driver angle."""
+    """Ends of the intervals of the driver angle [rad], shape (n + 1,), in ascending order over one period."""
     errors: PeriodicPieces
     """Transmission error [rad], which is a polynomial in each interval."""
     speeds: PeriodicPieces
@@ -76,7 +78,9 @@ class PiecewiseTransmission:
     """
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
+        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN where the teeth do
+        not touch.
+        """
         return self.errors(phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
@@ -109,8 +113,8 @@ class PiecewiseTransmission:
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases with the driver angle within the intervals
-        [1/rad]; 0 if it never decreases.
+        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad] within the
+        intervals; 0 if it never decreases.
         """
         return max(0.0, -self.speeds.extremes(1)[0])
 

@@ -63,7 +63,7 @@ Pulleys = Annotated[
 
 
 class Belt(Coupling):
-    """Belt, chain or cable around two or more pulleys, without slip."""
+    """Belt, chain or cable that runs around two or more pulleys without slip."""
 
     ENDS = ("around",)
     SIDES = ("pulley", "pulley")

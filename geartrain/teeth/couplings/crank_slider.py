@@ -68,7 +68,9 @@ class CrankSliderTransmission(LosslessTransmission):
         self.r, self.l = radius, rod
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the travel of the slide from its outer dead centre, at most 0 [rad; 2 pi is 1 mm]."""
+        """Return the travel of the slide from its outer dead centre at crank angles S, where 2 pi rad correspond to 1
+        mm. It is 0 or negative.
+        """
         import numpy as np
 
         S = np.asarray(S, dtype=float)
@@ -106,7 +108,9 @@ class CrankSliderTransmission(LosslessTransmission):
         return -most, most
 
     def error_range(self) -> tuple[float, float]:
-        """Return the travels of the slide at both dead centres [rad; 2 pi is 1 mm]."""
+        """Return the minimum and the maximum travel of the slide, which occur at the dead centres. They are in rad,
+        where 2 pi rad correspond to 1 mm.
+        """
         return -2 * self.period * self.r, 0.0
 
     def steepest_fall(self) -> float:

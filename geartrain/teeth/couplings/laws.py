@@ -54,7 +54,7 @@ class _VaryingPair(Coupling):
 
     @property
     def start(self) -> float:
-        """Angle of the driver at the start [rad]."""
+        """Angle of the driver at the beginning of the motion [rad]."""
         return 0.0 if self.phase is None else self.phase.si
 
     @property

@@ -51,13 +51,13 @@ class CycloidalDisc:
     """Lobed disc of a cycloidal reducer, and the ring of pins in which the disc rolls. Lengths are in modules."""
 
     lobes: int
-    """Number of lobes of the disc. The ring has one pin more."""
+    """Number of lobes of the disc. The ring has one pin more than the disc has lobes."""
     circle: float
-    """Radius of the circle through the centres of the pins [module]."""
+    """Radius of the circle through the centres of all pins [module]."""
     pin: float
     """Radius of a pin [module]."""
     clearance: float = 0.0
-    """Distance by which the outline of the disc is set back from every pin [module]."""
+    """Distance by which the outline of the disc is offset inwards from every pin [module]."""
     deflection: float | None = None
     """Deflection of one pin under the whole force on the pitch circle of the disc [module].
 
@@ -72,7 +72,7 @@ class CycloidalDisc:
 
     @property
     def shortening(self) -> float:
-        """Pitch radius of the ring divided by the radius of the pin circle, below 1, docs/reducers.md (1)."""
+        """Pitch radius of the ring divided by the radius of the pin circle, docs/reducers.md (1). It is less than 1."""
         return self.pins / 2 / self.circle
 
     def centres(self, turn: Floats) -> Floats:
@@ -143,9 +143,9 @@ class CycloidalDisc:
         return found
 
     def arms(self, angle: Floats) -> Floats:
-        """Return the lever arms [module] of the contact normals about the centre of the disc: docs/reducers.md (4).
+        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4).
 
-        The value is 0 for pins that cannot push the disc forwards.
+        A lever arm is 0 for pins that cannot push the disc forwards.
         """
         found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
         return found
@@ -299,7 +299,9 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on the pair, always "runs", since discs that cannot run are rejected when they are declared."""
+        """Verdict on the pair. It is always "runs", because discs that cannot run are rejected when they
+        are declared.
+        """
         return PairVerdict("runs", "the teeth run", self._backlash, ())
 
     def _driven(self, driver: int, direction: int) -> DiscTransmission:
@@ -369,7 +371,7 @@ class DiscMesh(GearMesh):
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the size of the pair; its lengths are in modules and its centre distance is half a module."""
+        """Return the size of the pair. Lengths are in modules, and the centre distance is half a module."""
         del tips
         return PairSize(1.0, 0.5, 1.0)
 
@@ -379,7 +381,7 @@ class DiscMesh(GearMesh):
         return self.transmission.disc.lobe(tolerance) if wheel == self.gears[0] else self.transmission.disc.pin_tooth()
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: sizes, maximum pin load, backlash and efficiency."""
+        """Return the report on the pair: sizes, maximum pin load, backlash and efficiency."""
         disc = self.transmission.disc
         figures = DiscFigures(
             self.counts,

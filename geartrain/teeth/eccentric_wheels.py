@@ -39,7 +39,7 @@ class EccentricWheels(NamedTuple):
     counts: tuple[int, int]
     """Tooth counts of the driver and of the driven wheel."""
     offsets: tuple[float, float]
-    """Distances of the centres from the axes, in the common length unit."""
+    """Distances of the wheel centres from the axes, in the common length unit."""
     angles: tuple[float, float]
     """Directions of the centres at S = 0 [rad], measured from the direction of the driven wheel's axis in the sense of
     rotation of the driver.
@@ -47,11 +47,11 @@ class EccentricWheels(NamedTuple):
     pressure_angle: float
     """Pressure angle that corresponds to the centre distance [rad]."""
     internal: bool = False
-    """True if the driven wheel is a ring."""
+    """True if the driven wheel is a ring gear."""
 
     @property
     def base(self) -> tuple[float, float]:
-        """Base radii, in the common length unit; the radius of a ring is negative."""
+        """Base radii of both wheels, in the common length unit. The radius of a ring gear is negative."""
         first, second = (z / 2 * cos(self.pressure_angle) for z in self.counts)
         return first, -second if self.internal else second
 

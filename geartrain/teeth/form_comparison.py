@@ -74,7 +74,7 @@ class MeasuredForm(Result):
 
 @dataclass(frozen=True)
 class FormComparison(Pictured, Result):
-    """Tooth forms compared with the 20 degree involute of the same wheels and arcs of contact."""
+    """Comparison of tooth forms with the 20 degree involute of the same wheels and the same arcs of contact."""
 
     PAGE = "report.conjugate_pair_page:describe_form_comparison"
     FIGURE = "drawing.transmission_curves:comparison_figure"
@@ -90,7 +90,7 @@ class FormComparison(Pictured, Result):
     matched: str
     """Text that names the quantities that are equal in all compared pairs."""
     base: MeasuredForm
-    """Result for the involute."""
+    """Result for the involute, with which the tooth forms are compared."""
     forms: tuple[MeasuredForm, ...]
     """Results for the compared tooth forms. If a form has contact in recess only, they include an involute with such
     contact.

@@ -275,7 +275,7 @@ AnyFrictionLaw = Annotated[
 
 @cache
 def law_keys() -> frozenset[str]:
-    """Return the names of the fields of all friction laws."""
+    """Return the names of all fields that occur in friction laws."""
     laws = (StribeckFriction, BuckinghamFriction, DokosFriction, TabulatedFriction)
     return frozenset(key for law in laws for key in law.model_fields)
 
@@ -325,7 +325,7 @@ class PairFriction(Shown):
 
     def __call__(self, sliding: ArrayLike) -> Floats:
         """Return the coefficient of friction at the relative sliding speeds `sliding` (sliding speed divided by
-        pitch-line speed). It is NaN where `sliding` is NaN (no contact).
+        pitch-line speed). The coefficient is NaN where `sliding` is NaN (no contact).
         """
         import numpy as np
 

@@ -213,7 +213,7 @@ class GivenMesh(GearMesh):
         return GivenLosses(self.transmission if driver == self.driver else self.reversed)
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: speed ratio, transmission error, backlash and efficiencies."""
+        """Return the report on the pair: speed ratio, transmission error, backlash and efficiencies."""
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SpeedRatio, TransmissionError
 
         transmission, losses = self.transmission, self.efficiency(self.driver) if self.computes_losses else None

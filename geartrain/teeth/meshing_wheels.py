@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class DeclaredPair(Protocol):
-    """Attributes of a declared gear pair that a mesh uses."""
+    """Attributes of a declared gear pair that its mesh uses."""
 
     @property
     def name(self) -> str:
@@ -20,7 +20,7 @@ class DeclaredPair(Protocol):
 
     @property
     def pair(self) -> tuple[str, str]:
-        """Names of the two wheels."""
+        """Names of the first and of the second wheel."""
 
     @property
     def fitting(self) -> Any:
@@ -49,7 +49,7 @@ class NamedForm(Protocol):
 
 @dataclass(frozen=True)
 class MeshDriver(Result):
-    """Driving wheel of a gear pair, or driving link of a coupling, and the reason for this choice."""
+    """Driving wheel of a gear pair, or driving link of a coupling, and the reason why it drives."""
 
     KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
 
@@ -71,7 +71,7 @@ class MeshingWheels:
     gear: DeclaredPair
     """Declared gear pair."""
     place: str
-    """Location of the pair's declaration in its file."""
+    """Location of the pair's declaration within its file."""
     counts: tuple[int, int]
     """Tooth counts of the first and of the second wheel."""
     kinds: tuple[str, str] = ("spur", "spur")

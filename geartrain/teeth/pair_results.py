@@ -44,7 +44,7 @@ class SpeedRatio(Result):
 
     @property
     def relative(self) -> tuple[float, float]:
-        """Minimum and maximum speed ratio, each divided by the mean ratio."""
+        """Minimum and maximum speed ratio, each divided by the mean speed ratio."""
         return self.minimum / float(self.mean), self.maximum / float(self.mean)
 
 
@@ -92,8 +92,8 @@ class SlidingEfficiency(Result):
 
     @property
     def friction(self) -> float | None:
-        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, the value is
-        its mean over the driver angle.
+        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, its mean over
+        the driver angle is returned.
         """
         return self.transmission.friction
 
@@ -104,7 +104,7 @@ class SlidingEfficiency(Result):
 
     @property
     def mean(self) -> float | None:
-        """Mean efficiency over the driver angle at constant driver torque; None if friction locks the pair."""
+        """Mean of the efficiency over the driver angle at constant driver torque; None if friction locks the pair."""
         return None if self.locks else finite(self.transmission.efficiency_mean())
 
     @property
@@ -116,7 +116,7 @@ class SlidingEfficiency(Result):
 
     @property
     def minimum(self) -> float | None:
-        """Minimum efficiency at any driver angle; None if friction locks the pair."""
+        """Minimum of the efficiency over all driver angles; None if friction locks the pair."""
         return None if self.locks else finite(self.transmission.efficiency_minimum())
 
     @property
@@ -131,7 +131,7 @@ class SlidingEfficiency(Result):
 
 
 def _gear_or_none(gear: int) -> int | None:
-    """Return the number of the faulty gear; None for 0, which denotes the pair as a whole."""
+    """Return the number of the faulty gear; None if `gear` is 0, which denotes the pair as a whole."""
     return gear or None
 
 
@@ -153,15 +153,15 @@ class ToothFault(Result):
     position.
     """
     what: str
-    """Statement of the fault."""
+    """Statement that describes the fault."""
     why: str
-    """Statement of the cause."""
+    """Statement that gives the cause of the fault."""
     fix: str
-    """Statement of the remedy."""
+    """Statement that gives the remedy of the fault."""
 
     @property
     def problem(self) -> Problem:
-        """Fault as a `Problem` without a location in a file."""
+        """Fault as a `Problem`, which has no location in a file."""
         return Problem(self.what, self.why, self.fix)
 
 
@@ -240,15 +240,15 @@ class PinFigures(Result):
     pin_radius: float
     """Distance of the pin from its axis [m, or the unit of the declared lengths]."""
     offset: float
-    """Distance between the two axes [m, or the unit of the declared lengths]."""
+    """Distance between the axes of pin and slot [m, or the unit of the declared lengths]."""
     speed_ratio: SpeedRatio
     """Speed ratio: speed of the driven side divided by speed of the driver."""
     amplitude: float
-    """Maximum transmission error [rad]."""
+    """Maximum transmission error [rad of the driven side]."""
     transmission_error: TransmissionError
     """Transmission error of the driven side."""
     efficiency: SlidingEfficiency
-    """Efficiency of the pin sliding along its slot."""
+    """Efficiency of the coupling with friction of the pin along its slot."""
 
 
 def pin_figures(transmission: PinTransmission) -> PinFigures:

@@ -35,7 +35,9 @@ class RubbedTransmission(TransmissionFunction):
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error of the underlying function at driver angles S [rad]."""
+        """Return the transmission error of the underlying function [rad of the driven side] at driver angles
+        S [rad].
+        """
         return self.transmission.error(S)
 
     def speed(self, S: ArrayLike) -> Floats:
@@ -57,7 +59,7 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.error_moments()
 
     def kinks(self) -> list[float]:
-        """Return the driver angles of the kinks of the underlying function [rad]."""
+        """Return the driver angles at which the underlying function has kinks [rad]."""
         return self.transmission.kinks()
 
     def smooth_intervals(self) -> list[tuple[float, float]]:
@@ -65,7 +67,7 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.smooth_intervals()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return the upward steps of the speed ratio of the underlying function."""
+        """Return the upward steps of the speed ratio of the underlying function; None if they are not computed."""
         return self.transmission.speed_leaps()
 
     def steepest_fall(self) -> float | None:

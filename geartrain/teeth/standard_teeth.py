@@ -116,7 +116,7 @@ def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) 
 
 
 def check_size(z: int) -> None:
-    """Raise `GearTrainError` for a wheel of more than `MOST_TEETH` teeth."""
+    """Raise `GearTrainError` if a wheel has more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
         what, why = (
             f"the teeth of a wheel with {z} teeth cannot be built",

@@ -161,7 +161,7 @@ class EfficiencyTable(PeriodicPoints):
     )
 
     def function(self, counts: tuple[int, int]) -> PeriodicFunction:
-        """Return the efficiency as a function of the driver angle [rad]."""
+        """Return the efficiency as a periodic function of the driver angle [rad]."""
         return self.table([(at, float(efficiency.base)) for at, efficiency in self.points], counts)
 
 

@@ -152,7 +152,7 @@ class ToothForm(BaseModel, ABC):
 
     @abstractmethod
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh | None:
-        """Return the mesh of a gear pair with its first wheel driving.
+        """Return the mesh of a gear pair. The first wheel of the pair drives.
 
         Parameters
         ----------

@@ -492,7 +492,9 @@ class ExactRatio(TransmissionFunction):
         return self.lag, 0.0
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad], which is 0."""
+        """Return the maximum rate at which the speed ratio decreases [1/rad]. It is 0, because the ratio
+        is constant.
+        """
         return 0.0
 
     @staticmethod
@@ -512,5 +514,5 @@ class LosslessTransmission(TransmissionFunction):
         return np.ones(np.shape(S))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, which is 1."""
+        """Return the minimum efficiency. It is 1, because losses are not modelled."""
         return 1.0

@@ -67,9 +67,10 @@ class _VaryingPair(Coupling):
 
 
 class UniversalJoint(_VaryingPair):
-    """Universal joint (Cardan's or Hooke's): tan q = tan S / cos(beta), with the angle beta between the shafts.
+    """Universal joint (Cardan's or Hooke's joint): tan q = tan S / cos(beta), where beta is the angle between the
+    shafts, S the angle of the driver and q the angle of the driven shaft.
 
-    S is the angle of the driver's fork from the plane of both shafts. The mean ratio is 1.
+    S is measured from the plane of both shafts to the fork of the driver. The mean ratio is 1.
     """
 
     OBLIQUE = HOLDS = True
@@ -83,7 +84,9 @@ class UniversalJoint(_VaryingPair):
     )
 
     def on_axes(self, angle: float) -> Self:
-        """Return the joint with the angle between its axes [rad], unless its angle is declared."""
+        """Return a copy of the joint with the given angle between its axes [rad], or the joint itself if its angle is
+        declared.
+        """
         if self.angle is not None:
             return self
         shown = f"{degrees(angle):.6g} deg"
@@ -111,7 +114,7 @@ class UniversalJoint(_VaryingPair):
 
 
 class _LobedPair(_VaryingPair):
-    """Two non-circular wheels in external mesh."""
+    """Two non-circular wheels in external mesh, whose pitch curves consist of equal lobes."""
 
     UNKNOWN = "teeth, friction and backlash"
 
@@ -131,11 +134,11 @@ class _LobedPair(_VaryingPair):
 
 
 class EllipticalPair(_LobedPair):
-    """Two elliptical or lobed wheels in external mesh about their foci.
+    """Two elliptical or lobed wheels in external mesh, which turn about foci of their pitch curves.
 
-    The driver has the pitch curve r = p / (1 + e cos(n1 theta)), with eccentricity e, n1 lobes and theta from a short
-    radius; its mate, with n2 lobes, is conjugate to it. With equal numbers of lobes the wheels are equal. S is 0 with
-    a long radius of the driver on the line of centres.
+    The driver has the pitch curve r = p / (1 + e cos(n1 theta)), where e is the eccentricity, n1 the number of lobes,
+    and theta is measured from a short radius. Its mate has n2 lobes and is conjugate to it. If the numbers of lobes are
+    equal, the wheels are equal. At S = 0, a long radius of the driver is on the line of centres.
     """
 
     kind: Literal["elliptical"] = Field(
@@ -174,8 +177,8 @@ class EllipticalPair(_LobedPair):
 
     @property
     def transmission(self) -> SeriesTransmission:
-        """Transmission function with rho = e (m + 1)/(m s + 1), where e is the eccentricity, m the mean ratio without
-        sign, and s the square root in `distance`.
+        """Transmission function, a series with rho = e (m + 1)/(m s + 1), where e is the eccentricity, m the absolute
+        value of the mean ratio, and s the square root in `distance`.
         """
         from geartrain.teeth.couplings.series_transmission import SeriesTransmission
 
@@ -194,8 +197,9 @@ class EllipticalPair(_LobedPair):
 class PitchCurvePair(_LobedPair):
     """Two non-circular wheels in external mesh: the driver has a given pitch curve, and its mate is conjugate to it.
 
-    The radii at equal angles over one lobe of the driver, starting at S = 0, are joined by a periodic cubic spline.
-    The centre distance C follows from the condition that the mate closes: the mean of r/(C - r) is the mean ratio.
+    The radii at equal angles over one lobe of the driver, starting at S = 0, are joined by a periodic cubic spline. The
+    centre distance C follows from the condition that the pitch curve of the mate is closed: the mean of r/(C - r) is
+    the mean ratio.
     """
 
     kind: Literal["pitch_curve"] = Field(
@@ -262,9 +266,10 @@ Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
 
 
 class TabledLaw(_VaryingPair):
-    """Coupling with the driven angle q = mean S + unit d(S), with d given by harmonics or by a table.
+    """Coupling with the driven angle q = mean S + unit d(S), where S is the angle of the driver, and the function d is
+    given by harmonics or by a table.
 
-    A mean of 0 describes a cam with an oscillating arm.
+    A mean ratio of 0 describes a cam with an oscillating arm.
     """
 
     NEEDS_DISTANCE = False

@@ -37,7 +37,7 @@ class PinTransmission(SeriesTransmission):
     PAGE = "report.pair_page:describe_pin"
 
     driver: ClassVar[Literal["pin", "slot"]]
-    """Driving side, "pin" or "slot"."""
+    """Name of the driving side, "pin" or "slot"."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         self.r, self.e, self.friction = pin_radius, offset, friction

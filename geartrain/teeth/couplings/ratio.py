@@ -19,7 +19,7 @@ from geartrain.teeth.coupling import Coupling, CouplingRow, ratio_row
 
 
 class ApproximateRatio(NumberOrKeys):
-    """Ratio with its tolerance, if it is not known exactly. A bare number is an exact ratio."""
+    """Ratio with a tolerance if it is not known exactly. A bare number is an exact ratio."""
 
     value: Figure = Field(description="Ratio used in calculations")
     tolerance: Annotated[Figure, above_zero("give a tolerance above 0, or only the ratio")] | None = Field(
@@ -36,7 +36,7 @@ DeclaredRatio = Annotated[ApproximateRatio, BeforeValidator(_ratio)]
 
 
 class Ratio(Coupling):
-    """Pair of links, or planetary set, of which only the ratio is known."""
+    """Pair of links, or planetary set, for which only the speed ratio is known."""
 
     PARALLEL = ""
     NEEDS_DISTANCE = False

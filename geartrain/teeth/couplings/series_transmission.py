@@ -63,20 +63,22 @@ class SeriesTransmission(LosslessTransmission):
         return x, np.sin(x / 2) ** 2
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the deviation from uniform motion at driver angles S [rad of the driven side]."""
+        """Return the deviation from uniform motion [rad of the driven side] at driver angles S [rad]."""
         x, half = self._argument(S)
         # 1 - rho cos x as a sum, which does not cancel near rho = 1
         return np.asarray(self.factor * np.arctan2(self.rho * np.sin(x), self.rest + 2 * self.rho * half))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio m + A n (rho cos x - rho^2) / (1 - 2 rho cos x + rho^2) at driver angles S [rad]."""
+        """Return the speed ratio m + A n (rho cos x - rho^2) / (1 - 2 rho cos x + rho^2) at driver angles S [rad],
+        where x = n (S + phase).
+        """
         _, half = self._argument(S)
         # numerator and denominator as sums without cancellation
         share = self.rho * (self.rest - 2 * half) / (self.rest**2 + 4 * self.rho * half)
         return np.asarray(float(self.ratio) + self.factor * self.order * share)
 
     def speed_slope(self, S: ArrayLike) -> Floats:
-        """Return the derivative of the speed ratio.
+        """Return the derivative of the speed ratio with respect to the driver angle.
 
         Parameters
         ----------
@@ -86,7 +88,7 @@ class SeriesTransmission(LosslessTransmission):
         Returns
         -------
         ndarray
-            Derivative by the angle of the driver [1/rad], shape of S.
+            Derivative of the speed ratio [1/rad], of the shape of S.
         """
         x, half = self._argument(S)
         size = self.factor * self.order**2 * self.rho * self.rest * (1 + self.rho)
@@ -105,7 +107,9 @@ class SeriesTransmission(LosslessTransmission):
         return abs(self.factor) * atan2(self.rho, sqrt(self.rest * (1 + self.rho)))
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum deviation from uniform motion [rad], minus and plus the amplitude."""
+        """Return the minimum and the maximum deviation from uniform motion [rad], which are minus the amplitude and
+        plus the amplitude.
+        """
         return -self.amplitude, self.amplitude
 
     def error_moments(self) -> tuple[float, float]:
@@ -125,7 +129,9 @@ class SeriesTransmission(LosslessTransmission):
 
 
 def _dilogarithm(x: float, rest: float) -> float:
-    """Return Li2(x), the sum of x^k / k^2 over k = 1, 2, ..., for 0 <= x < 1; `rest` is 1 - x."""
+    """Return the dilogarithm Li2(x), the sum of x^k / k^2 over k = 1, 2, ..., for 0 <= x < 1. The argument `rest` is 1
+    - x.
+    """
     if x > 0.5:
         # reflection formula of Euler
         return pi**2 / 6 - log(x) * log(rest) - _dilogarithm(rest, x)

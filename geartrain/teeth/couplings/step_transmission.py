@@ -53,9 +53,10 @@ class GenevaTransmission(TableTransmission):
 
 
 class _GenevaDeviation(PeriodicFunction):
-    """Deviation of a Geneva drive from uniform motion: -Im log(1 - rho exp(i S)) - mean S during a step.
+    """Deviation of a Geneva drive from uniform motion. During a step it is -Im log(1 - rho exp(i S)) - mean S, where S
+    is the driver angle.
 
-    rho     pin radius divided by the distance of the axes, negative for an internal drive
+    rho     pin radius divided by the axis distance, negative for an internal drive
     alpha   driver angle from the middle of a step to its end [rad]
     mean    mean speed ratio
     """

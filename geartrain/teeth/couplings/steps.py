@@ -42,7 +42,7 @@ _Moves = Annotated[
 
 
 class SteppingCoupling(Coupling):
-    """Coupling that moves its driven link in steps; base class of all such couplings."""
+    """Coupling that moves its driven link in steps. It is the base class of all such couplings."""
 
     # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
     LOCKS_BACK = HOLDS = True
@@ -73,7 +73,9 @@ class SteppingCoupling(Coupling):
 
 
 class Geneva(SteppingCoupling):
-    """Geneva drive, or Maltese cross: a pin enters a radial slot, turns the driven link by one slot and leaves it."""
+    """Geneva drive, or Maltese cross. A pin enters a radial slot, turns the driven link by one slot, and leaves the
+    slot.
+    """
 
     kind: Literal["geneva"] = Field(description="Geneva drive: 1/n turn for every pin that passes, then rest")
     slots: int = Field(ge=3, le=1000, description="Number of slots n of the driven link, 3 or more")

@@ -143,7 +143,7 @@ class DeviationTransmission(TransmissionFunction):
         return bool(self._jumps(0).any())
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio in the direction of motion within one period."""
+        """Return the upward steps of the speed ratio within one period, for motion in the direction of rotation."""
         sides = [self._speed(each[self._jumps(1) != 0]) for each in self.deviation.sides(1)]
         pairs = zip(*(each.tolist() for each in sides[:: self.way * self.direction]), strict=True)
         return tuple(SpeedLeap(before, after) for before, after in pairs if after > before)

@@ -24,7 +24,9 @@ Number = Annotated[int, whole_from(1, 10**6, "teeth or falls")]
 
 
 class TravelCoupling(Coupling):
-    """Coupling of a link that turns and a link that slides; base class of racks, screws, drums and crank sliders."""
+    """Coupling of a link that turns and a link that slides. It is the base class of racks, screws, drums and crank
+    sliders.
+    """
 
     ENDS = ("turns", "slides")
     SIDES = ("slides", "turns")
@@ -35,7 +37,7 @@ class TravelCoupling(Coupling):
 
 
 class Rack(TravelCoupling):
-    """Pinion and rack: the travel per revolution is the pitch times the number of teeth of the pinion."""
+    """Pinion and rack. The travel per revolution is the pitch multiplied by the number of teeth of the pinion."""
 
     kind: Literal["rack"] = Field(description="Pinion that turns on a rack")
     teeth: Number = Field(description="Tooth count of the pinion")
@@ -61,7 +63,7 @@ class Rack(TravelCoupling):
 
 
 class Screw(TravelCoupling):
-    """Screw and nut: the travel per revolution is the lead. It is the same whether the screw or the nut turns."""
+    """Screw and nut. The travel per revolution is the lead, whether the screw or the nut turns."""
 
     kind: Literal["screw"] = Field(description="Screw in a nut; a right-hand screw draws its nut back")
     lead: Annotated[MeasuredLength, above_zero("give a lead such as 6 mm")] = Field(

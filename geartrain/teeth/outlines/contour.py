@@ -32,15 +32,17 @@ class Contour(Shown):
     """
 
     points: Floats
-    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]; the last vertex is joined to the first."""
+    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]. An edge joins the last vertex to
+    the first.
+    """
     bulges: Floats
-    """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4). It is 0 for a straight edge and
-    positive for an edge that turns left.
+    """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4), where the sweep is the angle of the
+    arc. The bulge is 0 for a straight edge and positive for an edge that turns left.
     """
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:
-        """Return a contour through vertices with bulges. Edges shorter than 1e-9 are omitted.
+        """Return a contour through the given vertices with bulges. Edges shorter than 1e-9 are omitted.
 
         Parameters
         ----------
@@ -67,7 +69,7 @@ class Contour(Shown):
         return cls(np.array([[x + radius, y], [x - radius, y]]), np.ones(2))
 
     def scaled(self, factor: float) -> Contour:
-        """Return the same shape at another scale.
+        """Return a contour with the same shape at another scale.
 
         Parameters
         ----------
@@ -86,8 +88,8 @@ class Contour(Shown):
         return zip(self.points, np.roll(self.points, -1, axis=0), self.bulges.tolist(), strict=True)
 
     def moments(self) -> tuple[float, float]:
-        """Return the enclosed area [mm2] and its polar second moment about the origin [mm4], computed exactly by
-        Green's theorem.
+        """Return the enclosed area [mm2] and the polar second moment of this area about the origin [mm4], computed
+        exactly by Green's theorem.
 
         Each result is the value of the polygon of the vertices plus the values of the circular segments of all arcs.
         Both results are negative if the contour is clockwise.

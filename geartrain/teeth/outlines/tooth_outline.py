@@ -34,9 +34,9 @@ class RootFillet:
     """
 
     start: complex
-    """Point at which the straight root flank ends and the fillet begins [module]."""
+    """Point at which the straight root flank ends and the fillet arc begins [module]."""
     end: complex
-    """Point at which the fillet touches the root circle [module]."""
+    """Point at which the fillet arc touches the root circle [module]."""
     centre: complex
     """Centre of the fillet arc [module]."""
     radius: float
@@ -205,7 +205,7 @@ class FlankCurve:
     """
 
     r: Floats
-    """Radii of the vertices [module]."""
+    """Radii of the vertices of the polyline [module]."""
     angle: Floats
     """Half of the angular tooth thickness at each vertex, minus half of the thickness at the pitch circle [rad]."""
     curve: Floats
@@ -217,7 +217,7 @@ class FlankCurve:
     R: float
     """Pitch radius of the wheel [module]."""
     outward: int
-    """Sign of the radial direction from root to tip: 1, or -1 for a ring gear."""
+    """Sign of the radial direction from root to tip: 1 for an external wheel, -1 for a ring gear."""
 
 
 def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: float) -> FlankCurve:
@@ -304,7 +304,8 @@ def _with_vertices(found: Floats, bends: Floats) -> Floats:
 def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
     """Return the radii [module] and angles [rad] of a polyline inside the tooth.
 
-    Its vertices are points of the flank where it is convex, and intersections of tangents where it is concave.
+    The vertices of the polyline are points of the flank where the flank is convex, and intersections of tangents where
+    the flank is concave.
     """
     r, angle = _polar(path, gear, X)
     points = r * np.exp(1j * angle)

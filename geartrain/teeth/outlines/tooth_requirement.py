@@ -64,9 +64,9 @@ class ToothRequirement(WheelRequirement):
     """Teeth of gear 1 or 2 that a conjugate pair requires. Lengths are in modules."""
 
     pair: ConjugatePair
-    """Pair at its design distance."""
+    """Conjugate pair at its design distance."""
     gear: int
-    """Number of the gear, 1 or 2."""
+    """Number of the gear whose teeth are required, 1 or 2."""
     tolerance: float
     """Maximum deviation of a chord from the flank [module]."""
     clearance: float = CLEARANCE
@@ -91,7 +91,7 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def flank(self) -> FlankCurve:
-        """Working flank of the gear."""
+        """Active flank of the gear."""
         return _flank(self.pair, self.gear, self.tolerance)
 
     @property
@@ -106,7 +106,7 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def has_pins(self) -> bool:
-        """True for the lantern of a pair, which has round pins instead of teeth."""
+        """True if this gear is the lantern of the pair, which has round pins instead of teeth."""
         return self.pins is not None and self.pins.gear == self.gear
 
     @property

@@ -57,7 +57,7 @@ class BlankSizes:
     """Maximum deviation of a chord from a flank [mm]."""
 
     def __post_init__(self) -> None:
-        """Raise `QuestionError` if a value is not a valid size."""
+        """Raise `QuestionError` if the value of a field is not a valid size."""
         problems = []
         for name in ("module", "bore", "rim", "tolerance", "fillet", "clearance"):
             value, may_be_0 = getattr(self, name), name in ("fillet", "clearance")

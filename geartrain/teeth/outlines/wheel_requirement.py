@@ -31,7 +31,7 @@ class CutTooth:
     """Tooth of a wheel that is to be cut. Lengths are in modules."""
 
     kind: str
-    """Kind of wheel: external, ring or pins."""
+    """Kind of the wheel: external, ring or pins."""
     tip: float
     """Radius of the tip circle [module]."""
     root: float

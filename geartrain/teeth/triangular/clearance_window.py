@@ -33,7 +33,7 @@ class TriangularContact:
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """Real path of contact in which the driven wheel dwells while no tooth pushes it."""
+        """Real path of contact, in which the driven wheel dwells while no tooth pushes it."""
         return drag(self.path)
 
     @property
@@ -342,7 +342,8 @@ def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
     """Return the bounds of the first range of excess in which the function `margin` is positive.
 
-    The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.
+    The range begins at 0 if the margin is positive at 0 or at `low`. The bounds are (0, 0) if the margin is never
+    positive.
     """
     # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):

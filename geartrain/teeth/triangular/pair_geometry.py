@@ -93,9 +93,9 @@ class TriangularSizes(Shown):
     R2: float
     """Tip radius of the second wheel, in the common length unit."""
     beta1: float
-    """Half aperture angle of the teeth of the first wheel [rad]."""
+    """Half of the aperture angle of the teeth of the first wheel [rad]."""
     beta2: float
-    """Half aperture angle of the teeth of the second wheel [rad]."""
+    """Half of the aperture angle of the teeth of the second wheel [rad]."""
     excess: float
     """Relative deviation of the centre distance from `deepest_distance`.
 
@@ -147,7 +147,7 @@ class TriangularSizes(Shown):
 
     @property
     def half_angles(self) -> tuple[float, float]:
-        """Half aperture angles of both wheels [rad]."""
+        """Half of the aperture angle of the teeth of each wheel [rad]."""
         return self.beta1, self.beta2
 
     @cached_property

@@ -81,7 +81,9 @@ class RealPath:
     """
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path. If `slips` is True, it includes contacts that limit the driven wheel but cannot drive it."""
+        """Create the path of contact. If `slips` is True, the path includes contacts that limit the driven wheel but
+        cannot drive it.
+        """
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -252,7 +254,7 @@ class RealPath:
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
     ) -> Iterator[float]:
-        """Yield the driver positions t [rad] at which the lags of two branches are equal."""
+        """Yield the driver positions t [rad] from `low` to `high` at which the lags of two branches are equal."""
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
         low, high = low + i * self.pitch, high + i * self.pitch
@@ -316,7 +318,7 @@ class SpeedJump(Result):
 
     @property
     def value(self) -> float:
-        """Relative jump of the normal velocity, 1 - before/after."""
+        """Relative jump 1 - before/after of the normal velocity."""
         return 1 - self.before / self.after
 
 

@@ -159,7 +159,7 @@ class TriangularMesh(GearMesh):
         return self.transmission.sizes
 
     def account(self) -> PairAccount:
-        """Return a report of clearance, transmission function and impacts of the pair."""
+        """Return a report on the clearance, the transmission function and the impacts of the pair."""
         figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
         tables = (
             AccountTable(_CLEARANCE_HEADER, _clearance_row(self)),
@@ -192,7 +192,7 @@ class TriangularFigures(PairFigures):
     window: ClearanceWindow | None
     """Clearance window of the pair; None if there are no teeth with these sizes."""
     intervals: tuple[DriveInterval, ...]
-    """Real path of contact over one pitch of the driver, in order of time."""
+    """Intervals of the real path of contact over one pitch of the driver, in order of time."""
     jumps: tuple[SpeedJump, ...]
     """Impacts within one pitch."""
     impacts: Any = None

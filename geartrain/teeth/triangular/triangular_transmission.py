@@ -80,7 +80,7 @@ class TriangularTransmission(ToothTransmission):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact over one pitch of the driver, in order of time, including dwells."""
+        """Intervals of the real path of contact over one pitch of the driver, in order of time. Dwells are included."""
         return self.contact.intervals
 
     @property
@@ -106,7 +106,7 @@ class TriangularTransmission(ToothTransmission):
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
-        """Return the sliding speed divided by the pitch-line speed.
+        """Return the sliding speed at given contacts, divided by the pitch-line speed.
 
         Parameters
         ----------
@@ -227,7 +227,7 @@ class TriangularTransmission(ToothTransmission):
         return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._drive_intervals])))
 
     def kinks(self) -> list[float]:
-        """Return the driver angles at the ends of all smooth intervals [rad]."""
+        """Return the driver angles [rad] at the ends of all smooth intervals of the path of contact."""
         edges = dict(zip(self.intervals, self._edges.tolist(), strict=False))
         angles = [edges[interval] + interval.start - high - self._start for interval, high, _ in self.stretches]
         return [self.direction * angle for angle in angles]
@@ -344,7 +344,9 @@ class TriangularTransmission(ToothTransmission):
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the speed ratios before and after each impact within one pitch."""
+        """Return the steps of the speed ratio at all impacts within one pitch: the ratio before and the ratio after
+        each impact.
+        """
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
 
 

@@ -246,7 +246,7 @@ def _draw_key(
 
 
 def _sample_length(face: DialPicture) -> float:
-    """Return the length of the sample of a hand in the key of a dial face [in]."""
+    """Return the length [in] of the sample that shows the style of a hand in the key of a dial face."""
     return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
 

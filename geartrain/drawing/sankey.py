@@ -151,8 +151,8 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the abscissae of the column centres [in], with space for names and return bands. The total width is at
-    least `minimum` [in].
+    """Return the abscissae of the column centres [in], with space for names and return bands. The total width is not
+    less than `minimum` [in].
     """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]

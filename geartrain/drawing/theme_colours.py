@@ -34,7 +34,7 @@ _LUMA = np.array([0.2126, 0.7152, 0.0722])  # weights of red, green and blue in 
 
 @contextmanager
 def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
-    """Recolour the figure for a theme within a `with` block, and restore the light colours afterwards."""
+    """Convert the figure to the colours of a theme within a `with` block, and restore the light colours afterwards."""
     if name == "light":
         yield
         return

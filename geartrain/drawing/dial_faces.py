@@ -246,7 +246,7 @@ def _draw_key(
 
 
 def _sample_length(face: DialPicture) -> float:
-    """Return the length [in] of the sample that shows the style of a hand in the key of a dial face."""
+    """Return the length [in] of the sample in the key of a dial face that shows the style of one pointer."""
     return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
 

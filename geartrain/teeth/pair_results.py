@@ -244,7 +244,7 @@ class PinFigures(Result):
     speed_ratio: SpeedRatio
     """Speed ratio: speed of the driven side divided by speed of the driver."""
     amplitude: float
-    """Maximum transmission error [rad of the driven side]."""
+    """Maximum transmission error of the driven side [rad]."""
     transmission_error: TransmissionError
     """Transmission error of the driven side."""
     efficiency: SlidingEfficiency

@@ -113,7 +113,7 @@ class ProjectedScene:
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return points (points, 3) [mm] along the bore of a flexible wheel, which its wave generator touches."""
+        """Return points (n, 3) [mm] along the bore of a flexible wheel, which is in contact with the wave generator."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 

@@ -104,8 +104,8 @@ class StickLabels:
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add the name of a link to the left of its shaft, or above, below or to the right of the shaft; the shaft
-        extends from `left` to `right` at height y [in].
+        """Add the name of a link to the left of its shaft, or above, below or to the right of the shaft. The shaft
+        extends from `left` to `right` at the height `y` [in].
         """
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)

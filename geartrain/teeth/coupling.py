@@ -74,7 +74,7 @@ class CouplingRow(NamedTuple):
     id: str
     """Name of the row, which is the name of the coupling unless the coupling has several rows."""
     driven: str
-    """Driven link i. Its speed is m times the speed of the driving link, relative to the carrier."""
+    """Driven link i. Relative to the carrier, its speed is the mean ratio times the speed of the driving link."""
     driver: str
     """Driving link j."""
     a: int

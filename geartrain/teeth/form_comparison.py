@@ -199,7 +199,7 @@ def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> Conjugat
 
 
 def arcs_error(text: str) -> QuestionError:
-    """Return the error that reports arcs of contact out of range."""
+    """Return the error for arcs of contact that are out of range."""
     why = f"arcs of approach and recess are numbers from 0 to {_MOST_PITCHES:g}, and not both 0"
     fix = "give two arcs in pitches with a sum of 1 or more, such as 0.5,0.5"
     return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "arcs"))
@@ -225,7 +225,7 @@ def _check(
 
 
 def _reference_error(base: MeasuredForm) -> QuestionError:
-    """Return the error that reports that the reference involute cannot run.
+    """Return the error for a reference involute that cannot run.
 
     Fixes that change the pressure angle are omitted, because the reference has 20 degrees by definition.
     """

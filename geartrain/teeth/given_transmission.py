@@ -205,7 +205,7 @@ class GivenMesh(GearMesh):
 
     @property
     def friction_words(self) -> str:
-        """Text that describes the losses of the pair, without a full stop."""
+        """Text that describes the losses of the pair for reports. It does not end with a full stop."""
         return "Efficiency as given" if self.computes_losses else "No efficiency is given"
 
     def efficiency(self, driver: str) -> SlidingEfficiency:

@@ -208,8 +208,8 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVe
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """Return the problem that reports teeth that lock because the coefficient of friction is at least the limit
-    `locking`.
+    """Return the problem of teeth that lock because the coefficient of friction `friction` is equal to or above the
+    limit `locking`.
     """
     return Problem(
         f"a coefficient of friction of {friction:g} locks these teeth",
@@ -219,7 +219,7 @@ def friction_lock(friction: float, locking: float) -> Problem:
 
 
 def friction_lock_at_speed(law: str, locking: float) -> Problem:
-    """Return the problem that reports teeth that lock at their speed under the friction law named `law`.
+    """Return the problem of teeth that lock, at their speed, under the friction law named `law`.
 
     `locking` is the minimum constant coefficient of friction that locks the teeth.
     """

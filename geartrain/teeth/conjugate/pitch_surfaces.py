@@ -19,7 +19,7 @@ class PitchSurfaces:
     """Pitch cylinders or cones of a gear pair in which gear 1 drives.
 
     z1, z2   tooth numbers; the virtual tooth numbers of bevel gears need not be integers
-    R1, R2   spur: pitch radii in modules; bevel: half-angles of the pitch cones (rad) on the unit sphere
+    R1, R2   spur: pitch radii in modules; bevel: half-angles of the pitch cones [rad]
     bevel    True for cones
 
     A ring gear is gear 2 with a negative R2. The formulas of an external pair then apply to a ring gear without change.

@@ -114,7 +114,7 @@ class PiecewiseTransmission:
 
     def steepest_fall(self) -> float:
         """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad] within the
-        intervals; 0 if it never decreases.
+        intervals; 0 if the speed ratio never decreases.
         """
         return max(0.0, -self.speeds.extremes(1)[0])
 
@@ -315,8 +315,8 @@ class _Fitter:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Return the intervals sorted by driver angle, with kinks moved to the intersections of adjacent polynomials,
-        and the ends and kinks.
+        """Return the intervals sorted by driver angle, their ends, and the ends that are kinks. Kinks are moved to the
+        intersections of adjacent polynomials.
         """
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))

@@ -122,8 +122,8 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert the text of a value as in a declaration: parse a value in brackets or braces as YAML, split a value with
-    commas into a list, and convert an integer if the field allows this integer.
+    """Convert the text of a value in the way a declaration is read. A value in brackets or braces is parsed as YAML, a
+    value with commas becomes a list, and an integer is converted to int if the field allows it.
     """
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml

@@ -53,7 +53,7 @@ class VaryingCoupling(Result):
     ratio: Fraction
     """Exact mean ratio: speed of the driven link divided by speed of the driving link, relative to the carrier."""
     swing: float
-    """Maximum minus minimum deviation of the driven link from uniform motion [rad] (peak-to-peak value)."""
+    """Peak-to-peak deviation of the driven link from uniform motion [rad]."""
     speed_ratio: tuple[float, float]
     """Minimum and maximum speed ratio. The sign is chosen so that the mean ratio is positive."""
     at_once: bool

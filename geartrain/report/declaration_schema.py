@@ -100,8 +100,8 @@ def _body(part: Schema) -> Schema:
 
 
 def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
-    """Return an example value of each key of each part: the shortest value in the examples of the part itself, or if
-    there is none, in all examples.
+    """Return an example value of each key of each part. It is the shortest value in the examples of that part or, if
+    these contain none, in all examples.
     """
     found: dict[tuple[str, str], tuple[bool, int, Any]] = {}
     for source, data in example_data():

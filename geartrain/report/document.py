@@ -53,7 +53,7 @@ class SceneText(str):
     _scene: int
 
     def __new__(cls, text: str, scene: int) -> SceneText:
-        """Return text that refers to the scene with this number."""
+        """Return text that refers to the scene with the number `scene`."""
         made = super().__new__(cls, text)
         made._scene = scene
         return made

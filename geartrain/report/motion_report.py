@@ -29,9 +29,9 @@ class PhaseRange(NamedTuple):
     """Range of the deviation of one output over several runs with random tooth phases."""
 
     peak_to_peak: tuple[float, float]
-    """Minimum and maximum, over the runs, of the peak-to-peak deviation of the output [rad]."""
+    """Minimum and maximum of the peak-to-peak deviation of the output [rad] in all runs."""
     rms: tuple[float, float]
-    """Minimum and maximum, over the runs, of the root mean square deviation of the output [rad]."""
+    """Minimum and maximum of the root mean square deviation of the output [rad] in all runs."""
 
 
 class PhaseSets(NamedTuple):
@@ -40,7 +40,7 @@ class PhaseSets(NamedTuple):
     sets: int
     """Number of sets of random tooth phases."""
     seed: int | None
-    """Random seed; None if none was given."""
+    """Random seed; None if no seed was given."""
 
 
 class PartialRun(NamedTuple):
@@ -65,9 +65,11 @@ class OutputMotion:
     sensitivity: Mapping[str, float]
     """Rotation of the output per rotation error of the driven wheel of each pair [rad/rad], keyed by pair."""
     phases: PhaseRange | None
-    """Range of the deviation over runs with random tooth phases; None if not requested."""
+    """Range of the deviation over runs with random tooth phases; None if it was not requested."""
     spectrum: Sequence[SpectrumLine] | None
-    """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None if not requested."""
+    """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None if they were not
+    requested.
+    """
 
 
 @dataclass(frozen=True)
@@ -113,7 +115,7 @@ class MotionFigures(Result):
     `simulation` is not installed.
     """
     phases: PhaseSets | None
-    """Random tooth phases that were evaluated; None if not requested."""
+    """Random tooth phases that were evaluated; None if none were requested."""
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
     advances: Mapping[str, float]

@@ -121,9 +121,9 @@ class TorqueReport(Result):
     states: tuple[TorqueFigures, ...]
     """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
-    """Torque over some revolutions of the input in one state; None if not requested."""
+    """Torque over some revolutions of the input in one state; None if it was not requested."""
     friction_trials: Annotated[Any, WingResult("workshop.monte_carlo.friction_trials", "FrictionTrials")] | None = None
-    """Results of torque analyses with random friction; None if not requested."""
+    """Results of torque analyses with random friction; None if they were not requested."""
 
 
 def collect_torque_report(

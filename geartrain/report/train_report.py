@@ -203,8 +203,8 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
-    """Return the train as a gearbox; None if it has no clutches and brakes, has no states, or is not a
-    valid gearbox.
+    """Return the train as a gearbox; None if the train has no clutches or brakes, has no states, or is not a valid
+    gearbox.
     """
     try:
         return train.gearbox() if train.declaration.clutches and train.states else None
@@ -351,8 +351,8 @@ def _circuits_in_short(train: GearTrain) -> str:
 
 
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
-    """Yield sentences on mobility (by counting joints and by rank), redundant circuits, locked links, and links at rest
-    (`held`).
+    """Yield sentences on mobility (from the numbers of joints and from the rank of the equations), redundant circuits,
+    locked links, and links at rest (`held`).
     """
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     slides = f" + {plural(found.sliding_pairs, 'sliding pair')}" if found.sliding_pairs else ""

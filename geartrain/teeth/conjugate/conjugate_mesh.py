@@ -176,7 +176,7 @@ class ConjugateMesh(GearMesh):
         return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
+        """Return the report on the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
         efficiency.
         """
         figures = _figures(self)

@@ -154,8 +154,8 @@ class FlankSegments(NamedTuple):
     respect to the parameter u of `piece1`, shape (4, 2, n).
     """
     v: Floats
-    """Parameter of `piece2`, -1 or 1, if an end of `piece2` is at this end of the segment; NaN if it is an interior
-    point. Shape (2, n).
+    """Parameter of `piece2`, -1 or 1, if the segment ends at an end of `piece2`; NaN if it ends at an interior point of
+    `piece2`. The shape is (2, n).
     """
 
 

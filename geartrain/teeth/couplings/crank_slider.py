@@ -77,8 +77,8 @@ class CrankSliderTransmission(LosslessTransmission):
         return np.asarray(self.period * (self.r * (np.cos(S) - 1) + self._along(S) - self.l))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at crank angles S [rad]: travel of the slide per revolution of the crank, if the slide
-        kept its instantaneous speed [mm].
+        """Return the speed ratio at crank angles S [rad]: the travel of the slide in one revolution of the crank at
+        constant instantaneous speeds [mm].
         """
         import numpy as np
 

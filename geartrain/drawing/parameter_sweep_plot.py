@@ -146,7 +146,7 @@ def parameter_label(name: str, unit: str = "") -> str:
 
 
 def parameter_name(name: str) -> str:
-    """Return a parameter of triangular teeth as a name in words."""
+    """Return the name, in words, of a parameter of triangular teeth."""
     return _NAMES[name][0] if name in _NAMES else name.replace("_", " ")
 
 

@@ -315,8 +315,8 @@ def result_words(result: OutputResult) -> str:
 
 
 def only_sign(result: OutputResult) -> str:
-    """Return a remark and a remedy if an output has the expected magnitude but the opposite sense; otherwise return an
-    empty string.
+    """Return a remark and a remedy if an output has the expected magnitude but the opposite sense, or an empty string
+    if it does not.
     """
     if not result.differs_in_sign:
         return ""
@@ -518,8 +518,8 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _pi(answer: Answer, name: str) -> str:
-    """Return a mark if the speed of a link or output contains pi but is not written as a multiple of pi; otherwise an
-    empty string.
+    """Return a mark if the speed of a link or output contains pi but is not written as a multiple of pi, or an empty
+    string if no mark is needed.
     """
     speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
     if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):

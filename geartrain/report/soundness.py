@@ -97,7 +97,7 @@ def _without_findings(train: GearTrain, whole: bool) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the failures of one state: its verdict if another verdict is expected, otherwise each expectation that is
+    """Yield the failures of one state: its verdict if another verdict is expected, or each expectation that is
     not met.
     """
     state = f" state {answer.state}" if answer.state is not None else ""

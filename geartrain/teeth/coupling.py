@@ -82,7 +82,7 @@ class CouplingRow(NamedTuple):
     b: int
     """Coefficient of link j, equal to -m a, where m is the mean ratio."""
     wheels: tuple[str, str] | None = None
-    """Wheels of links i and j if the absolute values of a and b are their tooth counts; otherwise None."""
+    """Wheels of links i and j if the absolute values of a and b are their tooth counts; None if they are not."""
     carrier: str | None = None
     """Declared carrier k; None if the carrier follows from the turning pairs of links i and j."""
 

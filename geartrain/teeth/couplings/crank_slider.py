@@ -77,8 +77,8 @@ class CrankSliderTransmission(LosslessTransmission):
         return np.asarray(self.period * (self.r * (np.cos(S) - 1) + self._along(S) - self.l))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at crank angles S [rad]: the travel of the slide in one revolution of the crank at
-        constant instantaneous speeds [mm].
+        """Return the speed ratio at crank angles S [rad]: the instantaneous speed of the slide divided by the speed of
+        the crank [mm/turn].
         """
         import numpy as np
 

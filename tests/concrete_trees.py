@@ -18,15 +18,18 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
+from geartrain.report import Section
 from geartrain.search.reconstruct import (
     Additions,
     Arbor,
     PlacedWheel,
+    ReconstructionAnswer,
     ReconstructionProblem,
     SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
 )
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 from geartrain.train import Train, declare
 
 Wheel = tuple[str, int]
@@ -518,3 +521,8 @@ def declared(problem: ReconstructionProblem) -> Train:
             "reconstruct": requested,
         }
     )
+
+
+def sections(answer: ReconstructionAnswer) -> dict[str, Section]:
+    """Return the sections of the page on an answer by their titles."""
+    return {section.title: section for section in describe_reconstruction(answer).sections}

@@ -710,7 +710,7 @@ CASES = (
             "Each pair rounds the angle of the next, and the errors of all add up.",
             slow,
         )
-        for pairs, places, slow in ((300, (77, 200), False), (10_000, (77,), True))
+        for pairs, places, slow in ((300, (77, 200), False), (1_000, (77,), True))
     ),
     *(
         Case(

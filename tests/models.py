@@ -46,6 +46,12 @@ def planetary(rest: str = "inputs: {sun: 1}") -> GearTrain:
     return load(PLANETARY.format(rest=rest))
 
 
+def transmission_of(text: str) -> Any:
+    """Return the transmission function of the only pair or coupling of a train."""
+    (found,) = (law for *_, law in load(text).graph.edges(data="transmission") if law is not None)
+    return found
+
+
 def refusal(text: str) -> str:
     with pytest.raises(GearTrainError) as caught:
         load(text)

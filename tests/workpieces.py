@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import csv
 from functools import cache
+from io import StringIO
 from typing import Any
 
 import shipped
 
 from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.workshop import export_files
+from geartrain.workshop.export.assembly_guide import assembly_steps
 from geartrain.workshop.export.proof.mesh_proof import paired_wheels, prove_mesh, read_wheels
 from geartrain.workshop.export.proof.turned_pair import cut_lines
 
@@ -19,6 +23,17 @@ def workpiece(name: str, state: str | None = None, **making: Any) -> SolidModel:
     model = SolidModel(train, ManufacturingSizes(**making), train.declaration.state_or_first(state))
     vars(model)["_laid"] = shipped.layout(name)  # as the model itself would lay out the train, for each of its sizes
     return model
+
+
+def part_rows(work: SolidModel) -> dict[str, dict[str, str]]:
+    """Return the rows of the list of parts by the name of each part."""
+    (file,) = (each for each in export_files(work, ["svg"]) if each.path == "parts.csv")
+    return {name: row for row in csv.DictReader(StringIO(file.make().decode())) for name in row["part"].split(", ")}
+
+
+def steps(work: SolidModel) -> list[Any]:
+    """Return the steps of assembly, each with its parts and its text."""
+    return list(assembly_steps(work))
 
 
 def outlines(svg: str, tolerance: float = 1e-5) -> list[list[tuple[float, float]]]:

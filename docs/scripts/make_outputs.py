@@ -43,6 +43,7 @@ NAMES = (
     "reducers",
     "drawing",
     "cut-by-hand",
+    "budgets",
 )
 PAGES = (ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 COLUMNS = "100"

@@ -1,4 +1,4 @@
-"""Torques, losses and transmission errors, which result from the loads, the friction and the tooth forms of a train.
+"""Torques, losses and transmission errors of a train, from its loads, friction and tooth forms.
 
 Input are the circuits, exact speeds and loads of a state, and the known data of each gear pair. Results are torques,
 powers, efficiencies, the driving wheel of each pair, and the angle of every link at every position including

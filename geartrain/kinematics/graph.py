@@ -6,7 +6,7 @@ The edges are undirected. The declared object of an edge determines which link h
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import printable
@@ -91,19 +91,17 @@ def adjacency_kinds(train: Train) -> list[list[str]]:
     return cells
 
 
-def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
+def adjacency_matrix(graph: Graph) -> LabelledArray:
     """Return the adjacency matrix, whose entries are the numbers of edges between each two links."""
     import numpy as np
 
     from geartrain.numerics.labelled_array import labelled_array
 
-    wanted = set(kinds)
     at = {link: position for position, link in enumerate(graph)}
     values = np.zeros((len(at), len(at)), dtype=np.int64)
-    for first, second, data in graph.edges(data=True):
-        if not wanted or data["kind"] in wanted:
-            values[at[first], at[second]] += 1
-            values[at[second], at[first]] += 1
+    for first, second in graph.edges():
+        values[at[first], at[second]] += 1
+        values[at[second], at[first]] += 1
     return labelled_array(values, link=tuple(at), neighbour=tuple(at))
 
 

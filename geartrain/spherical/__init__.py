@@ -1,4 +1,4 @@
-"""Gears on a sphere, whose axes pass through one point. They are placed on polyhedra, or determined by a planar graph.
+"""Gears on a sphere: their axes pass through one point. They are placed on polyhedra, or determined by a planar graph.
 
 Inputs are a solid (by name or by its vertices) or a graph of meshing gears, and the tooth number of each kind of gear.
 The result is a `Configuration` of axes, meshes and kinds. Functions check whether the set can turn and whether its

@@ -107,14 +107,14 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
     return LoopCorners(columns[0], columns[1], columns[2], columns[3], columns[4], len(loops))
 
 
-def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, seed: int = 0) -> tuple[Floats, list[float]]:
+def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints) -> tuple[Floats, list[float]]:
     """Return axes near the given axes for which all meshes have the same pitch, and the residual after each step.
 
     Solutions are not unique; a nearby solution is returned. A symmetric set may have no solution with this symmetry, so
     a fit that fails is repeated after random displacements of the axes by a few degrees. If the residual of the
     returned axes exceeds rounding errors, no solution was found nearby.
     """
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(0)
     history: list[float] = []
     best = (np.inf, axes)
     for size in _TRIES:

@@ -39,6 +39,17 @@ def test_rings_before_each_other_are_cut_open_and_a_lone_one_is_whole(show: Open
     assert shown.run("geartrain.stages[0].world.opened") is opened
 
 
+# triangles of a frame as three.js counts them, and of the visible parts, with the insides of those that are cut open
+DRAWN = """() => {
+  const [stage] = geartrain.stages, {castings, palette, opened, ground} = stage.world;
+  stage.render();
+  const shown = castings.flatMap(({parts}) => parts ?? []).filter(({slot}) => palette.looks[slot].shown);
+  const cut = shown.filter(({slot}) => opened && palette.looks[slot].opened && palette.looks[slot].opacity === 1);
+  const count = (parts) => parts.reduce((sum, {from, to}) => sum + (to - from) / 3, 0);
+  return [stage.renderer.info.render.triangles, count(shown) + count(cut) + ground.mesh.geometry.index.count / 3];
+}"""
+
+
 def test_a_train_without_rings_cannot_be_cut_open(show: Opening) -> None:
     assert not show("worm").page.get_by_label("Cut open").is_visible()
 
@@ -79,3 +90,18 @@ def test_backs_of_closed_bodies_need_not_be_drawn(show: Opening) -> None:
         front, both = (picture(shown.run(SIDED, [side, towards])) for side in (0, 2))
         differs = np.abs(front - both).max(axis=2) > 40
         assert differs.mean() < 0.002, "but for single points on edges"
+
+
+def test_visible_parts_are_drawn_once_and_hidden_ones_not_at_all(show: Opening) -> None:
+    shown = show(TWO_RINGS, teeth=True)
+    counts = []
+    for name in (None, "Teeth", "Cut open"):
+        if name is not None:
+            shown.page.get_by_label(name).uncheck()
+        drawn, visible = shown.run(DRAWN)
+        assert drawn == visible, name
+        counts.append(drawn)
+    assert counts == sorted(counts, reverse=True), "teeth and insides are no longer drawn"
+    shown.run("() => { const {world} = geartrain.stages[0]; world.meshOf = () => 0; world.arranged = false; }")
+    drawn, visible = shown.run(DRAWN)
+    assert drawn > visible, "the count notices hidden parts"

@@ -9,15 +9,12 @@ from itertools import combinations
 
 import pytest
 from concrete_trees import exact_dial, sure_arbor
-from studies import left_out_study
-from studies.left_out_records import LeftOutRecord, LeftOutRecords
+from studies.left_out_records import LeftOutRecords
 from studies.left_out_study import fewest_new_arbors, find_trees, left_out
 from studies.measurement import gathered
 
-from geartrain import load, shipped
-from geartrain.search.reconstruct import Additions, ReconstructionProblem, evidence_question, find_reconstructions
-from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence, lost_wheels
+from geartrain import shipped
+from geartrain.search.reconstruct import Additions, ReconstructionProblem
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
@@ -76,29 +73,6 @@ def test_of_what_is_not_finished_less_is_requested() -> None:
         assert row.told[0] <= whole.rank[0]  # meshes that are told can but leave out others
         assert row.first == whole.rank[0]
         assert list(row.solutions) == list(whole.solutions[:-1])
-
-
-def test_explanations_with_as_many_wheels_on_fewer_arbors_weigh_more() -> None:
-    """From 20 of a and 40 of b a pointer of 1/8 may be driven; a lost arbor has 2 wheels, and 2 stand beside others."""
-    text = """\
-name: beside
-links:
-  frame: {}
-  a: {wheels: {a1: 20}}
-  b: {wheels: {b1: 40, b2: 20}}
-  c: {wheels: {c1: 40, c2: 20}}
-  d: {wheels: {d1: 40}}
-revolutes: {A: [frame, a], B: [frame, b], C: [frame, c], D: [frame, d]}
-gears: [a1 ~ b1, b2 ~ c1, c2 ~ d1]
-inputs: {a: 1}
-outputs: {d: {expect: -1/8}}
-"""
-    tree = find_spur_tree(load(text).declaration)
-    for lost in (["c"], ["b", "c"], ["d"]):
-        row = LeftOutRecord("beside", lost, lost_wheels(tree, lost), [], [], None, False, None)
-        problem = evidence_question(lost_evidence(tree, lost)).problem
-        place = find_place(tree.arbor(lost), problem, find_reconstructions(problem))
-        assert list(left_out_study._better(tree, tuple(lost), row))[-1][1] == place.ranks[0] - 1, lost
 
 
 def test_a_pointer_of_each_speed_needs_an_arbor() -> None:

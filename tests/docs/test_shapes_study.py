@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from math import log10, pi, radians
+from math import log10, pi
 
 import mpmath as mp
 import numpy as np
 import pytest
-from numpy.polynomial import Chebyshev
 from studies.shape_cases import CASES, EXTREMES, TRUTH, ShapeCase
 from studies.shape_methods import collocated, marched, packaged, searched
 from studies.shape_study import WorkRecord, quickest
 
 from geartrain.errors import RangeError
 from geartrain.teeth.conjugate import optimal_sides as forms
-from geartrain.teeth.conjugate.optimal_sides import solved
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
@@ -86,21 +84,6 @@ def test_a_path_that_comes_to_a_right_angle_before_its_end_is_refused() -> None:
     """Marched apart, it comes to 90 degrees at an arc of 0.93 modules, short of half a pitch."""
     with pytest.raises(RangeError, match="does not reach"):
         forms.uniform_heat(PitchSurfaces.spur(5, 5), 0.4, 1.6, pi / 2)
-
-
-def test_a_ray_before_it_does_not_hide_a_path_that_comes_to_a_right_angle() -> None:
-    with pytest.raises(RangeError, match="does not reach"):
-        forms.bounded_heat(PitchSurfaces.spur(5, 5), 0.4, 1.6, pi / 2, radians(12))
-
-
-def test_a_solution_is_one_function_whatever_its_end() -> None:
-    pitch = PitchSurfaces.spur(24, 36)
-    transmission = forms.stress_law(pitch, pitch.A, pitch.B, radians(20))
-    long, short = (solved(pitch, transmission, float(np.sin(radians(20))), end) for end in (1.6, 0.9))
-    d = np.linspace(0, 0.9, 50)
-    np.testing.assert_allclose(long(d), short(d), rtol=3e-15)
-    warm: Chebyshev = solved(pitch, transmission, float(np.sin(radians(20))), 1.6, near=short)
-    np.testing.assert_allclose(warm(d), long(d), rtol=3e-15)
 
 
 def test_a_way_that_fails_has_no_error_and_is_never_the_quickest() -> None:

@@ -5,19 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 import networkx as nx
-import numpy as np
 import pytest
-from studies.circle_packings import FixedPoint, judged, overlaps
 from studies.loop_closures import draw_teeth, true_residue
 from studies.planar_graphs import hull, trapezohedron, zonohedron
 from studies.sphere_records import TARGET, ClosureRecord, PackRecord, SphereRecords
 from studies.sphere_study import sphere
-
-from geartrain.spherical.circle_packing import PlanarPacking, pack_circles
-from geartrain.spherical.graph_set import checked_graph, regions_of, with_region_circles
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
@@ -25,16 +19,6 @@ pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the 
 @pytest.fixture(scope="module")
 def records() -> SphereRecords:
     return sphere(quick=True)
-
-
-def map_of(edges: list[tuple[str, str]]) -> tuple[int, list[tuple[int, ...]]]:
-    named = checked_graph(edges)
-    return with_region_circles(len(named), regions_of(named), list(named))
-
-
-@pytest.fixture(scope="module")
-def packing() -> Any:
-    return pack_circles(*map_of(hull(7)))
 
 
 def closures(records: SphereRecords, method: str) -> list[ClosureRecord]:
@@ -63,36 +47,10 @@ def test_the_fixed_point_only_divides_the_residual(records: SphereRecords) -> No
         assert len(row.counted) <= 6
 
 
-def test_both_ways_lead_to_the_same_radii() -> None:
-    plane = PlanarPacking(*map_of(hull(11)))
-    u, _ = plane.radii()
-    sweeps = FixedPoint(plane)
-    sweeps.run(1e-12)
-    near = u[np.isfinite(u)]
-    assert sweeps.u - sweeps.u[0] == pytest.approx(near - near[0], abs=1e-10)
-    assert sweeps.residual < 1e-12
-    hasty = FixedPoint(plane)
-    hasty.run(0.0, patience=0.0)
-    assert hasty.sweeps == 10
-    assert 1e-3 < hasty.residual < 10
-
-
 def test_packings_touch_in_forty_digits(records: SphereRecords) -> None:
     for row in records.packings:
         assert 0 < row.judged < 1e-14
         assert row.overlaps == 0
-
-
-def test_the_judge_tells_an_error_that_is_there(packing: Any) -> None:
-    assert judged(packing) < 1e-14
-    cones = packing.cones.copy()
-    cones[3] += 1e-7
-    wide = replace(packing, cones=cones)
-    assert judged(wide) == pytest.approx(1e-7, rel=1e-6)
-    assert overlaps(wide) == sum(3 in mesh for mesh in packing.meshes)
-    regions = packing.region_cones.copy()
-    regions[2] -= 1e-8
-    assert judged(replace(packing, region_cones=regions)) == pytest.approx(1e-8, rel=1e-5)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from itertools import combinations, pairwise
 from typing import Any
 
@@ -19,6 +20,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from geartrain.drawing.theme_colours import themed
+from geartrain.scene.palette import THEMES
 
 _LINE, _AREA = 70.0, 15.0  # grey levels of 255: minimum difference of lines and of areas that are distinguishable
 _WIDTH = 1.6  # ratio of two distinguishable line widths
@@ -27,6 +29,16 @@ _SIZE = 1.3  # ratio of two distinguishable marker sizes
 
 KINDS = ("plan", "stick", "graph", "lever", "dials")
 """Kinds of pictures of a train, as the refusal of another one lists them."""
+
+
+def in_theme(figure: Figure, theme: Any) -> AbstractContextManager[Any]:
+    """Return a context in which a figure has the colours of a theme."""
+    return themed(figure, theme)
+
+
+def palette(theme: str) -> Any:
+    """Return the colours of a theme."""
+    return THEMES[theme]  # type: ignore[index]
 
 
 def alike(figure: Figure, theme: Any = "print") -> list[tuple[str, str]]:

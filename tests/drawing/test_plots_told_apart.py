@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from seen_figure import alike, crowded, hidden, without_quantity
+from seen_figure import alike, crowded, hidden, in_theme, palette, without_quantity
 from shipped import train as load
 from test_tooth_figures import transmission
 
@@ -21,9 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from geartrain.drawing import sweep_figure
-from geartrain.drawing.theme_colours import themed
 from geartrain.drawing.transmission_curves import shapes_figure, triangular_figure
-from geartrain.scene.palette import THEMES
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -37,8 +35,8 @@ GRID = np.linspace(0.0, 1.0, 5)
 def test_the_arrow_of_an_annotation_is_of_the_ink_of_its_theme(theme: Any) -> None:
     figure = triangular_figure(transmission(60, 30, 0.05))
     (time,) = [text for axes in figure.axes for text in axes.texts if text.get_text() == "time"]
-    with themed(figure, theme):
-        assert to_hex(time.arrow_patch.get_edgecolor()) == THEMES[theme].ink  # type: ignore[attr-defined]
+    with in_theme(figure, theme):
+        assert to_hex(time.arrow_patch.get_edgecolor()) == palette(theme).ink  # type: ignore[attr-defined]
 
 
 def test_words_at_a_line_stay_within_their_panel() -> None:
@@ -160,7 +158,7 @@ def keyed(*entries: Any) -> Figure:
 
 
 def test_two_lines_or_areas_of_one_grey_are_found() -> None:
-    light = THEMES["light"]
+    light = palette("light")
     one, two = (Line2D([], [], color=colour, label=colour) for colour in (light.series[0], light.fault))
     assert alike(keyed(one, two)) == [(light.series[0], light.fault)]
     assert not alike(keyed(one, two), "light")

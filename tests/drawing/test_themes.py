@@ -20,11 +20,9 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 from PIL import Image
-from seen_figure import KINDS
+from seen_figure import KINDS, in_theme, palette
 
 from geartrain.drawing import picture, render
-from geartrain.drawing.theme_colours import themed
-from geartrain.scene.palette import THEMES, series_colour
 
 _COLOUR = re.compile(rb"#[0-9a-f]{6}")
 
@@ -33,9 +31,9 @@ _COLOUR = re.compile(rb"#[0-9a-f]{6}")
 def test_a_dark_picture_holds_none_of_the_colours_of_the_light_one(kind: str) -> None:
     figure = picture(load("planetary"), kind, load("planetary").states[0])  # type: ignore[arg-type]
     dark = {found.decode() for found in _COLOUR.findall(render(figure, ".svg", theme="dark"))}
-    light = THEMES["light"]
+    light = palette("light")
     assert not dark & {light.paper, light.ink, light.quiet, light.line, light.fault, *light.series, "#000000"}
-    assert THEMES["dark"].paper in dark
+    assert palette("dark").paper in dark
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -61,7 +59,7 @@ def bars(width: int) -> Figure:
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, 500), ylim=(0, 100))
     axes.set_axis_off()
     for at in range(10):
-        axes.add_patch(Rectangle((50 * at + 20, 30), width, 40, color=series_colour(at), linewidth=0))
+        axes.add_patch(Rectangle((50 * at + 20, 30), width, 40, color=palette("light").series[at], linewidth=0))
     return figure
 
 
@@ -89,14 +87,14 @@ def test_areas_of_any_two_series_are_told_apart_in_print_however_short(width: in
 def test_areas_and_their_legend_have_one_filling_in_print_and_a_veil_has_none() -> None:
     figure = Figure()
     axes = figure.subplots()
-    (bar,) = axes.bar([0], [1], color=series_colour(2))
-    veil = axes.axhspan(0, 1, color=series_colour(2), alpha=0.2)
-    (entry,) = axes.legend(handles=[Patch(color=series_colour(2), label="third")]).get_patches()
+    (bar,) = axes.bar([0], [1], color=palette("light").series[2])
+    veil = axes.axhspan(0, 1, color=palette("light").series[2], alpha=0.2)
+    (entry,) = axes.legend(handles=[Patch(color=palette("light").series[2], label="third")]).get_patches()
     before = render(figure, ".svg")
-    with themed(figure, "print"):
-        colour, hatch = THEMES["print"].areas[2]
+    with in_theme(figure, "print"):
+        colour, hatch = palette("print").areas[2]
         assert [(to_hex(each.get_facecolor()), each.get_hatch()) for each in (bar, entry)] == [(colour, hatch)] * 2
-        assert {to_hex(each.get_edgecolor()) for each in (bar, entry)} == {THEMES["print"].ink}
+        assert {to_hex(each.get_edgecolor()) for each in (bar, entry)} == {palette("print").ink}
         assert veil.get_hatch() is None
     for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
         assert max(bytes.fromhex(found[1:].decode())) == min(bytes.fromhex(found[1:].decode())), found
@@ -105,9 +103,9 @@ def test_areas_and_their_legend_have_one_filling_in_print_and_a_veil_has_none() 
 
 def test_a_box_behind_words_is_of_the_paper_of_its_theme() -> None:
     figure = Figure()
-    figure.text(0.5, 0.5, "words", bbox={"facecolor": THEMES["light"].paper, "linewidth": 0})
+    figure.text(0.5, 0.5, "words", bbox={"facecolor": palette("light").paper, "linewidth": 0})
     found = render(figure, ".svg", theme="dark")
-    assert THEMES["light"].paper.encode() not in found
+    assert palette("light").paper.encode() not in found
 
 
 def test_a_figure_is_as_it_was_after_a_theme() -> None:
@@ -127,7 +125,7 @@ def test_the_command_draws_on_the_paper_of_its_theme(theme: str, paper: tuple[in
     assert tuple(np.asarray(Image.open(target).convert("RGB"))[0, 0]) == paper
 
 
-@pytest.mark.parametrize("theme", THEMES)
+@pytest.mark.parametrize("theme", ["light", "dark", "print"])
 def test_a_layer_nearer_to_the_reader_is_lighter_in_every_theme(theme: str) -> None:
     """The wheels of the clock are in seven layers."""
     root = ET.fromstring(render(picture(load("longcase-clock"), "plan"), ".svg", theme=theme))  # type: ignore[arg-type]

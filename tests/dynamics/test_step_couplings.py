@@ -12,10 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import call
-from models import torque_figures
+from models import torque_figures, transmission_of
 
 from geartrain import DeclarationError, GearTrainError, load
-from geartrain.teeth.couplings.step_transmission import GenevaTransmission, StepTransmission
 
 PAIR = """
 links: {frame: {}, a: {}, w: {}}
@@ -50,7 +49,7 @@ def angle_of_slot(slots: int, S: float, internal: bool = False) -> float:
 def test_g1_a_geneva_drive_moves_for_a_share_of_the_turn_and_with_known_peaks(
     slots: int, moves: Fraction, peak: float, start: float, greatest: float
 ) -> None:
-    transmission = GenevaTransmission(slots)
+    transmission = transmission_of(pair(f"kind: geneva, slots: {slots}"))
     assert 1 - transmission.dwell == moves
     assert transmission.speed_range() == (0, pytest.approx(peak, rel=1e-10))
     S = np.linspace(-transmission.alpha, transmission.alpha, 400_001)
@@ -64,7 +63,7 @@ def test_g1_a_geneva_drive_moves_for_a_share_of_the_turn_and_with_known_peaks(
 
 
 def test_g2_a_cross_of_four_slots_has_these_angles_and_this_deviation() -> None:
-    transmission = GenevaTransmission(4)
+    transmission = transmission_of(pair("kind: geneva, slots: 4"))
     since_rest = [degrees(float(transmission.angle(radians(S))) + pi / 4) for S in (-30, 20)]
     assert since_rest == pytest.approx([2.6321948414, 80.782906978], abs=5e-10)
     assert transmission.speed(radians(-30)) == pytest.approx(0.40824829046, rel=1e-10)
@@ -74,7 +73,7 @@ def test_g2_a_cross_of_four_slots_has_these_angles_and_this_deviation() -> None:
 
 
 def test_g3_an_internal_geneva_drive_moves_for_three_quarters_of_the_turn() -> None:
-    transmission = GenevaTransmission(4, internal=True)
+    transmission = transmission_of(pair("kind: geneva, slots: 4, internal: true"))
     assert 1 - transmission.dwell == Fraction(3, 4)
     assert transmission.speed_range()[1] == pytest.approx(0.41421356237, rel=1e-10)
     assert degrees(float(transmission.angle(1.0)) + pi / 4) == pytest.approx(68.293161518, abs=5e-10)
@@ -109,7 +108,7 @@ outputs: {out: {expect: 3/8}, w: {expect: -1/4}}
 
 
 def test_pins_that_follow_each_other_without_rest_keep_the_cross_moving() -> None:
-    transmission = GenevaTransmission(4, pins=4)
+    transmission = transmission_of(pair("kind: geneva, slots: 4, pins: 4"))
     assert (transmission.ratio, transmission.dwell) == (1, 0)
     S = np.linspace(0, 2 * pi, 20_001)
     error = transmission.error(S)
@@ -127,20 +126,21 @@ def test_s1_a_moon_disc_of_59_teeth_loses_a_day_in_964_days() -> None:
 
 
 def test_s2_a_count_wheel_of_78_teeth_turns_once_in_twelve_hours() -> None:
-    train = load(pair("kind: step, teeth: 78, moves: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]"))
+    declared = pair("kind: step, teeth: 78, moves: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]")
+    train = load(declared)
     assert train.solve()["w"] == Fraction(-1, 12)
     run = train.motion().run(turns=12, samples=1201)
     # counted by hand: before the 7th engagement 21 teeth instead of 39, after the 12th 78 instead of 71.5
     assert degrees(run.statistics[0].minimum) == pytest.approx(-30, abs=1e-6)
     assert degrees(run.statistics[0].most) == pytest.approx(83.076923, abs=1e-6)
-    low, high = StepTransmission(78, range(1, 13)).error_range()
+    low, high = transmission_of(declared).error_range()
     assert (degrees(low), degrees(high)) == pytest.approx((-83.076923, 30), abs=1e-6)
 
 
 def test_s3_a_mutilated_wheel_drives_for_two_fifths_of_the_turn() -> None:
     declared = "kind: step, teeth: 24, moves: 12, over: 144 deg"
     train = load(pair(declared))
-    transmission = StepTransmission(24, [12], over=Fraction(2, 5))
+    transmission = transmission_of(pair(declared))
     assert train.solve()["w"] == Fraction(-1, 2)
     assert 1 - transmission.dwell == Fraction(2, 5)
     assert transmission.speed([1.0, 3.0]) == pytest.approx([5 / 4, 0])

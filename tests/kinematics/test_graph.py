@@ -148,11 +148,9 @@ def test_the_numeric_adjacency_is_symmetric_and_counts_every_edge(data: Data) ->
             assert len(labels[at][to].split()) == values[at, to] == matrix[first, second]
 
 
-def test_turning_pairs_and_gear_pairs_can_be_counted_apart() -> None:
+def test_turning_pairs_and_gear_pairs_are_told_apart_by_labels() -> None:
     train = planetary()
-    graph = train.graph
-    assert adjacency_matrix(graph, ["revolute"]).values.sum() == 2 * 3
-    assert adjacency_matrix(graph, ["gear"]).values.sum() == 2 * 2
+    assert adjacency_matrix(train.graph).values.sum() == 2 * (3 + 2)
     assert adjacency_labels(train.declaration)[0] == ["", "R(main)", "R(main)", "outer"]
 
 

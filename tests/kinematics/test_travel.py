@@ -11,11 +11,11 @@ from math import atan, cos, degrees, pi, sin, sqrt, tan
 
 import numpy as np
 import pytest
+from models import transmission_of
 
 import geartrain
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.teeth.couplings.crank_slider import CrankSliderTransmission
 from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
 RACK = """
@@ -185,7 +185,7 @@ outputs: {s: {expect: 0 mm}}
 
 
 def test_l8_a_crank_and_slider() -> None:
-    law = CrankSliderTransmission(20, 60)
+    law = transmission_of(CRANK)
     low, high = (end / (2 * pi) for end in law.error_range())
     assert (low, high) == (pytest.approx(-40), 0)
     assert law.speed_range()[1] / (2 * pi) == pytest.approx(21.092790931, abs=5e-10)
@@ -196,7 +196,7 @@ def test_l8_a_crank_and_slider() -> None:
 
 
 def test_a_slider_is_where_its_rod_reaches() -> None:
-    law = CrankSliderTransmission(20, 60)
+    law = transmission_of(CRANK)
     for S in (0.3, 2.0, 4.5):
         x = 80 + law.error(S) / (2 * pi)
         pin = 20 * np.array([cos(S), sin(S)])

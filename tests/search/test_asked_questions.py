@@ -15,7 +15,6 @@ from geartrain.search.reconstruct import (
     ReconstructionProblem,
     evidence_question,
     find_reconstructions,
-    path_lists,
     read_evidence,
     search_tasks,
 )
@@ -60,7 +59,7 @@ def test_the_command_says_the_size_first_and_refuses_the_absurd() -> None:
 def test_what_is_too_wide_is_refused_with_what_is_requested(monkeypatch: pytest.MonkeyPatch) -> None:
     # path lists of another test with the same problem are kept
     search_tasks._search.cache_clear()
-    monkeypatch.setattr(path_lists, "_MOST_PATHS", 1000)
+    monkeypatch.setattr("geartrain.search.reconstruct.path_lists._MOST_PATHS", 1000)
     with pytest.raises(GearTrainError) as caught:
         find_reconstructions(doubtful())
     (problem,) = caught.value.problems

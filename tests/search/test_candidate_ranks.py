@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-from concrete_trees import concrete, explanations, plain_prior, random_problem
+from concrete_trees import concrete, explanations, plain_prior, random_problem, sections
 from sampling import all_but
 
 from geartrain.search.reconstruct import ExplanationCount, RankedTrain, ReconstructionAnswer, find_reconstructions
-from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 
 
 @pytest.mark.parametrize("seed", all_but({92}, range(60, 100)))
@@ -29,9 +28,6 @@ def test_a_page_shows_intervals_and_what_is_not_counted() -> None:
     best = tuple(
         RankedTrain(rank, ranks, 0, 0.25, {}, {}, ("a > b",)) for rank, ranks in ((1, (1, 1)), (2, (2, 3)), (3, (2, 3)))
     )
-    sections = {
-        each.title: each
-        for each in describe_reconstruction(ReconstructionAnswer("some", problem, counts, True, (), best)).sections
-    }
-    assert sections["Counts"].tables[0].rows[1] == ("1", "999999", "not counted", "not counted")
-    assert [row[0] for row in sections["Most probable trains"].tables[0].rows] == ["1", "2 (2-3)", "3 (2-3)"]
+    page = sections(ReconstructionAnswer("some", problem, counts, True, (), best))
+    assert page["Counts"].tables[0].rows[1] == ("1", "999999", "not counted", "not counted")
+    assert [row[0] for row in page["Most probable trains"].tables[0].rows] == ["1", "2 (2-3)", "3 (2-3)"]

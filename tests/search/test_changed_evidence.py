@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import pytest
-from concrete_trees import declared, exact_dial, sure_arbor
+from concrete_trees import declared, exact_dial, sections, sure_arbor
 from places import TRAINS
 
 from geartrain import Problem, QuestionError
@@ -15,12 +16,10 @@ from geartrain.search.reconstruct import (
     ReconstructionAnswer,
     ReconstructionProblem,
     ReconstructionRequest,
-    dropped_facts,
     find_reconstructions,
     read_evidence,
     reconstruct,
 )
-from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 from geartrain.train import Train
 
 
@@ -117,11 +116,11 @@ NOTHING = ReconstructionProblem(
 """p wants 20 > 30 and a wheel of 31 stands there; q is 20 > 40 on an added arbor."""
 
 
-def dials(found: dropped_facts.MissingExplanation) -> list[tuple[str, int | None, str | None]]:
+def dials(found: Any) -> list[tuple[str, int | None, str | None]]:
     return [(one.dial, one.fewest, one.refused) for one in found.dials]
 
 
-def missing(problem: ReconstructionProblem | Train) -> dropped_facts.MissingExplanation:
+def missing(problem: ReconstructionProblem | Train) -> Any:
     found = answered(problem).findings.missing
     assert found is not None
     return found
@@ -153,7 +152,7 @@ def test_a_misread_count_of_the_back_train_is_found() -> None:
 
 def test_the_page_tells_why_nothing_fits(monkeypatch: pytest.MonkeyPatch) -> None:
     def tables() -> dict[str, list[tuple[str, ...]]]:
-        page = describe_reconstruction(answered(NOTHING)).sections
+        page = sections(answered(NOTHING)).values()
         words = {paragraph for section in page for paragraph in section.paragraphs}
         rows = {each.title: [tuple(row) for row in each.tables[0].rows] for each in page if each.tables}
         return rows | {word: [] for word in words}
@@ -169,7 +168,7 @@ def test_the_page_tells_why_nothing_fits(monkeypatch: pytest.MonkeyPatch) -> Non
         ("without the sense of p", "0", "0", "0"),
     ]
     assert any(text.startswith("23 changes of the evidence tried") for text in found)
-    monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
+    monkeypatch.setattr("geartrain.search.reconstruct.dropped_facts.find_reconstructions", refusing)
     found = tables()
     assert found["Why no train explains the evidence"] == [("p", "not today"), ("q", "not today")]
     assert found["Effect of each assumption"][1] == ("without the sense of p", "-", "-", "not today")

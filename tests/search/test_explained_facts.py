@@ -8,7 +8,7 @@ from functools import cache
 from math import log2
 
 import pytest
-from concrete_trees import concrete, declared, meshes, random_problem
+from concrete_trees import concrete, declared, meshes, random_problem, sections
 
 from geartrain.report import Document, Section, to_markdown
 from geartrain.search.reconstruct import (
@@ -26,7 +26,6 @@ from geartrain.search.reconstruct import (
     explained_facts,
     find_reconstructions,
 )
-from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
 
 
 def survivor(name: str, **counts: tuple[int, ...]) -> SurvivingArbor:
@@ -177,7 +176,7 @@ def test_a_stem_is_one_branch_and_no_candidates_have_no_tree() -> None:
 
 def sections_of(found: explained_facts.CandidateFindings) -> dict[str, Section]:
     answer = ReconstructionAnswer("toy", PROBLEM, (ExplanationCount(2, 4, 4, 4),), True, (), (), findings=found)
-    return {section.title: section for section in describe_reconstruction(answer).sections}
+    return sections(answer)
 
 
 def test_the_page_tells_what_is_shared_where_trains_differ_and_what_to_look_for() -> None:

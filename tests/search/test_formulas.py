@@ -22,7 +22,7 @@ from strategies import Data, driven_trains, overdriven_trains, requested_trains
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
-from geartrain.kinematics.formulas import Formula, Formulas, find_formulas, laurent, with_counts
+from geartrain.kinematics.formulas import Formula, Formulas, find_formulas, with_counts
 from geartrain.train import Train, declare
 
 ANY = (1,)
@@ -445,7 +445,7 @@ def test_what_the_train_does_not_have_is_refused(ask: Any, said: str) -> None:
 
 
 def test_a_train_that_is_too_coupled_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(laurent, "MOST_PRODUCTS", 3)
+    monkeypatch.setattr("geartrain.kinematics.formulas.laurent.MOST_PRODUCTS", 3)
     with pytest.raises(QuestionError, match=r"the formulas of .* are too long"):
         formulas_of("zf-8hp70", "5")
 

@@ -14,13 +14,12 @@ import pytest
 import shapely
 from sampling import first_few
 from shipped import built
-from workpieces import workpiece
+from workpieces import part_rows, steps, workpiece
 
 import geartrain
 from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files, notices
-from geartrain.workshop.export.assembly_guide import assembly_steps
 
 manifold3d = pytest.importorskip("manifold3d")
 
@@ -161,7 +160,7 @@ def test_the_list_of_parts_has_all_of_them_and_masses_of_their_volumes() -> None
     work = workpiece("planetary-24-18-60")
     files = {each.path: each.make().decode() for each in export_files(work, ["svg"])}
     rows = list(csv.DictReader(io.StringIO(files["parts.csv"])))
-    named = {name: row for row in rows for name in row["part"].split(", ")}
+    named = part_rows(work)
     assert set(named) == {part.name for part in work.parts}
     assert sum(int(row["count"]) for row in rows) == len(work.parts)
     density = {"brass": 8.47, "steel": 7.85}
@@ -342,12 +341,12 @@ def test_they_stand_in_nothing(work: SolidModel) -> None:
 
 
 def test_steps_of_the_assembly_bring_them_in_with_their_wheels(work: SolidModel) -> None:
-    steps = assembly_steps(work)
-    brought = [name for step in steps for name in step.parts]
+    found = steps(work)
+    brought = [name for step in found for name in step.parts]
     for part in work.parts:
         if part.kind in ("spacer", "collet"):
             assert brought.count(part.name) == 1
-            (step,) = (step for step in steps if part.name in step.parts)
+            (step,) = (step for step in found if part.name in step.parts)
             assert ("spacer" if part.kind == "spacer" else "collet") in step.text
 
 

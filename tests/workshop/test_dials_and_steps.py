@@ -12,13 +12,11 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-from workpieces import workpiece
+from workpieces import part_rows, steps, workpiece
 
 import geartrain
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files
-from geartrain.workshop.export.assembly_guide import assembly_steps
-from geartrain.workshop.export.parts_list import parts_list
 
 
 def engraved(work: SolidModel, file: str) -> list[list[tuple[float, float]]]:
@@ -133,7 +131,7 @@ def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:
 @pytest.mark.parametrize("name", ["longcase-clock-cycloidal", "freeth-2008", "wolfrom-175", "ravigneaux-set"])
 def test_every_part_comes_in_by_some_step(name: str) -> None:
     work = workpiece(name)
-    came = [part for step in assembly_steps(work) for part in step.parts]
+    came = [part for step in steps(work) for part in step.parts]
     assert work.frame is not None
     across = set(work.layout.wheels) - {disc.name for disc in work.frame.plan.discs}
     bearingless = {part.name for part in work.parts if part.turned is not None and part.kind == "arbor"} - set(came)
@@ -144,9 +142,9 @@ def test_every_part_comes_in_by_some_step(name: str) -> None:
 def test_steps_have_pictures_that_name_what_comes_in() -> None:
     work = workpiece("planetary-24-18-60")
     files = {each.path: each for each in export_files(work, ["svg"])}
-    steps = assembly_steps(work)
+    found = steps(work)
     readme = files["README.md"].make().decode()
-    for number, step in enumerate(steps, 1):
+    for number, step in enumerate(found, 1):
         path = f"assembly/{number:02d}.svg"
         assert (path in files) == bool(step.parts)
         assert f"{number}. {step.text}" in readme
@@ -160,9 +158,9 @@ def test_steps_have_pictures_that_name_what_comes_in() -> None:
 def test_a_clock_is_made_with_its_barrel_its_pendulum_and_its_weight() -> None:
     """A weight of 5.9 kg of lead, a rod and a bob that are 994 mm from their cock; no picture is a metre high."""
     work = workpiece("longcase-clock")
-    rows = {row.names[0]: row for row in parts_list(work)}
-    assert (rows["weight"].material, rows["weight"].mass) == ("lead", pytest.approx(5900))
-    assert rows["great barrel"].size.startswith("diameter 50.8,")
+    rows = part_rows(work)
+    assert (rows["weight"]["material"], float(rows["weight"]["mass_g"])) == ("lead", pytest.approx(5900, rel=1e-3))
+    assert rows["great barrel"]["size_mm"].startswith("diameter 50.8,")
     parts = {part.name: part for part in work.parts}
     hung = parts["pendulum rod"].place - parts["pendulum bob"].place
     assert np.linalg.norm(hung) == pytest.approx(994)

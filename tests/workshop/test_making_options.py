@@ -13,6 +13,7 @@ import pytest
 from commands import call
 from shapely.geometry import Polygon, box
 from shipped import train as load
+from workpieces import part_rows
 
 import geartrain
 from geartrain.errors import GearTrainError, QuestionError
@@ -21,7 +22,6 @@ from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.workshop import wheel_file
 from geartrain.workshop.export.cut_sheets import Sheet, compensated, stock_sheets
-from geartrain.workshop.export.parts_list import parts_list
 
 shapely = pytest.importorskip("shapely")
 
@@ -70,7 +70,7 @@ def test_only_the_process_that_burns_a_kerf_moves_outlines() -> None:
 def test_arms_take_the_windows_out_of_the_solid_and_of_its_mass() -> None:
     whole = SolidModel(load("longcase-clock-cycloidal"), ManufacturingSizes(1.0))
     armed = SolidModel(load("longcase-clock-cycloidal"), ManufacturingSizes(1.0, arms=5))
-    masses = [{row.names[0]: row.mass for row in parts_list(work)} for work in (whole, armed)]
+    masses = [{name: float(row["mass_g"]) for name, row in part_rows(work).items()} for work in (whole, armed)]
     for name in ("g96", "c60", "h72"):
         blank = armed.blanks.wheels[name]
         assert blank.arms == 5
@@ -123,10 +123,10 @@ inputs: {a: 1}
 
 def test_declared_widths_materials_and_arbors_are_those_that_are_made() -> None:
     work = SolidModel(load("longcase-clock-loaded"), ManufacturingSizes())
-    rows = {row.names[0]: row for row in parts_list(work)}
-    assert (rows["c8"].size, rows["c8"].material) == ("thickness 6", "steel")
-    assert (rows["g96"].size, rows["g96"].material) == ("thickness 3", "brass")
-    assert rows["third arbor"].size.startswith("diameter 2.5,")
+    rows = part_rows(work)
+    assert (rows["c8"]["size_mm"], rows["c8"]["material"]) == ("thickness 6", "steel")
+    assert (rows["g96"]["size_mm"], rows["g96"]["material"]) == ("thickness 3", "brass")
+    assert rows["third arbor"]["size_mm"].startswith("diameter 2.5,")
     assert work.frame is not None
     assert {column.axis: column.pivot for column in work.frame.plan.columns}["great"] == 3.0
 

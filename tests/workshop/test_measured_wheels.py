@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import call
+from drawn_wheels import drawn_wheels, judged
 from models import refusal
 from studies.cut_pair_transmission import CutPairLaw
 
@@ -29,7 +30,6 @@ from geartrain.workshop import (
 from geartrain.workshop.cutting.measured_motion import measured_motion
 from geartrain.workshop.cutting.verb import find_measured_wheels
 from geartrain.workshop.cutting.wheel_estimate import closed_steps, stepped_covariance
-from geartrain.workshop.monte_carlo.trial_block import JAM, RandomStreams, draw_trial_wheels, judge_trial_pairs
 
 FIFTEEN = [
     *(0.12, 24.31, 48.55, 72.40, 96.38, 119.92, 143.61, 167.55),
@@ -230,7 +230,7 @@ def test_measured_angles_of_an_eccentric_wheel_are_the_declared_eccentricity(use
 def test_measured_triangular_teeth_have_the_measured_angles() -> None:
     """Exactly those of the table; with an eccentricity, to the product of eccentricity and deviation."""
     for use, most in (("table", 1e-12), ("eccentric", 3e-3)):
-        drawn = draw_trial_wheels(find_trial_plan(measured(use)), RandomStreams(1, 0), 2).wheels[0]
+        drawn = drawn_wheels(find_trial_plan(measured(use)), 2).wheels[0]
         off = np.degrees(drawn.place) - (np.array(FIFTEEN) - 24 * np.arange(15))
         assert np.ptp(off) < most, use
         assert np.any(drawn.tip) == (use == "eccentric")
@@ -248,7 +248,7 @@ def test_a_missing_tooth_is_where_the_eccentricity_puts_it() -> None:
 
 def test_the_wheel_as_measured_is_the_same_in_every_trial_and_other_wheels_are_drawn() -> None:
     plan = find_trial_plan(measured("table"))
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 3)
+    drawn = drawn_wheels(plan, 3)
     assert np.ptp(drawn.wheels[0].place, axis=0).max() == 0
     law = find_trial_plan(measured("law")).wheels[0]
     found = find_measured_wheels(measured().declaration)["p"]
@@ -264,7 +264,7 @@ def test_the_fitted_law_gives_back_its_estimates() -> None:
     off = np.random.default_rng(42).normal(0, radians(0.2), 63)
     angles = np.degrees(seen(63, 0.006, 250) + off).tolist()
     plan = find_trial_plan(load(pair(in_declaration(angles, ", use: law"), 63, 40)))
-    drawn = draw_trial_wheels(plan, RandomStreams(3, 0), 256).wheels[0]
+    drawn = drawn_wheels(plan, 256, 3).wheels[0]
     again = [estimate_wheel(2 * pi * np.arange(63) / 63 + place, law="independent") for place in drawn.place]
     found = near_250()
     square = np.mean([each.fitted[0] ** 2 - np.trace(each.covariance) for each in again])
@@ -294,7 +294,7 @@ def test_the_motion_as_measured_is_that_of_its_teeth_one_by_one() -> None:
     plan = find_trial_plan(train)
     motion = measured_motion(train)
     assert motion.period == 8  # all teeth have met after lcm(15, 40) pitches
-    cut = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0)
+    cut = drawn_wheels(plan, 1).pair(0)
     oracle = CutPairLaw.of(cut.sizes, cut.first.taken(0), cut.second.taken(0))
     turns = np.linspace(0, 8, 1501)
     expected = oracle.error(2 * pi * turns)
@@ -329,7 +329,7 @@ def test_stepped_teeth_have_the_covariance_of_a_closed_walk() -> None:
 
 def test_drawn_wheels_are_stepped() -> None:
     plan = find_trial_plan(load(pair("cutting: {stepping: {normal: 0.1 deg}}", 12, 40)))
-    place = np.degrees(draw_trial_wheels(plan, RandomStreams(1, 0), 256).wheels[0].place)
+    place = np.degrees(drawn_wheels(plan, 256).wheels[0].place)
     assert place.mean(axis=1) == pytest.approx(0, abs=1e-12)
     gap = np.diff(place, axis=1, append=place[:, :1])
     assert np.sqrt(np.mean(gap**2)) == pytest.approx(0.1 * sqrt(11 / 12), rel=0.04)
@@ -345,8 +345,8 @@ def stepped(train: GearTrain, off: float) -> list[str]:
 
 def jams(train: GearTrain, sets: Sequence[str], trials: int) -> int:
     plan = find_trial_plan(train, read_error_overrides(sets))
-    marks, _ = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), trials))
-    return int(np.any(marks & JAM, axis=1).sum())
+    found, _ = judged(drawn_wheels(plan, trials))
+    return int(np.any(found, axis=1).sum())
 
 
 def test_stepped_wheels_jam_far_less_often_than_wheels_with_independent_deviations() -> None:

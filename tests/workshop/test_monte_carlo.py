@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from drawn_wheels import drawn_wheels, judged, pointer_errors
 from sorge import Pair, minimum_backlash
 from studies.cut_pair_transmission import CutPairLaw
 
@@ -27,13 +28,6 @@ from geartrain.workshop import (
     read_error_overrides,
     run_course,
     run_trials,
-)
-from geartrain.workshop.monte_carlo.trial_block import (
-    JAM,
-    RandomStreams,
-    draw_trial_wheels,
-    judge_trial_pairs,
-    trial_pointers,
 )
 
 
@@ -119,9 +113,9 @@ def test_the_probability_of_a_jam_is_its_integral(trials: int) -> None:
 def test_every_trial_follows_the_transmission_of_its_own_wheels() -> None:
     """All kinds of error; every trial is evaluated at its own angle."""
     plan = planned(chain((23, 16)), *EVERY)
-    drawn = draw_trial_wheels(plan, RandomStreams(3, 0), 40)
+    drawn = drawn_wheels(plan, 40, 3)
     turns = np.random.default_rng(1).uniform(0, 16, 40)
-    found = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
+    found = pointer_errors(drawn, np.arange(40), turns)[0]
     pair, checked = drawn.pair(0), 0
     for at in range(40):
         if not drawn.good[0][at] or not drawn.good[1][at]:
@@ -141,23 +135,23 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
     del data["links"]["l1"]["wheels"]["p1"]
     plan = planned(GearTrain.declare(data), "pitch_deviation=2 %", "tip=3 %")
     assert [wheel.name for wheel in plan.wheels] == ["p0", "w0", "w1"]
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 8)
+    drawn = drawn_wheels(plan, 8)
     first, second = drawn.pair(0), drawn.pair(1)
     assert (first.second.place == second.first.place).all()
-    marks, backlash = judge_trial_pairs(drawn)
+    jams, backlash = judged(drawn)
     for at, pair in enumerate((first, second)):
         laws = (CutPairLaw.of(pair.sizes, pair.first.taken(n), pair.second.taken(n)).events for n in range(8))
         expected = np.array([events.backlash for events in laws])
-        assert (((marks[:, at] & JAM) > 0) == (expected < 0)).all()
+        assert (jams[:, at] == (expected < 0)).all()
         assert backlash[:, at] == pytest.approx(expected / pair.sizes.p2, abs=1e-8)
 
 
 def test_a_chain_is_one_transmission_after_the_other() -> None:
     """The second driver turns as far as the first pair turns it, from where even teeth start; trial by trial."""
     plan = planned(chain((24, 17), (19, 30)), *EVERY[:4])
-    drawn = draw_trial_wheels(plan, RandomStreams(5, 0), 25)
+    drawn = drawn_wheels(plan, 25, 5)
     turns = np.random.default_rng(2).uniform(0, 100, 25)
-    found = trial_pointers(drawn, np.arange(25)).errors(turns)[0]
+    found = pointer_errors(drawn, np.arange(25), turns)[0]
     one, two = drawn.pair(0), drawn.pair(1)
     even = 19 / 30 * plan.pairs[0].even + plan.pairs[1].even
     lag = float(TriangularTransmission(one.sizes).angle(0.0))
@@ -214,8 +208,8 @@ def test_a_fixed_error_of_the_distance_is_another_clearance() -> None:
     bare = planned(chain((40, 27)), "pitch_deviation=3 %")
     pair = bare.pairs[0]
     factor = (pair.sizes.D + 0.1 * min(pair.sizes.depths)) / pair.sizes.deepest_distance
-    _, backlash = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), 50))
-    _, true = judge_trial_pairs(draw_trial_wheels(bare.cleared(factor), RandomStreams(1, 0), 50))
+    _, backlash = judged(drawn_wheels(plan, 50))
+    _, true = judged(drawn_wheels(bare.cleared(factor), 50))
     # one is computed from tables, the other tooth pair by tooth pair
     assert backlash == pytest.approx(true, abs=2e-4)
 
@@ -241,7 +235,7 @@ def test_errors_are_read_in_the_units_of_their_wheel() -> None:
     # the pitch circle, 7.5 mm, is halfway down teeth whose flanks make 30 degrees with the radius
     outer = 7.5 / (1 - first.depth / 2)
     assert first.errors["eccentricity"].size * first.depth * outer == pytest.approx(0.1)
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 3).pair(0)
+    drawn = drawn_wheels(plan, 3).pair(0)
     # ahead is early: a tooth's arrays count how late it is
     assert drawn.second.place[0] == pytest.approx(-np.radians(np.arange(20) / 100))
     # seen as the wheel turns forward, ahead is counted up: the middle lies 0.1 mm a quarter of a turn from the first
@@ -306,17 +300,11 @@ def test_greater_errors_are_the_same_errors_and_other_clearances_meet_the_same_w
     plan, higher = (
         planned(chain((20, 15)), "pitch_deviation=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4)
     )
-    one, twice = (draw_trial_wheels(each, RandomStreams(1, 0), 5).wheels[0] for each in (plan, higher))
+    one, twice = (drawn_wheels(each, 5).wheels[0] for each in (plan, higher))
     assert np.allclose(twice.place, one.place, atol=2e-3)
-    placed = [
-        draw_trial_wheels(each, RandomStreams(1, 0), 5)
-        for each in (planned(chain((20, 15)), f"pitch_deviation={s} %") for s in (1, 2))
-    ]
+    placed = [drawn_wheels(each, 5) for each in (planned(chain((20, 15)), f"pitch_deviation={s} %") for s in (1, 2))]
     assert placed[1].wheels[0].place == pytest.approx(2 * placed[0].wheels[0].place)
-    assert (
-        draw_trial_wheels(plan.cleared(1.03), RandomStreams(1, 0), 5).wheels[1].place
-        == draw_trial_wheels(plan, RandomStreams(1, 0), 5).wheels[1].place
-    ).all()
+    assert (drawn_wheels(plan.cleared(1.03), 5).wheels[1].place == drawn_wheels(plan, 5).wheels[1].place).all()
 
 
 # -------------------------------------------------------------------------------------------------------------- studies
@@ -376,9 +364,7 @@ def test_along_a_turn_the_bands_are_in_order_and_hold_the_trials() -> None:
     bands = course.bands()
     assert (np.diff(bands, axis=0) >= 0).all()
     assert course.turns[-1] == pytest.approx(15 / 20)
-    alone = trial_pointers(draw_trial_wheels(plan, RandomStreams(1, 1 << 20), 60), np.full(40, 7)).errors(course.turns)[
-        0
-    ]
+    alone = pointer_errors(drawn_wheels(plan, 60, 1, 1 << 20), np.full(40, 7), course.turns)[0]
     assert course.errors[7] == pytest.approx(alone, abs=1e-12)
     assert course.maximum[7] == pytest.approx(np.abs(alone).max())
 
@@ -418,9 +404,9 @@ def test_a_train_is_cut_filed_and_composed(form: str) -> None:
     pair, train = found.filings
     assert pair.filed.count == train.filed.count > 0
     assert pair.jams.count == found.train.events["jam"].count == 0
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
+    drawn = drawn_wheels(plan, 40)
     turns = np.linspace(0, 3, 40)
-    errors = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
+    errors = pointer_errors(drawn, np.arange(40), turns)[0]
     cut = drawn.pair(0)
     lag, _ = cut.minimum_lag(np.arange(40), np.mod(turns * 2 * pi, cut.count * 2 * pi / 24))
     # an external pair turns backwards: a lag is a positive error
@@ -435,7 +421,7 @@ def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting
     train = load(text)
     plan = find_trial_plan(train, read_error_overrides(["pitch_deviation=0.0001 %"]))
     transmission, pitch, S = train.meshes[0].transmission, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
-    lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).minimum_lag(np.zeros(50, int), S)[0]
+    lag = drawn_wheels(plan, 1).pair(0).minimum_lag(np.zeros(50, int), S)[0]
     # to first order in 0.05 modules, this is the ripple of the transmission function of the outlines
     assert np.ptp(transmission.error(S)) > 0.001 * pitch
     assert -lag == pytest.approx(transmission.error(S), abs=1e-3 * pitch)
@@ -452,7 +438,7 @@ def test_triangular_pairs_are_filed_until_they_turn() -> None:
     assert before.train.events["jam"].count == after.filings[-1].filed.count > 0
     assert after.train.events["jam"].count == 0
     # against the transmission function of one pair
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
+    drawn = drawn_wheels(plan, 40)
     at = int(np.argmax([work.strokes.sum() for work in drawn.filing.values()]))
     pair, trial = drawn.pair(at), int(drawn.filing[at].strokes.argmax())
     transmission = CutPairLaw.of(pair.sizes, pair.first.taken(trial), pair.second.taken(trial))

@@ -75,11 +75,7 @@ class Counted:
 
     def told(self) -> dict[str, tuple[Floats, Floats]]:
         """Output -> its speed in every combination, and a bound on its error."""
-        found = {}
-        for name, formula in self.question.outputs.items():
-            speeds = formula.values(self.counts)
-            found[name] = speeds, formula.accuracy(self.counts) * np.abs(speeds)
-        return found
+        return {name: formula.bounded(self.counts) for name, formula in self.question.outputs.items()}
 
     def singly(self, combinations: int) -> Singles:
         """The first combinations by a plain loop over whole solutions."""

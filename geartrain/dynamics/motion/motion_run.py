@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 _SAMPLES = 1 << 14  # samples of one period of a transmission function, or of 64 pitches
 _HARMONICS = 24  # harmonics of the pitch evaluated for each pair
+_MOST_LINES = 12  # spectral lines of an output
 _MAIN = 3  # outputs in a summary
 _ANGLES = ("angle (rad)", "error (rad)", "speed")  # columns of an output that turns
 _FAINT = 1e-6  # fraction of the strongest line: weaker lines are omitted
@@ -70,9 +71,9 @@ class SpectrumLine(Result):
 
 
 def find_spectrum(
-    motion: Motion, turns: float, samples: int, most: int = 12, on_done: Callable[[int], None] = lambda _: None
+    motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, list[SpectrumLine]]:
-    """Return at most `most` spectral lines of every output, in descending order of their first-order amplitudes.
+    """Return at most `_MOST_LINES` spectral lines of every output, in descending order of their first-order amplitudes.
 
     Lines are resolved if they differ by at least two periods over the run. If the run is an integer number of common
     periods, the amplitudes are exact except for aliases of harmonics above half the sampling rate.
@@ -83,7 +84,7 @@ def find_spectrum(
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
     found = {}
     for at, name in enumerate(motion.outputs):
-        found[name] = _expected(superposed, harmonics, at, most)
+        found[name] = _expected(superposed, harmonics, at)
     # lines of all outputs are measured in one pass through the run
     orders = sorted({line.order for lines in found.values() for line in lines})
     if not orders:
@@ -115,7 +116,7 @@ def _harmonics(superposed: Superposition, at: int) -> Complex:
     return np.asarray(2 * np.fft.rfft(error)[1 : _HARMONICS * pitches + 1] / samples)
 
 
-def _expected(superposed: Superposition, harmonics: list[Complex], output: int, most: int) -> list[SpectrumLine]:
+def _expected(superposed: Superposition, harmonics: list[Complex], output: int) -> list[SpectrumLine]:
     phasors: dict[Fraction, list[tuple[str, int, complex]]] = {}
     for at, source in enumerate(superposed.sources):
         if not source.cycles:
@@ -140,7 +141,7 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
     # lines of equal amplitude are ordered by order, so that the list is reproducible
     lines.sort(key=lambda line: (-line.expected, line.order))
     strongest = lines[0].expected if lines else 0.0
-    return [line for line in lines[:most] if line.expected > _FAINT * strongest]
+    return [line for line in lines[:_MOST_LINES] if line.expected > _FAINT * strongest]
 
 
 def _measure(

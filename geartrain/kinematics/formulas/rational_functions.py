@@ -170,7 +170,7 @@ class Formula:
 
         columns   wheel -> array of tooth counts; the arrays are broadcast
         """
-        return self._bounded(columns)[0]
+        return self.bounded(columns)[0]
 
     def accuracy(self, columns: Mapping[str, Ints]) -> Floats:
         """Return a bound on the relative error of `values`, including cancellation: |value - exact| <= accuracy
@@ -180,7 +180,7 @@ class Formula:
         """
         import numpy as np
 
-        value, error = self._bounded(columns)
+        value, error = self.bounded(columns)
         with np.errstate(all="ignore"):
             # |exact| is at least |value| - error
             found = np.where(error > 0, error / (np.abs(value) - error), 0.0)
@@ -212,8 +212,8 @@ class Formula:
             return top
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
-    def _bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Return the values of the function in float64, and bounds on their absolute errors."""
+    def bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
+        """Return `values`, and bounds on their absolute errors, which are infinite where no digit is certain."""
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of

@@ -112,9 +112,7 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
 
 
 @collector_paused()
-def find_mobility(
-    reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET, sliding_pairs: int = 0
-) -> Mobility:
+def find_mobility(reduced: ReducedSystem, turning_pairs: int, sliding_pairs: int = 0) -> Mobility:
     """Compute the mobility of the train from the exact rank of its equations, ignoring prescribed speeds; see (16) and
     (17) of docs/theory.md.
     """
@@ -125,7 +123,7 @@ def find_mobility(
     idle: list[str] = []
     certain = True
     try:
-        budget = elimination_budget(reduced, budget)
+        budget = elimination_budget(reduced, EXACT_BUDGET)
         echelon = eliminate_within(reduced.equations, budget)
     except TooDenseError:
         certain = False

@@ -195,7 +195,7 @@ def _merged(points: Floats, faces: Integers) -> tuple[Floats, Integers]:
     return points[first], np.asarray(index).reshape(-1)[faces]
 
 
-def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
+def wheel_solid(blank: Blank) -> Solid:
     """Return the solid of a wheel from its flat shape, centred at the origin.
 
     One pitch is triangulated and repeated if the wheel has no holes besides its bore; otherwise the whole shape is
@@ -206,20 +206,20 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
     teeth = contours[1 if ring else 0]
     others = [contour for contour in contours if contour is not teeth]
     if blank.kind == "pins" or len(teeth.points) % blank.teeth or len(others) > 1:
-        return plate_solid(contours, blank.thickness, tolerance)
+        return plate_solid(contours, blank.thickness)
     radius = float(abs(others[0].points).max()) if others else 0.0
     own = len(teeth.points) // blank.teeth + 1
-    line = Contour(teeth.points[:own], np.append(teeth.bulges[: own - 1], 0.0)).flattened(tolerance)
-    tooth = line[simplified(line, tolerance)]
-    pitch = _pitch(tooth, radius, blank.teeth, tolerance)
+    line = Contour(teeth.points[:own], np.append(teeth.bulges[: own - 1], 0.0)).flattened(FINE)
+    tooth = line[simplified(line, FINE)]
+    pitch = _pitch(tooth, radius, blank.teeth, FINE)
     return extruded(*_repeated(*fill(pitch), blank.teeth), blank.thickness, blank.twist)
 
 
-def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
+def plate_solid(contours: Sequence[Contour], thickness: float) -> Solid:
     """Return the solid of a flat part with holes, whose middle plane is at z = 0."""
     outer, *others = contours
-    holes = [round_about(each) if each.is_circle else each.flattened(tolerance) for each in others]
-    return extruded(*fill(outer.flattened(tolerance), holes), thickness)
+    holes = [round_about(each) if each.is_circle else each.flattened(FINE) for each in others]
+    return extruded(*fill(outer.flattened(FINE), holes), thickness)
 
 
 def round_about(circle: Contour) -> Floats:

@@ -39,21 +39,18 @@ _CORNER = 0.5  # default radius of corners in modules
 Point = tuple[float, float]
 
 
-def spoke_windows(
-    root: float, module: float, bore: float, spokes: int, corner: float | None = None
-) -> tuple[Contour, ...]:
+def spoke_windows(root: float, module: float, bore: float, spokes: int) -> tuple[Contour, ...]:
     """Return the openings between the spokes of a wheel, each as one hole; empty if there is not enough space.
 
     A spoke has a uniform width equal to the depth of the rim. An opening is bounded by two spokes, the rim and the hub.
 
     root     root radius [mm]; `bore` is the diameter of the hole for the arbor [mm]
     spokes   number of spokes, 3 or more; fewer give no windows
-    corner   radius of inner corners [mm], at least the radius of the tool; by default half a module
     """
     if spokes < 3:
         return ()
     depth = RIM * module
-    corner = _CORNER * module if corner is None else corner
+    corner = _CORNER * module
     # many spokes require a larger hub
     meet = (_SPOKE * depth / 2 + corner) / sin(pi / spokes) - corner
     outer, inner = root - depth, max(HUB * bore, depth, meet)

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.simulation.contacts.loaded_bearings import LoadedBearings
 from geartrain.simulation.contacts.pair_tables import PairTables, TabledFunction, join_tables
 
 if TYPE_CHECKING:
@@ -77,6 +76,34 @@ class Bearing:
     sticking: float
     radii: Mapping[str, float] = field(default_factory=dict)
     """Radius of the friction circle [m] for each link whose friction also depends on the load, keyed by link."""
+
+
+class LoadedBearings(NamedTuple):
+    """Forces of pairs on bearings with load-dependent friction, in SI units."""
+
+    pair: Ints
+    """Index of the pair of each force."""
+    forces: Floats
+    """Torque on the carrier per unit torque on the driver and per unit torque on the driven side, and the components
+    `along` and `apart` of `AxisForce` for a unit torque on the carrier, shape (forces, 8).
+    """
+    turn: Floats
+    """Speed of the carrier of each force per unit speed of each coordinate, shape (forces, n)."""
+    about: Floats
+    """Direction of the axis of the carrier of each force, shape (forces, 3)."""
+    bearing: Ints
+    """Index of the bearing of each support. `share`, shape (supports, forces), contains the share of each force on the
+    support.
+    """
+    share: Floats
+    supports: Floats
+    """Constant force on each support, direction of its axis and radius of its friction circle, shape (supports, 7)."""
+
+    @classmethod
+    def none(cls, n: int) -> LoadedBearings:
+        """Return empty arrays for a train with `n` coordinates in which no friction depends on loads."""
+        no = np.zeros(0, dtype=np.int64)
+        return cls(no, np.zeros((0, 8)), np.zeros((0, n)), np.zeros((0, 3)), no, np.zeros((0, 0)), np.zeros((0, 7)))
 
 
 @dataclass(frozen=True)

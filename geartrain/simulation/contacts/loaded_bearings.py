@@ -1,8 +1,8 @@
 """Forces on the bearings whose friction increases with their load, as arrays for time steps.
 
 The directions of the forces and their shares on two bearings are those of `BearingLoads`, which treats equal planets as
-separate links. A pair of the simulated train, in which equal planets are one link, is divided equally among the pairs
-of these planets.
+separate links. In the simulated train, equal planets are one link; the torque of its pair is divided equally among the
+pairs of these planets.
 """
 
 from __future__ import annotations
@@ -11,53 +11,30 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.dynamics.torques.neglected_effects import unknown_forces
 from geartrain.kinematics.planet_copies import original
+from geartrain.simulation.contacts.contact_model import LoadedBearings
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.dynamics.torques.bearing_loads import AxisForce, BearingLoads
-    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.contact_model import Bearing
-    from geartrain.simulation.contacts.train_model import TrainModel
-
-
-class LoadedBearings(NamedTuple):
-    """Forces of pairs on bearings with load-dependent friction, in SI units."""
-
-    pair: Ints
-    """Index of the pair of each force."""
-    forces: Floats
-    """Torque on the carrier per unit torque on the driver and per unit torque on the driven side, and the components
-    `along` and `apart` of `AxisForce` for a unit torque on the carrier, shape (forces, 8).
-    """
-    turn: Floats
-    """Speed of the carrier of each force per unit speed of each coordinate, shape (forces, n)."""
-    about: Floats
-    """Direction of the axis of the carrier of each force, shape (forces, 3)."""
-    bearing: Ints
-    """Index of the bearing of each support. `share`, shape (supports, forces), contains the share of each force on the
-    support.
-    """
-    share: Floats
-    supports: Floats
-    """Constant force on each support, direction of its axis and radius of its friction circle, shape (supports, 7)."""
-
-    @classmethod
-    def none(cls, n: int) -> LoadedBearings:
-        """Return empty arrays for a train with `n` coordinates in which no friction depends on loads."""
-        no = np.zeros(0, dtype=np.int64)
-        return cls(no, np.zeros((0, 8)), np.zeros((0, n)), np.zeros((0, 3)), no, np.zeros((0, 0)), np.zeros((0, 7)))
+    from geartrain.simulation.contacts.time_case import PowerInput
+    from geartrain.train import Train
 
 
 @dataclass(frozen=True)
 class BearingForces:
     """Forces on the bearings with load-dependent friction in a simulated train."""
 
-    model: TrainModel
+    train: Train
+    problem: MotionProblem
+    drive: PowerInput
     loads: BearingLoads
 
     @cached_property
@@ -66,7 +43,7 @@ class BearingForces:
 
         Redundant pairs, whose shares of the torque are unknown, are omitted.
         """
-        problem, wheels = self.model.problem, self.model.train.wheels
+        problem, wheels = self.problem, self.train.wheels
         rows = {row.label for row in problem.system.equations}
         own = {each.wheels: each.id for each in problem.circuits if each.kind == "gear" and each.id in rows}
         gears = (each for each in self.loads.setting.circuits if each.kind == "gear")
@@ -80,8 +57,8 @@ class BearingForces:
         """Forces of gear pairs, keyed by their index in `BearingLoads.forces`."""
         return {at: force for at, force in enumerate(self.loads.forces) if force.name in self.pairs}
 
-    @property
-    def pressing(self) -> set[str]:
+    @cached_property
+    def names(self) -> set[str]:
         """Names of the pairs of the simulated train that exert forces on loaded bearings."""
         return {self.pairs[force.name] for force in self.forces.values()}
 
@@ -101,16 +78,19 @@ class BearingForces:
         known = {self.loads.forces[at].name for at in self.forces}
         loose = [force.name for force in self.loads.forces if force.links[0] is not None and force.name not in known]
         found = [f"{each}: {each.why}" for each in unknown_forces(self.loads, loose=loose)]
-        if self.model.case.drive.kind != "torque":
+        if self.drive.kind != "torque":
             lines = [force.name for force in self.loads.forces if force.links[0] is None]
             found += [f"pull of the line on the bearing of {link}: the drive prescribes a speed" for link in lines]
         return found
 
-    def arrays(self, bearings: Sequence[Bearing], sides: Mapping[str, tuple[int, int]]) -> LoadedBearings:
+    def arrays(
+        self, bearings: Sequence[Bearing], sides: Mapping[str, tuple[int, int]], speeds: Floats
+    ) -> LoadedBearings:
         """Return the forces on the loaded bearings as arrays for time steps.
 
-        sides   senses (1 or -1) of the forward rotation of the driver and of the driven side about the reference
-                direction, by contact
+        sides    senses (1 or -1) of the forward rotation of the driver and of the driven side about the reference
+                 direction, by contact
+        speeds   speeds of all links per unit speed of each coordinate, shape (links, n)
         """
         loads, forces = self.loads, [*self.forces.values()]
         contact = {name: at for at, name in enumerate(sides)}
@@ -123,7 +103,7 @@ class BearingForces:
         return LoadedBearings(
             np.array([contact[self.pairs[force.name]] for force in forces], dtype=np.int64),
             np.array([self._row(force, *sides[self.pairs[force.name]]) for force in forces]).reshape(-1, 8),
-            np.array([self._turn(force.carrier) for force in forces]).reshape(-1, len(self.model.coordinates)),
+            np.array([self._turn(force.carrier, speeds) for force in forces]).reshape(-1, speeds.shape[1]),
             loads.ways(force.carrier for force in forces)[:, :, 0],
             np.array([bearing for bearing, _ in found], dtype=np.int64),
             np.ascontiguousarray(loads.shares[np.ix_(rows, [*self.forces])]),
@@ -131,25 +111,24 @@ class BearingForces:
         )
 
     def _declared(self, link: str) -> str:
-        return original(link, self.model.train.links)
+        return original(link, self.train.links)
 
     def _row(self, force: AxisForce, driver: int, driven: int) -> list[float]:
         # the copies of a planet have equal parts and turn equally about their own axes
         second, setting = force.links[1], self.loads.setting
         equal = Counter(self.pairs.values())[self.pairs[force.name]]
-        part = setting.sense(second) * self.model.problem.signs.get(self._declared(second), 1) / equal
+        part = setting.sense(second) * self.problem.signs.get(self._declared(second), 1) / equal
         return [part * driver, part * driven, *force.along, *(force.lean * each for each in force.apart)]
 
-    def _turn(self, carrier: str) -> Floats:
-        own: Floats = self.model.speeds[self.model.index[self._declared(carrier)]]
+    def _turn(self, carrier: str, speeds: Floats) -> Floats:
+        own: Floats = speeds[self.problem.system.links.index(self._declared(carrier))]
         return self.loads.setting.sense(carrier) * own
 
     @cached_property
     def constant(self) -> Floats:
         """Weights on each support plus the pull of the line of a driving weight [N], shape (supports, 3)."""
         found = self.loads.weights[:, :, 0].copy()
-        drive = self.model.case.drive
         for at, force in enumerate(self.loads.forces):
-            if force.links[0] is None and drive.kind == "torque":
-                found += self.loads.shares[:, at : at + 1] * abs(drive.torque) * np.array(force.apart)
+            if force.links[0] is None and self.drive.kind == "torque":
+                found += self.loads.shares[:, at : at + 1] * abs(self.drive.torque) * np.array(force.apart)
         return found

@@ -68,11 +68,11 @@ class TabledFunction(NamedTuple):
         return found
 
 
-def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANCE) -> TabledFunction:
+def tabled_angle(transmission: TransmissionFunction) -> TabledFunction:
     """Return a table of the driven angle q(S) of a transmission function. The derivative of q is the speed ratio."""
     ratio = float(transmission.ratio)
     cuts = folded_kinks(transmission)
-    table = fit(transmission.error, transmission.period, cuts, tolerance * (ratio or 1.0) * transmission.period)
+    table = fit(transmission.error, transmission.period, cuts, TOLERANCE * (ratio or 1.0) * transmission.period)
     # both sides of a kink, beyond the rounding of its position
     away = 1e-9 * transmission.period
     jumps = np.abs(transmission.speed(cuts + away) - transmission.speed(cuts - away))

@@ -25,7 +25,6 @@ from geartrain.kinematics.circuits import pallet_link
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.simulation.contacts.loaded_bearings import BearingForces
 from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
 from geartrain.simulation.contacts.rubbing_arms import Arms, efficiency_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
@@ -37,10 +36,10 @@ if TYPE_CHECKING:
 
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_problem import MotionProblem
-    from geartrain.dynamics.torques.bearing_loads import BearingLoads
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.contact_model import ToothCompliance
+    from geartrain.simulation.contacts.loaded_bearings import BearingForces
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.transmission import TransmissionFunction
@@ -90,10 +89,8 @@ class TrainModel:
     case: TimeCase
     tree: Tree
     state: str | None = None
-    loads: BearingLoads | None = None
-    """Loads on the bearings whose friction depends on load, with equal planets as separate links; None if there are no
-    such bearings.
-    """
+    pressing: BearingForces | None = None
+    """Forces on the bearings whose friction depends on their load; None if there are no such bearings."""
 
     def typical(self, link: str) -> float:
         """Return the speed of a link in the mean motion [rad/s]."""
@@ -120,7 +117,7 @@ class TrainModel:
         left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.computes_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
-        found += [] if self._bearing_forces is None else self._bearing_forces.notes
+        found += [] if self.pressing is None else self.pressing.notes
         found += unmodelled_properties(self.train.couplings)
         return tuple(found)
 
@@ -155,7 +152,7 @@ class TrainModel:
 
     def _is_contact(self, circuit: Circuit) -> bool:
         # elimination loses the forces of ideal pairs, on which friction of bearings depends
-        if circuit.id in self._couplings or (self._bearing_forces and circuit.id in self._bearing_forces.pressing):
+        if circuit.id in self._couplings or (self.pressing and circuit.id in self.pressing.names):
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
@@ -362,8 +359,8 @@ class TrainModel:
         """Yield the dry friction of bearings. Bearings of links with proportional speeds are combined."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
-            radius = 0.0 if self.loads is None else self.train.links[link].friction_radius
-            thrust = 0.0 if self._bearing_forces is None else self._bearing_forces.thrust.get(link, 0.0)
+            radius = 0.0 if self.pressing is None else self.train.links[link].friction_radius
+            thrust = 0.0 if self.pressing is None else self.pressing.thrust.get(link, 0.0)
             sliding, sticking = sliding + thrust, sticking + thrust
             form = self._form(link, self.tree.borne_by(link))
             scale = float(np.max(np.abs(form), initial=0.0))
@@ -377,10 +374,6 @@ class TrainModel:
         for key, parts in joined.items():
             links, radii = ", ".join(part[0] for part in parts), {part[0]: part[3] for part in parts if part[3]}
             yield Bearing(links, dict(key), sum(each[1] for each in parts), sum(each[2] for each in parts), radii)
-
-    @cached_property
-    def _bearing_forces(self) -> BearingForces | None:
-        return None if self.loads is None else BearingForces(self, self.loads)
 
     def _viscous(self) -> Floats:
         found = np.zeros((len(self.coordinates),) * 2)
@@ -419,7 +412,7 @@ class TrainModel:
         torque = self.torque_of(self.case.load, self.case.drive.torque)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
-        bearings, pressing = tuple(self._bearings()), self._bearing_forces
+        bearings, pressing = tuple(self._bearings()), self.pressing
         senses = {circuit.id: self._senses(circuit) for circuit in self.contacts} if pressing else {}
         return ContactModel(
             self.mass,
@@ -431,7 +424,7 @@ class TrainModel:
             bearings,
             tuple(self._stops()),
             tuple(self._springs()),
-            None if pressing is None else pressing.arrays(bearings, senses),
+            None if pressing is None else pressing.arrays(bearings, senses, self.speeds),
         )
 
 

@@ -20,6 +20,7 @@ from geartrain.numerics.labelled_array import labelled_array
 from geartrain.numerics.results import Result, Tabular
 from geartrain.simulation.contacts.compliant_train import CompliantTrain
 from geartrain.simulation.contacts.link_inertia import find_link_inertias
+from geartrain.simulation.contacts.loaded_bearings import BearingForces
 from geartrain.simulation.contacts.time_case import find_time_case
 from geartrain.simulation.contacts.train_model import TrainModel
 from geartrain.simulation.steps.simulation import StepPlan, simulate
@@ -120,7 +121,6 @@ def model_in_time(
     # vibration modes, for which no rate is needed, do not depend on friction
     rubs = scale is None and any(part.friction_radius for part in train.declaration.links.values())
     setting = train.unfolded.load_case(state) if rubs else None
-    loads = None if setting is None else BearingLoads(setting)
     train = train.planets_as_one
     declared, case, problem = (
         train.declaration,
@@ -138,9 +138,10 @@ def model_in_time(
         rate *= problem.way
     inertia = {each.link: each.value for each in find_link_inertias(train, state, with_inputs=True) if each.value}
     found = find_time_case(declared, case, problem, train.tree, inertia, rate, restitution, scale)
+    pressing = None if setting is None else BearingForces(declared, problem, found.drive, BearingLoads(setting))
     if yields:
-        return CompliantTrain(declared, problem, found, train.tree, case.state, loads, restitution)
-    return TrainModel(declared, problem, found, train.tree, case.state, loads)
+        return CompliantTrain(declared, problem, found, train.tree, case.state, pressing, restitution)
+    return TrainModel(declared, problem, found, train.tree, case.state, pressing)
 
 
 def find_vibration_modes(

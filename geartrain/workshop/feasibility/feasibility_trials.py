@@ -235,8 +235,7 @@ class FeasibilityResult(Pictured, Result):
         yield "friction " + ("; ".join(dict.fromkeys(texts)) or fixed)
         yield "filed to fit" if self.plan.cutting.files else "no filing"
         if spreads or any(part.spread for part in self.plan.parts):
-            bearings = [link.bearing for link in declared.links.values() if link.bearing is not None]
-            apart = any(len(each.shared) < 2 for each in bearings if each.range or each.radii)
+            apart = any(link.bearing and len(link.bearing.shared) < 2 for link in declared.links.values())
             own = ", of bearings as `shared` declares" if apart and not self.plan.per_part else ""
             yield f"spreads drawn once per {'part' if self.plan.per_part else 'workshop'}{own}"
 

@@ -340,7 +340,7 @@ def plane_geometry() -> Any:
     return shapely
 
 
-def read_material(svg: str, pins: bool = False, tolerance: float = TOLERANCE) -> Geometry:
+def read_material(svg: str, pins: bool = False) -> Geometry:
     """Return the material that remains when the CUT path of a drawing is cut [mm], with y upwards. For a lantern,
     return its pins.
 
@@ -348,7 +348,7 @@ def read_material(svg: str, pins: bool = False, tolerance: float = TOLERANCE) ->
     be cut: a line that crosses itself, or a hole that leaves the part.
     """
     shapely = plane_geometry()
-    rings = [shapely.Polygon(line) for line in cut_lines(svg, tolerance)]
+    rings = [shapely.Polygon(line) for line in cut_lines(svg)]
     crossed = next((ring for ring in rings if not ring.is_valid), None)
     if crossed is not None:
         raise _uncuttable("a line crosses itself", shapely.is_valid_reason(crossed))

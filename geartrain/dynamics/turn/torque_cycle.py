@@ -181,7 +181,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     newton_metres: bool = True
     """True if torques are in N m, False if they are numbers without a unit."""
     span: float = 0.0
-    """Length of the run, in revolutions of the input."""
+    """Length of the run [revolutions of the input]."""
     period: float | None = None
     """Revolutions of the input after which all positions repeat; None if the torque is constant."""
     turns: Floats | None = None

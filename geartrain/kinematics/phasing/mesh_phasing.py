@@ -222,8 +222,8 @@ class LoopPhase(Result):
     weights: tuple[int, ...]
     """Integer weight of each pair in the sum of the phase equations; 1 or -1 except in loops with compound wheels."""
     residue: Fraction | float
-    """Weighted sum of the phase constants of the pairs minus the nearest integer, in [-1/2, 1/2] [pitch]; a Fraction if
-    it is exact.
+    """Weighted sum of the phase constants of the pairs minus the nearest integer, from -1/2 to 1/2 [pitch]; a Fraction
+    if it is exact.
     """
     slack: float
     """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is exact."""

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """Flexible wheel of a strain wave gear, as positioned in a layout, and the wave generator that deforms the wheel."""
+    """Flexible wheel of a strain wave gear in a layout, and the wave generator that deforms the wheel."""
 
     wheel: str
     link: str

@@ -109,7 +109,9 @@ class SceneContext:
         return " mm" if link in self.train.kinematics.tree.lines else ""
 
     def sense(self, link: str) -> int:
-        """Return -1 if a link's axis is opposite to the reference direction of the axes parallel to it, and 1 if not."""
+        """Return -1 if the axis of a link is opposite to the reference direction of the axes parallel to it, else
+        return 1.
+        """
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:

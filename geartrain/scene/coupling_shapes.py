@@ -82,7 +82,7 @@ class _CouplingPlace:
         return ScenePart(body, name, kind, at, direction, beside_axis(direction), ((low, high, radius, 0.0),))
 
     def rod(self, link: str, to: str, at: Vector, way: Vector, length: float, radius: float) -> SceneHanger:
-        """Return a rod or a rope that extends from the point `at` of one link along `way` to a point of the link `to`."""
+        """Return a rod or a rope that extends along `way` from the point `at` of one link to a point of the link `to`."""
         body = self.stage.body
         return SceneHanger("rod", body[link], at, self.axis, way, length, 0.0, radius, to=body[to])
 
@@ -389,7 +389,9 @@ def _slot(angle: float, far: float, near: float, half: float) -> list[Point]:
 
 
 def _cross(n: int, C: float, r: float, pin: float) -> list[Point]:
-    """Return the outline of a Geneva cross with `n` slots, one of them at angle 0, and locking arcs between the slots."""
+    """Return the outline of a Geneva cross with `n` slots of half width `pin`, one of them at angle 0, and with locking
+    arcs between the slots. `C` is the axis distance and `r` the radius of the driving pin's path [mm].
+    """
     rim, bottom, lock = C * cos(pi / n), C - r - 1.5 * pin, r - 2.0 * pin
     found: list[Point] = []
     for at in range(n):

@@ -120,8 +120,8 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that both intersect a third axis, except in worm gears, with the unit vector from one to the
-    other.
+    """Yield pairs of axes that both intersect a third axis, except in worm gears, each with the unit vector of the
+    third axis in the plan.
     """
     met: dict[str, list[str]] = {}
     for each in crossing:

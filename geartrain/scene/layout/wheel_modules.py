@@ -368,17 +368,18 @@ class WheelSize:
 
     radius: float
     module: float
-    """Transverse module, the pitch diameter divided by the tooth count, or axial module of a worm [mm]."""
+    """Transverse module, which is the pitch diameter divided by the tooth count; for a worm, the axial module [mm]."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     inner: float
     """Radius of the free space inside a ring [mm]; 0 for other wheels."""
     outer: float
-    """Outer radius, including clearance [mm]."""
+    """Outer radius of the wheel, including clearance [mm]."""
     slot: float = 0.0
-    """Height of the middle of the wheel above the lowest slot [mm], if its level is divided into slots."""
+    """Height of the middle of the wheel above the lowest slot [mm], if its level is divided into slots; 0 if it is not.
+    """
     plain: float = 0.0
-    """Thickness before the wheel was broadened to mesh with several mates [mm]."""
+    """Thickness of the wheel before it was broadened to mesh with several mates [mm]."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
         """Return the wheel broadened to occupy the slots from `low` to `high`, counted from 0 for the lowest slot."""
@@ -394,7 +395,7 @@ class WheelSize:
 
 @dataclass(frozen=True, slots=True)
 class CrossingSide:
-    """Pair with non-parallel axes, from the side of one of its wheels, with the seats of both wheels."""
+    """Gear pair with non-parallel axes, as seen from one of its wheels, with the seats of both wheels."""
 
     contact: PitchContact
     side: ContactSide
@@ -410,7 +411,7 @@ class SizedGeometry:
     modules: WheelModules
     sizes: Mapping[str, WheelSize]
     crossing: tuple[CrossingSide, ...]
-    """Pairs whose axes are not parallel; each is listed twice, once from the side of each wheel."""
+    """Gear pairs whose axes are not parallel. Each pair is listed twice, as seen from each of its wheels."""
 
     @cached_property
     def seats(self) -> Mapping[tuple[str, str], Seat]:
@@ -419,7 +420,7 @@ class SizedGeometry:
 
 
 def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
-    """Return the declared geometry with the modules, sizes and seats of all wheels."""
+    """Return the declared geometry extended by the modules, sizes and seats of all wheels."""
     modules = _ModuleSearch(declared).found()
     sizes = {
         wheel: _size(declared, wheel, modules.module[wheel], wheel in modules.declared) for wheel in declared.wheels

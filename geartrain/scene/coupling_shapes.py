@@ -82,7 +82,7 @@ class _CouplingPlace:
         return ScenePart(body, name, kind, at, direction, beside_axis(direction), ((low, high, radius, 0.0),))
 
     def rod(self, link: str, to: str, at: Vector, way: Vector, length: float, radius: float) -> SceneHanger:
-        """Return a rod or a rope that extends along `way` from the point `at` of one link to a point of the link `to`."""
+        """Return a rod or rope that extends along `way` from the point `at` of one link to a point of the link `to`."""
         body = self.stage.body
         return SceneHanger("rod", body[link], at, self.axis, way, length, 0.0, radius, to=body[to])
 

@@ -98,7 +98,7 @@ def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str
 
 
 def _pins(blocks: Sequence[WheelBlock], ties: Sequence[CouplingTie]) -> Iterator[tuple[str, str]]:
-    """Yield, for each pin and slot, the widest wheels of their two links, if the pin's circle encloses the slot's axis."""
+    """Yield, for each pin and slot, the widest wheels of the two links if the pin's circle encloses the slot's axis."""
     widest = _widest([block for block in blocks if not block.across])
     for tie in ties:
         pin, slot = (widest.get(link) for link in tie.links)

@@ -185,8 +185,8 @@ class _OrderSearch:
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
     def _costs(self, every: Floats, fixed_cost: float) -> Floats:
-        """Return the costs of several orders. Each column of `every` contains the keys of one order, with NaN for
-        stacks that are not placed yet.
+        """Return the costs of several orders. Each row of `every` contains the keys of one order, with NaN for stacks
+        that are not placed yet.
         """
         keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
         low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below

@@ -327,7 +327,9 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials in the same order, with radii reduced to avoid overlaps. Dials about the same axis are nested."""
+    """Return the dials in the same order, with radii reduced to avoid overlaps. Dials about the same axis are
+    nested.
+    """
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)

@@ -37,8 +37,8 @@ def find_neglected_effects(
 
     neither   pairs in which neither torque is constant over a revolution
     idle      pairs that transmit no torque and have no losses
-    bearings  True if constant friction of bearings was included
-    loads     loads of the bearings whose friction depends on them
+    bearings  True if load-independent friction of bearings was included
+    loads     loads of the bearings whose friction depends on the load, or None
     loose     pairs whose torque is undetermined
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
@@ -74,7 +74,7 @@ def unknown_forces(
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the effect of the viscous drag on links, which a balance of exact mean torques does not include."""
+    """Yield the effect of the viscous drag on links, which is not included in a balance of exact mean torques."""
     if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
         yield NeglectedEffect(
             "viscous drag", links, "it depends on speed: torques over a turn include it if speeds have units"

@@ -144,7 +144,9 @@ class WheelModules:
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
-    """Return the distance between the axes of a pair [mm] at which the pitch circles touch or the declared teeth mesh."""
+    """Return the distance between the axes of a gear pair [mm] at which the pitch circles touch or the declared teeth
+    mesh.
+    """
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
     return float(contact.stretch) * (abs(first - second) if contact.kind == "ring" else first + second)
 

@@ -381,7 +381,9 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
 
 
 def _thickest(blocks: Sequence[WheelBlock], which: Indices) -> float:
-    """Return the maximum thickness [mm] of the selected blocks that have no offset in their stack; 0 if there are none."""
+    """Return the maximum thickness [mm] of the selected blocks that have no offset in their stack; 0 if there are no
+    such blocks.
+    """
     sizes = [blocks[at].low + blocks[at].high for at in which.tolist() if not blocks[at].offset]
     return max(sizes, default=0.0)
 

@@ -65,8 +65,8 @@ class FlatDrawing:
 
 
 def _bounds(contour: Contour) -> Floats:
-    """Return points that bound a contour: its vertices if there are many, or points on its chords and arcs if there are
-    few.
+    """Return points that bound a contour: its vertices if there are many, or the vertices of a polygon that
+    approximates it if there are few.
     """
     return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 

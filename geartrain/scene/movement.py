@@ -342,7 +342,9 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Return the number of turns of the driving link after which all angles and errors repeat; None if nothing moves."""
+    """Return the number of turns of the driving link after which all angles and errors repeat; None if no link
+    moves.
+    """
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:

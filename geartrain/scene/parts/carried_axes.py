@@ -108,7 +108,7 @@ def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[
 
 
 def gap_beside(slab_gaps: Sequence[float], face: float, side: int) -> float:
-    """Return the height of the gap nearest to a face [mm], above the face if `side` is 1, or below it if `side` is -1."""
+    """Return the height of the gap nearest to a face [mm]: above the face if `side` is 1, below it if `side` is -1."""
     return min((each for each in slab_gaps if (each - face) * side > 0), key=lambda each: abs(each - face))
 
 

@@ -55,7 +55,9 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Choice of the heights of the frame plates, the seats of carriers and all columns, with the cost of this choice."""
+    """Choice of the heights of the frame plates, of the seats of carriers and of all columns, with the cost of this
+    choice.
+    """
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]

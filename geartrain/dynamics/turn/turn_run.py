@@ -273,7 +273,7 @@ class TurnRun:
 
 @dataclass(frozen=True)
 class RunScales:
-    """Torque scale (maximum torque of any pair) and power scale (maximum power of any link) of a run."""
+    """Torque scale (maximum torque of any pair) and power scale (maximum external power) of a run."""
 
     pressed: float
     power: float

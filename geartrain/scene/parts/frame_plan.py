@@ -445,7 +445,9 @@ class FramePlan:
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Return circles that contain the wheels that are not upright, between two heights, as centres and radii [mm]."""
+        """Return circles that contain the wheels that are not upright between two heights, each as centre and radius
+        [mm].
+        """
         return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property
@@ -512,7 +514,9 @@ def arm_seats(
 
 
 def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
-    """Yield, for each shaft that only has brakes or clutches, the possible seats of a flange below or above all wheels."""
+    """Yield the possible seats of a flange, below or above all wheels, for each shaft that only has brakes or
+    clutches.
+    """
     train = stack.train
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}

@@ -244,7 +244,9 @@ def _brackets(
 def _best_plate(
     plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
 ) -> tuple[int, float, str]:
-    """Return, for the best plate for a bracket, the number of wheels in front of it, its distance [mm], and its name."""
+    """Return the number of wheels in front of the best plate for a bracket, the distance of this plate [mm], and its
+    name.
+    """
     place, stack = _middle(plan, body, face, way), plan.stack
     height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
 

@@ -1,9 +1,9 @@
 """Construction of the scene of a train: positions, outlines and motion of all its elements.
 
 The rotation of each wheel on its body brings teeth into contact as their transmission function requires in the zero
-pose. The transmission function of a pair gives the angles of both wheels at the angle of its driver, so that a
-traversal from wheel to wheel determines all angles. If a wheel has several mates, one pair is exact; in each other pair
-the driven wheel is rotated until its driver does not interfere with it at any position.
+pose. The transmission function of a pair gives the angle of the driven wheel for each angle of the driver, so that a
+traversal from wheel to wheel determines all angles. If a wheel has several mates, only one of its pairs is exact. In
+each of its other pairs, the driven wheel is rotated until the driver does not interfere with it at any position.
 
 Speeds are available as exact functions of tooth counts, for pages on which the tooth counts can be changed. Equal
 planets share one tooth count.
@@ -62,7 +62,8 @@ _NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are roundi
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector, Vector], int] | None:
-    """Return the directions of contact of a pair and its sense; None for screw pairs and for coaxial wheels.
+    """Return the two directions of contact of a gear pair and its sense (1 or -1); None for screw pairs and coaxial
+    wheels.
 
     The directions are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their
     axes. The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, and -1 if
@@ -87,7 +88,7 @@ _ROUNDS = 4
 
 
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
-    """Return the angle of the first tooth of every wheel at which its teeth mesh with its mates, and notices.
+    """Return the angle of the first tooth of every wheel, chosen so that its teeth mesh with its mates, and notices.
 
     Each angle [rad] is about the direction of the wheel's body, from the reference direction of the wheel. A wheel
     without mates keeps its angle from the layout.

@@ -109,8 +109,8 @@ class SceneContext:
         return " mm" if link in self.train.kinematics.tree.lines else ""
 
     def sense(self, link: str) -> int:
-        """Return -1 if the axis of a link is opposite to the reference direction of the axes parallel to it, else
-        return 1.
+        """Return the sense of a link's axis: -1 if it is opposite to the reference direction of the axes parallel to
+        it, 1 if not.
         """
         return self.train.kinematics.signs.get(link, 1)
 

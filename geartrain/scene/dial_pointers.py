@@ -1,5 +1,5 @@
-"""Dials with the position and direction of their scales, and pointers with their readings and the pairs on which they
-depend.
+"""Dials with the positions and directions of their scales, and pointers with their readings and the gear pairs on which
+each reading depends.
 
 An output depends on the pairs whose errors would change it; this dependence is computed exactly. An error in one pair
 is a right-hand side in the row of that pair. Its effect on an output is the weight of that row in the only combination

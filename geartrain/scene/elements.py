@@ -154,7 +154,7 @@ class ToothProfile(Shown):
     It is `standard` if no form is declared, and `likeness` for nominal teeth of a wheel without a flat outline.
     """
     points: Sequence[tuple[float, float]]
-    """Radius relative to the pitch radius, and angle [rad], of each point.
+    """Points of the profile. Each is a radius divided by the pitch radius, and an angle [rad].
 
     The angles of an open profile increase from -pi/z to pi/z, where z is the tooth count. For a bevel or contrate wheel
     the radius is 1 plus the height above the pitch cone, along the back cone.

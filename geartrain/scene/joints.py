@@ -229,7 +229,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the nearest wheels of two coupled links [mm].
+    """Return the height along the axis midway between the nearest wheels of two coupled links [mm].
 
     If only one of the links has wheels, return the height of its first wheel. If neither has wheels, return the height
     of the pin's axis.

@@ -141,8 +141,8 @@ def step_of(step: Composed) -> ErrorStep:
 def tables_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
-    """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
-    table.
+    """Return the error tables, and the error sources that refer to the tables. Pairs with equal transmission functions
+    share a table.
 
     way   1, or -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link,
     and

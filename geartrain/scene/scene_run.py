@@ -1,4 +1,4 @@
-"""Simulated motion of a train as stored in a page: angles at few samples, contacts, and impacts.
+"""Simulated motion of a train as stored in a page: angles at selected samples, contacts, and impacts.
 
 The time of sample n is n `step` seconds after the start of the replayed part. The angle of a link at the time t is
 

@@ -1,4 +1,4 @@
-"""Scene of a train: all data of a picture of the train, as plain data. Lengths are in mm, angles in rad.
+"""Scene of a train: all data that are required to draw the train, as plain data. Lengths are in mm, angles in rad.
 
 Positions are given in the zero pose, in which the angle of every link is zero. The angle of a body about its
 `direction`, after `t` turns of the driving link, is

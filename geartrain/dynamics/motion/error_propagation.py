@@ -1,4 +1,4 @@
-"""Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved exactly (its section 2).
+"""Propagation of the errors of pairs to links: exact solution of equation (2) of docs/motion.md (section 2).
 
 For a pair of links i and j on carrier k, a (e_i - e_k) + b (e_j - e_k) = c delta, where e is the error of a link's
 angle, delta the error of the pair's driven side, and c its coefficient a or b. This is the Willis system without the
@@ -74,8 +74,8 @@ class CoupledErrors:
 
 
 def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the errors [rad], rates [1] and driver speeds [1] of coupled pairs, given the driver angles and speeds
-    without these errors.
+    """Return the errors [rad], rates [1] and driver speeds [1] of coupled pairs, each of shape (pairs, n), given the
+    driver angles and speeds without these errors.
 
     base      driver angles [rad], shape (pairs, n)
     turning   driver speeds divided by the speed of the input [1], shape (pairs, n)

@@ -1,4 +1,4 @@
-"""Extreme errors and rates of outputs over a run of the input, both at kinks and at smooth maxima.
+"""Extreme errors and rates of outputs over a run of the input. Extremes at kinks and smooth extremes are both found.
 
 The kinks of all transmission functions divide the run into pieces on which errors and rates are smooth. Each piece is
 evaluated in the middle and at its ends, where one-sided limits are taken because rates jump at kinks. A maximum between

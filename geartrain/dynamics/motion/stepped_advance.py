@@ -1,9 +1,9 @@
 """Mean advance of a link that one-way clutches drive in steps, from the motion of the links that drive it.
 
-The driven link has the speed max(0, v_1, v_2, ...) of its drivers, because friction holds it while none of them drives
-it. A common period of the drivers is divided at kinks, and where another driver becomes the fastest. In each piece, the
-advance is the difference of the end positions of the fastest driver. For a single driver, the sum is the positive
-variation of its angle.
+The driven link has the speed max(0, v_1, v_2, ...), where v_1, v_2, ... are the speeds of its drivers, because friction
+holds it while none of them drives it. A common period of the drivers is divided at kinks, and where another driver
+becomes the fastest. In each piece, the advance is the difference of the end positions of the fastest driver. For a
+single driver, the sum is the positive variation of its angle.
 """
 
 from __future__ import annotations

@@ -100,8 +100,7 @@ def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, 
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """Return the driving wheel of every pair and the driving link of every coupling in one state, computed on first
-    access.
+    """Return a lazy mapping of the driving wheel of every pair and the driving link of every coupling in one state.
 
     circuits   circuits of the pairs and couplings to include
     setting    load case with the speeds of the state, or None if the speeds are undetermined. In that case, only

@@ -1,10 +1,10 @@
 """Patterns of power flow that are consistent with the losses; see equations (5), (7) and (8) of docs/torques.md.
 
 The balance is piecewise linear, with one linear system for each pattern. If all pieces have the same orientation, there
-is exactly one solution (Samelson, Thrall and Wesler); otherwise there may be none (self-locking) or several. In block
-triangular form, an ordinary train has one unknown per block, and only the patterns of coupled meshes within a block are
-enumerated. If a block contains too many meshes with losses, a fixed-point iteration gives one pattern, and the result
-is marked as not exhaustively checked.
+is exactly one solution (Samelson, Thrall and Wesler). If not, there may be no solution (self-locking) or several. In
+block triangular form, an ordinary train has one unknown per block, and only the patterns of coupled meshes within a
+block are enumerated. If a block contains too many meshes with losses, a fixed-point iteration gives one pattern, and
+the result is marked as not exhaustively checked.
 """
 
 from __future__ import annotations

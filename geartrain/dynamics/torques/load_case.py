@@ -110,8 +110,8 @@ class MeanEfficiencies:
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return the efficiencies with the first and with the second link driving, which depend on which torque is
-        constant.
+        """Return the efficiency if the first link drives and the efficiency if the second link drives, for the given
+        constant torque.
 
         side      1 if the torque of the first link is constant, -1 if the torque of the second link is, 0 if neither is
         driving   True if loads supply power to the train; only used if neither torque is constant

@@ -3,9 +3,9 @@
 A clutch between links a and b permits relative rotation in the sense s = 1 (forward) or -1 (backward). It satisfies the
 complementarity conditions s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, where w are speeds and T is the torque on
 b. The patterns of holding clutches are enumerated. A pattern is rejected if its speeds contradict each other, if the
-slip of an overrunning clutch is not positive (at equal speeds a clutch holds), if a holding clutch has a torque in the
-sense in which it overruns, or if the loads set the train in motion. Speeds are exact, and torques include declared
-losses.
+slip of an overrunning clutch is not positive (at equal speeds a clutch holds), if a holding clutch transmits a torque
+in the sense in which it overruns, or if the loads set the train in motion. Speeds are exact, and torques include
+declared losses.
 
 If no loads are declared, each output in turn is assumed to resist its rotation. An output that no pattern can drive is
 ignored.

@@ -263,7 +263,7 @@ class DrivenWay(NamedTuple):
 class Torques(FrozenFields, Tabular, TrainResult):
     """Exact torques and powers of a train in one state, from A^T x + T = 0, equation (3) of docs/torques.md.
 
-    Torques are in N m if loads have units, and otherwise are numbers without a unit. The unit of power is the unit of
+    Torques are in N m if loads have units, and numbers without a unit if they do not. The unit of power is the unit of
     torque times the train's unit of speed. Powers are positive if they flow into the train.
 
     Examples

@@ -395,7 +395,7 @@ class TurnBalance:
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Return the torques at some positions. The flanks in contact are determined iteratively, beginning with the
+        """Return the torques at some positions. The flanks in contact are determined iteratively, starting with the
         drive flanks.
 
         If a link would turn backwards on its drive flanks and forwards on its coast flanks, it is at rest in the

@@ -390,7 +390,7 @@ def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -
 
 def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
     """Combine all conditions D phi = b t on a planet's angle phi into one condition, and return its pair (D, b). Append
-    to `found` the integers E for which the combined conditions are compatible.
+    to `found` the integers E that express under which rotations t these conditions are compatible.
     """
     (D, b), *others = left
     for D2, b2 in others:
@@ -448,7 +448,7 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
     D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
     tips   sum of the tip diameters, and twice the required clearance
     c, s   cosine and sine of the angle psi to the neighbour; the angle between the two axes is psi - delta,
-           (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
+           (2 d)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
     """
     Q = A * A + B * B - D * D
     # 2 A B sin(delta), because Q = 2 A B cos(delta)

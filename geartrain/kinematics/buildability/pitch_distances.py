@@ -536,9 +536,9 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     """Return the text of a fix with the profile shifts for which involute teeth have no backlash at a distance
     [modules]; "" if the sum of the shifts would be outside `_SHIFTS`, or if no involute pair has this distance.
 
-    inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
-    cos(helix). In a pair with a ring, z and x of the mate are negative. The rack angle a_n is declared by the tooth
-    form; the default is 20 degrees.
+    The equation is inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), with cos a_w = cos a_t touching/distance, tan a_t
+    = tan a_n / cos(helix), the profile shifts x and the tooth counts z. In a pair with a ring, z and x of the mate are
+    negative. The rack angle a_n is declared by the tooth form; the default is 20 degrees.
     """
     from geartrain.teeth.conjugate.involute_geometry import inv
 

@@ -1,4 +1,4 @@
-"""Fundamental circuits of gear pairs and couplings with carrier and signed exact ratio; angles between shafts.
+"""Fundamental circuits of gear pairs and couplings, with their carriers and signed exact ratios, and shaft angles.
 
 The turning pairs form a tree. A gear pair (i, j) closes one circuit through it, and its carrier k is the link on the
 tree path where the axis label changes (the transfer vertex). Every link on an axis is attached to the link on that axis

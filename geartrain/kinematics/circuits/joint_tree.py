@@ -282,8 +282,8 @@ def check_parallel(first: Wheel, second: Wheel) -> None:
 
 
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
-    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note,
-    which is empty unless the sense is only a convention.
+    """Return the sense of two helical wheels on skew axes, and a note. The sense is 1 if they turn in opposite senses,
+    as spur wheels do, and -1 if not. The note is empty unless the sense is only a convention.
 
     Let b1 and b2 be the helix angles (positive for right-hand helices), and S the angle from the first axis to the
     second, about the direction from the second to the first. Teeth are aligned if b1 + b2 = S, and then z1 w1 = -z2 w2;

@@ -1,4 +1,5 @@
-"""Rational functions of tooth counts in textbook notation: in factors, as text, LaTeX or a SymPy expression.
+"""Rational functions of tooth counts in textbook notation, which are factored and given as text, LaTeX or SymPy
+expressions.
 
 Polynomials in tooth counts are written as products in which no two factors have a wheel in common. Two variables i and
 j belong to different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for fixed values a and b with P(a,

@@ -394,9 +394,9 @@ def find_formulas(
 ) -> Formulas:
     """Return the speed of every output in one state as a function of the variable tooth counts.
 
-    state    a declared state, or None for a train without states
-    free     wheel -> allowed tooth counts; all other wheels keep their declared count
-    inputs   speeds of the input links, instead of the declared speeds
+    state    name of a declared state, or None for a train without states
+    free     allowed tooth counts of wheels, by wheel; all other wheels keep their declared tooth count
+    inputs   speeds of the input links, by link; None for the declared speeds
 
     Raises `QuestionError` for wheels or states that the train does not have, or if the coupled part of the train is too
     large. Raises `DeclarationError` if a wheel that is not in `free` has no tooth count.

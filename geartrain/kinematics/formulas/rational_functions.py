@@ -45,10 +45,11 @@ Member = TypeVar("Member")
 
 
 def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[Exponents, dict[Member, int]]:
-    """Group keys whose integer vectors are multiples of one vector. Return for each such vector the factor of each key.
+    """Group the keys whose integer vectors are multiples of a common vector. Return, for each common vector, the factor
+    of each key.
 
-    The common vectors are primitive (their entries are coprime), and their first non-zero entry is positive.
-    Keys with zero vectors are omitted.
+    The common vectors are primitive (their entries are coprime), and their first non-zero entry is positive. Keys with
+    zero vectors are omitted.
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:

@@ -174,7 +174,8 @@ class Gridlock(Result):
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """Yield a sentence on each locked part and its remedy. No sentence is yielded if no link is locked.
+        """Yield a sentence for each locked part that describes the lock and the remedy. No sentence is yielded if no
+        link is locked.
 
         Parameters
         ----------

@@ -536,7 +536,7 @@ class PhaseSystem:
 
     @cached_property
     def spread_angles(self) -> list[float]:
-        """Angles of links with the smallest sum of squared errors that was found [turn].
+        """Angles of links for which the sum of the squared phase errors is the smallest that was found [turn].
 
         Two initial assignments of teeth to gaps are tried: in one, the errors of the pairs that close loops are below
         half a pitch; in the other, the residues of short loops are below half a pitch. Then the errors are distributed

@@ -119,8 +119,8 @@ class PitchContact:
     stretch: Fraction = Fraction(1)
     """Centre distance of the declared teeth divided by the centre distance at which the pitch circles touch."""
     worm_sense: int = 0
-    """1 if positive angles of a worm and of its wheel move thread and teeth at the pitch point in the same direction,
-    -1 if in opposite directions.
+    """1 if positive rotations of a worm and of its wheel move the thread and the teeth at the pitch point in the same
+    direction, -1 if they move them in opposite directions.
 
     It is 0 for pairs without a worm.
     """

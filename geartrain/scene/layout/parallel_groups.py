@@ -258,7 +258,7 @@ class AxialSlots(NamedTuple):
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Return the slots of the wheels that must be axially separated or broadened; other wheels are omitted.
+    """Return the slots of all wheels that must be axially separated or broadened, by wheel; other wheels are omitted.
 
     meshes   pairs of meshing wheels on parallel axes
     overlap  function that returns True if two wheels at one height would collide
@@ -426,7 +426,8 @@ class _Placing:
         return dict.fromkeys(self._collinear(parallels) or driven or labels[:1], (0.0, 0.0))
 
     def _collinear(self, parallels: Parallels) -> list[str]:
-        """Return parallel axes that must coincide, because each intersects two crossing axes of different directions.
+        """Return the parallel axes that must coincide because each of them intersects two crossing axes of different
+        directions.
 
         The axes of all mates of one crossing wheel also coincide, because the pitch cones of these mates have a common
         apex.

@@ -216,7 +216,7 @@ class PlanOrder:
         return found
 
     def _rank(self, at: int, placed: set[int]) -> tuple[bool, int, float]:
-        """Return the rank of an axis; the axis with the minimum rank is placed first.
+        """Return the rank of an axis as a tuple. The axis with the minimum rank is placed next.
 
         An axis comes after the axis of its carrier. Among other axes, the axis with the most placed neighbours comes
         first. Ties are decided by the larger radius, or, for axes without placed neighbours, by the larger number of
@@ -300,7 +300,7 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the intersections of a line (point, unit vector) with a circle.
+    """Return the two intersections of a circle with a line, which is given by a point and the unit vector `way`.
 
     If they do not intersect, the result contains twice the point of the line that is nearest to the centre.
     """
@@ -458,7 +458,7 @@ class _BeamSearch:
         return [(x + far * cos(pi * at / 4), y + far * sin(pi * at / 4)) for at in range(8)]
 
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points on the circle about the first axis to which the axis is tied.
+        """Return points on the circle about the first placed axis from which the distance of the axis is prescribed.
 
         The points are in all directions, or only at positions in which a planet can be assembled. Equivalent axes on
         one carrier are evenly spaced, starting at the first of these axes.

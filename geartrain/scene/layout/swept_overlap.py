@@ -62,7 +62,7 @@ class _Swept(NamedTuple):
 
 
 def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> SweptDistances:
-    """Return the distances between parallel axes over all angles of their carriers.
+    """Return the minimum and maximum distances between parallel axes over all angles of their carriers.
 
     If a link turns about a direction that is not parallel to the axes, the axes that it carries have an infinite
     distance from all axes that it does not carry.
@@ -143,10 +143,8 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> tuple[Flags, Flags]:
-    """Return masks of the pairs of blocks that must not be at one height, and of the blocks that arbors and pins would
-    pierce.
-
-    The shapes of the masks are (blocks, blocks) and (arbors and pins, blocks).
+    """Return a mask of the pairs of blocks that must not be at the same height, shape (blocks, blocks), and a mask of
+    the blocks that each arbor or pin would pierce, shape (arbors and pins, blocks).
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
     pins     pairs of wheels: the wheel that has the pin, and the wheel that has the slot

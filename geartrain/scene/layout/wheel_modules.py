@@ -2,12 +2,12 @@
 
 Wheels that mesh share a module, so each cluster of meshing wheels has one module. Two pairs between the same two axes
 force the ratio of the modules of their clusters. These ratios are stored in a weighted union-find structure as exact
-fractions. The scale of a group of clusters is a declared module; if there is none, a least squares fit of declared
-distances, or the median of all known modules.
+fractions. The scale of a group of clusters is given by a declared module. If there is none, it is a least squares fit
+of declared distances, or the median of all known modules.
 
-Free modules are changed until every closed chain of axes can close. A chain closes if none of its distances is longer
-than the sum of the rest (polygon inequality). The method is relaxation: each distance that is longer than the shortest
-path between its ends is shortened, or that path is lengthened, repeatedly.
+Free modules are changed until every closed chain of axes can close. A chain can close if none of its distances is
+longer than the sum of its other distances (polygon inequality). The method is relaxation: each distance that is longer
+than the shortest path between its ends is shortened, or that path is lengthened, repeatedly.
 
 `SizedGeometry` is the input of all steps that place axes and wheels: the declared geometry with modules, sizes of
 wheels, and seats of pairs whose axes are not parallel.
@@ -313,8 +313,8 @@ class Seat:
 
 
 def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float, float]) -> tuple[Seat, Seat]:
-    """Return the seats of the first and second wheel of a pair, from the declared directions of axes and sides of
-    wheels.
+    """Return the seats of the first and the second wheel of a pair, computed from the declared directions of the axes
+    and the declared sides of the wheels.
 
     The pitch point is on the side to which both wheels face. The shaft angle S is the angle between the directions from
     the apex to both wheels. The first wheel of a bevel pair has the cone half angle d_1 with tan d_1 = sin S / (z_2/z_1

@@ -21,8 +21,8 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the tooth size of a bevel wheel at the small end divided by the tooth size at the large end, from 0.55 to
-    1.
+    """Return the tooth size of a bevel wheel at the small end divided by its tooth size at the large end, limited to
+    0.55 to 1.
 
     cone        half angle of the wheel's pitch cone [rad], above 0; a right angle for a crown wheel
     radius      pitch radius at the large end [mm]

@@ -120,11 +120,12 @@ def carried_columns(
     core: float | None,
     head: float = SHAKE + HEAD,
 ) -> list[AxisColumn]:
-    """Return the column (stud and pipes) of each axis in `axes`, which one carrier carries, relative to the carrier.
+    """Return the column (stud and pipes) of each axis in `axes`, all on one carrier, in positions relative to the
+    carrier.
 
-    With a `head` of 0, heads of studs take no space yet. If two axes are so close that their studs would intersect, the
-    stud of the axis whose wheels are farther from the seat starts at the end of the other stud. Both studs are then one
-    stepped part.
+    If `head` is 0, no space is reserved for the heads of studs. If two axes are so close that their studs would
+    intersect, the stud of the axis whose wheels are farther from the seat starts at the end of the other stud. Both
+    studs are then one stepped part.
     """
     seen = [seen_from_carrier(seat.link, seat.at, disc) for disc in discs if disc.name != seat.name]
     found = [_carried_column(axis, seat, seen, process, core, head) for axis in axes]

@@ -1,8 +1,8 @@
 """Eccentrics, circles of pins in plates, and the cups of strain waves.
 
-An eccentric is a round disc, off centre on an arbor, on which a carried wheel turns. It replaces a stud where the
-carried axis is so close to the axis of its carrier that a wheel on it surrounds both. The wheel has a hole for the
-eccentric, and two washers keep it in place.
+An eccentric is a round disc, off centre on an arbor, on which a carried wheel turns. It replaces a stud if the carried
+axis is so close to the axis of its carrier that a wheel on the carried axis surrounds both axes. The wheel has a hole
+for the eccentric, and two washers keep it in place.
 
 Circles of pins are fixed in a plate: the pins of a pin ring, and the pins that move in round holes of a disc. The cup
 of a strain wave gear is the wall that connects a flexible wheel to the body that the wheel turns.

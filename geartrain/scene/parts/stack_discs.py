@@ -209,7 +209,7 @@ def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
 
 
 def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
-    """Return the passages that do not intersect a hole, and between which a web of the plate is left.
+    """Return the passages that do not intersect a hole and are separated from each other by a web of the plate.
 
     If two passages are too close together, the earlier passage is kept.
 

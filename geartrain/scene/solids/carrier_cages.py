@@ -442,7 +442,7 @@ class _CageBuilder:
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """Return the mid-height of an arm beyond all wheels [mm], on the side on which fewer wheels obstruct the post."""
+        """Return the mid-height of an arm beyond all wheels [mm], on the side where fewer wheels obstruct the post."""
         wheels = list(self._coaxial())
 
         def cost(side: int) -> tuple[int, float]:

@@ -103,7 +103,7 @@ class SolidModel(Shown):
 
     @cached_property
     def plan(self) -> FramePlan | None:
-        """Positions of plates and arbors; None if the frame carries no wheel, or if arbors are omitted (a bore of 0)."""
+        """Positions of plates and arbors; None if the frame carries no wheel, or if the bore is 0 (no arbors)."""
         normal = find_normal(self.sized, self._spread)
         # a bore of 0 requests wheels without arbors and plates
         if self.making.bore == 0 or normal is None:

@@ -40,7 +40,7 @@ Point = tuple[float, float]
 
 
 def spoke_windows(root: float, module: float, bore: float, spokes: int) -> tuple[Contour, ...]:
-    """Return the openings between the spokes of a wheel, each as one hole; empty if there is not enough space.
+    """Return the openings between the spokes of a wheel, each as one contour; empty if there is not enough space.
 
     A spoke has a uniform width equal to the depth of the rim. An opening is bounded by two spokes, the rim and the hub.
 
@@ -98,7 +98,7 @@ def _at(radius: float, angle: float) -> Point:
 
 
 def _spoke_edge(along: float, half: float, pitch: float) -> Point:
-    """Return the point on the edge of the spoke at +pitch/2 that faces the opening, at the distance `along` the spoke."""
+    """Return the point at the distance `along` on the edge of the spoke at +pitch/2 that faces the opening."""
     c, s = cos(pitch / 2), sin(pitch / 2)
     return along * c + half * s, along * s - half * c
 

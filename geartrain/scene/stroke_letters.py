@@ -143,8 +143,8 @@ _SMALL, _SIMPLE = 0.025, 6  # relative height of letters whose strokes of over s
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital letter of height 1 that stands on the line y = 0, and its width. An unknown
-    character is drawn as a box.
+    """Return the strokes of a capital letter of height 1 whose baseline is y = 0, and its width. An unknown character
+    is drawn as a box.
     """
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())

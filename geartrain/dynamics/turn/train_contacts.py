@@ -394,8 +394,8 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
 
 
 class BearingTorques(NamedTuple):
-    """Friction torques of a bearing in motion and at rest, and its viscous drag torque per unit of the ratio of its
-    speed to the input speed.
+    """Friction torques of a bearing in motion and at rest, and its viscous drag torque at the input speed. The drag
+    torque is proportional to the speed of the bearing divided by the input speed.
     """
 
     sliding: float

@@ -55,8 +55,8 @@ class Circuit(NamedTuple):
     wheels: tuple[str, str]
     """Names of the two wheels; for a coupling without teeth, names of links i and j."""
     note: str = ""
-    """Remark on the circuit: its sense of rotation is only a convention, or its links turn as one body; empty if there
-    is no remark.
+    """Remark on the circuit: its sense of rotation is only a convention, or its links turn as one body. It is empty if
+    neither applies.
     """
     by_teeth: bool = True
     """True if a and b are, up to their signs, the tooth counts of `wheels`; False for couplings without teeth."""

@@ -89,7 +89,7 @@ class AxisColumn:
     """Two links neither of which can be inside the other; None if all links can be nested."""
     on: str = ""
     """Axis of another stud, if this stud projects from the end of that stud and is one part with it; empty if it does
-    not. `topped` is True for the lower of the two studs.
+    not. `topped` is True for a stud from whose end another stud projects.
     """
     topped: bool = False
 

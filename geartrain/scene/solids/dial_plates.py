@@ -277,7 +277,7 @@ def dial_feet(
     corners: Sequence[Point] = (),
 ) -> list[TurnedPart]:
     """Return up to four feet of a plate of dials. They are at its corners or far apart inside its dials, or, if there
-    is no space, outside all turning parts.
+    is not enough space, outside all turning parts.
 
     circles   centres and radii of the discs of the dials [mm]
     faces     heights of the faces of the plate [mm]

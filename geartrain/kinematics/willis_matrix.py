@@ -130,7 +130,7 @@ class WillisMatrix(Shown):
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """Labels of the rows, which are names of pairs and prescriptions."""
+        """Labels of the rows, which are the names of pairs and of prescribed speeds."""
         return tuple(row.label for row in self.rows)
 
     @property

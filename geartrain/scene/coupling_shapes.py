@@ -295,7 +295,7 @@ def belt_outlines(
 
 
 def _rolling(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield two non-circular wheels that roll on each other without slip, from their transmission function.
+    """Yield two non-circular wheels that roll on each other without slip, computed from their transmission function.
 
     At the driver's angle S, the radii are C q'/(1 + q') and C/(1 + q'), with the axis distance C and the speed ratio
     q'.

@@ -210,7 +210,7 @@ class SceneWheel(Shown):
     note: str
     """Declared note on the wheel, or on its uncertainty; empty if none is declared."""
     doubt: str
-    """Tooth counts that the evidence allows for the wheel, as a string; empty if the count is certain."""
+    """Tooth counts that the evidence allows for the wheel, as text; empty if the count is certain."""
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None

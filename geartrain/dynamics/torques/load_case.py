@@ -98,15 +98,17 @@ class MeanEfficiencies:
     """
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driver's torque is constant over a revolution; they are at most 1."""
+    """Efficiencies if the torque of the driver is constant over a revolution; they are at most 1."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driven side's torque is constant over a revolution."""
+    """Efficiencies if the torque of the driven link is constant over a revolution."""
     exact: bool = True
     """True for declared values; False for mean values over tooth positions, which are floats rounded to 15 digits."""
 
     @property
     def differ(self) -> bool:
-        """True if the efficiency depends on which torque is constant, the driver's or the driven side's."""
+        """True if the efficiency depends on whether the torque of the driver or the torque of the driven link is
+        constant.
+        """
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:

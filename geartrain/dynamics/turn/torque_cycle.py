@@ -119,7 +119,7 @@ class PairCycle(Result):
     If the run is an integer number of periods, a change between the end and the beginning of the run is included.
     """
     maximum: float = 0.0
-    """Maximum magnitude of the torque on the driven side [N m, or a number without a unit]; 0 for a bearing."""
+    """Maximum magnitude of the torque on the driven link [N m, or a number without a unit]; 0 for a bearing."""
 
 
 @dataclass(frozen=True)
@@ -188,8 +188,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     period: float | None = None
     """Revolutions of the input after which all positions repeat; None if the torque is constant."""
     turns: Floats | None = None
-    """Positions of the input [revolutions], in ascending order, shape (n,). At a jump, the same position occurs twice,
-    once for each side.
+    """Positions of the input [revolutions], in ascending order, shape (n,). A position at which the torque jumps occurs
+    twice, for the limits from below and from above.
     """
     torque: Floats | None = None
     """Torque at `link` in the solution with minimum loss [N m, or a number without a unit], shape (n,).

@@ -153,7 +153,7 @@ class ToothFriction(SlidingFriction):
     """Friction of teeth: each tooth pair in contact multiplies the torque by (1 + f out)/(1 + f into).
 
     Here `into` and `out` are the friction terms of the input and output power, and f is the coefficient of friction,
-    which is negative if the driven side of the transmission function drives.
+    which is negative if the driven link of the transmission function drives.
     """
 
     turned: int = 1
@@ -163,7 +163,7 @@ class ToothFriction(SlidingFriction):
         """Return the separating force divided by the tangential force [1], equation (29) of docs/torques.md.
 
         rubbing   friction terms `into` and `out` of each tooth pair, NaN for tooth pairs that are not in contact
-        f         coefficient of friction, which is negative if the driven side of the transmission function drives
+        f         coefficient of friction, which is negative if the driven link of the transmission function drives
         """
         into, out = rubbing
         # components of the normal and of the sliding direction across the line of centres, times D/n2

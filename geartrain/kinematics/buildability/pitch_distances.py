@@ -320,7 +320,7 @@ Node = tuple[str, ...]
 
 
 def axis_distance(train: Train, axes: tuple[str, str]) -> Fraction | None:
-    """Return the distance between two parallel axes [mm]; None unless the positions of both are declared."""
+    """Return the distance between two parallel axes [mm]; None unless the positions of both axes are declared."""
     declared = [train.axes[label] for label in axes if label in train.axes]
     if len(declared) < 2 or declared[0].position is None or declared[1].position is None:
         return None

@@ -219,7 +219,7 @@ class _ModuleSearch:
         """Record that the axes of a pin and its slot, which are close together, have the same distance from each axis
         with which both mesh.
 
-        This is a choice and not a constraint, so it comes after all constraints.
+        This relation is a choice and not a constraint, so it is recorded after all constraints.
         """
         for other in self.geometry.lines if tie.encloses else ():
             met = [self.between.get((min(end, other), max(end, other)), [])[:1] for end in tie.axes]

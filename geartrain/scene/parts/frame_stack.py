@@ -225,8 +225,8 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by coupling. Only those are included for which the link of the pins has no
-        wheel of sufficient size.
+        """Circles of pins in round holes, by coupling. A circle is included only if the link of its pins has no wheel
+        of sufficient size.
         """
         return {each.name: each for each in find_pin_circles(self)}
 

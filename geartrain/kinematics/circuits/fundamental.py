@@ -147,7 +147,7 @@ class WillisEquation(NamedTuple):
 
 @collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
-    """Return the circuits of all gear pairs, followed by those of all couplings, in the order of declaration."""
+    """Return the circuits of all gear pairs, followed by the circuits of all couplings, in the order of declaration."""
     problems: list[Problem] = []
     axes = Axes(train, tree)
     circuits = []

@@ -525,7 +525,7 @@ def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str
 
 
 def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
-    """Return the declared tooth counts of the wheels; None if one of them is not declared."""
+    """Return the declared tooth counts of the wheels; None if a wheel has no declared tooth count."""
     counts = [train.wheels[name][1].count for name in wheels]
     return [count for count in counts if count is not None] if all(counts) else None
 

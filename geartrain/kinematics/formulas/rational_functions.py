@@ -102,7 +102,9 @@ def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
 def substituted(
     terms: Iterable[Term], wheels: Sequence[str], left: Sequence[str], counts: Mapping[str, int]
 ) -> Laurent:
-    """Return a polynomial in the wheels `left`, with the tooth counts of the other wheels substituted."""
+    """Return a polynomial in the tooth counts of the wheels in `left`, after substituting the tooth counts of all other
+    wheels.
+    """
     rest = [
         Term(
             whole(

@@ -463,7 +463,7 @@ class PhaseSystem:
 
     @cached_property
     def tree_angles(self) -> list[float]:
-        """Angles of links that satisfy the equations of all meshes except those that close loops [turn]."""
+        """Angles of links that satisfy the equations of all meshes except the meshes that close loops [turn]."""
         return self._link_angles(self._tree_nodes)
 
     def _link_angles(self, nodes: Sequence[Number]) -> list[float]:

@@ -139,7 +139,7 @@ def _ribbon(
 
 
 def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color: str, zorder: float = 2.0) -> None:
-    alpha = 1.0 if color == RED else 0.6  # losses differ from circulating power in grey, too
+    alpha = 0.8 if color == RED else 0.6  # losses differ from circulating power in grey, too
     look: dict[str, Any] = {"facecolor": color, "edgecolor": color, "linewidth": _FINEST}
     axes.add_patch(PathPatch(Path(points, codes), alpha=alpha, zorder=zorder, **look))
 
@@ -244,4 +244,4 @@ def _legend(placed: SankeyLayout) -> Iterator[Patch | Line2D]:
     if placed.turns:
         yield Patch(facecolor=PURPLE, alpha=0.6, label="recirculating power")
     if placed.sheds:
-        yield Patch(facecolor=RED, label="lost in teeth or bearings")
+        yield Patch(facecolor=RED, alpha=0.8, label="lost in teeth or bearings")

@@ -61,6 +61,8 @@ class FactoredRatios:
 
     def value(self, at: int) -> Fraction:
         """Return the value of a number as a Fraction."""
+        if self.anchor[at] < 0:
+            return coprime(self.top[at], self.bottom[at])
         hops = []
         here = at
         while self.anchor[here] >= 0 and here not in self._kept:

@@ -7,7 +7,6 @@ rejected. Plain Python data can also be converted to nodes, and a declaration ca
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -23,7 +22,7 @@ MOST_VALUES = 3_000_000  # about 200,000 links; the parser needs 0.25 kB for eac
 MOST_EXPANDED = 1_000_000
 _NULLS = {"", "~", "null", "Null", "NULL"}
 _STANDARD = ("str", "int", "float", "bool", "null", "timestamp", "merge", "value", "seq", "map")
-_TAGS = {f"tag:yaml.org,2002:{kind}" for kind in _STANDARD}
+_TAGS = {None, "!", *(f"tag:yaml.org,2002:{kind}" for kind in _STANDARD)}
 
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -81,17 +80,15 @@ def parse_yaml(text: str, name: str) -> YamlNode:
     """Parse `text` as one YAML document; `name` is the file name in the places of the nodes. Raises `DeclarationError`
     for invalid YAML.
     """
+    reader = _Reader(name, yaml.parse(text, Loader=_Loader))
     try:
-        _check_limits(text, name)
-        root = yaml.compose(text, Loader=_Loader)
+        node = reader.document()
     except yaml.MarkedYAMLError as error:
         raise DeclarationError(_syntax(error, name, text)) from None
-    except (yaml.YAMLError, RecursionError) as error:
+    except yaml.YAMLError as error:
         raise DeclarationError(
             Problem("this is not YAML", str(error).splitlines()[0], "save it as UTF-8 text", name)
         ) from None
-    reader = _Reader(name)
-    node = reader.node(root) if root is not None else YamlNode(None, name)
     if reader.problems:
         raise DeclarationError(reader.problems)
     if node.value is None:
@@ -101,20 +98,6 @@ def parse_yaml(text: str, name: str) -> YamlNode:
         why = "a train is declared by keys such as links and gears"
         raise DeclarationError(Problem("the declaration is not a mapping", why, "begin with `links:`", node.place))
     return node
-
-
-def _check_limits(text: str, name: str) -> None:
-    """Raise `DeclarationError` if the text has too many values or is nested too deeply for the recursive composer."""
-    depth = 0
-    for values, event in enumerate(yaml.parse(text, Loader=_Loader), 1):
-        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-        if values > MOST_VALUES:
-            why = f"a file has at most {MOST_VALUES} values"
-            fix = "build the train in Python with `GearTrain.declare`"
-            raise DeclarationError(Problem("the file is too large", why, fix, name))
-        if depth > MOST_DEPTH:
-            place = f"{name}:{event.start_mark.line + 1}" if event.start_mark else name
-            raise DeclarationError(_too_deep(place))
 
 
 def _too_deep(place: str) -> Problem:
@@ -129,15 +112,6 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     if "nesting depth" in why:  # libyaml 0.2.6 and newer refuse deep nesting themselves
         return _too_deep(place)
     lines = text.splitlines()
-    if "single document" in why:
-        why, fix = "a file declares one train", "declare each train in its own file"
-        return Problem("the file contains a second document", why, fix, place)
-    if "undefined alias" in why:
-        alias = re.split(r"[\s,\]}]", lines[mark.line][mark.column :])[0] if mark else "*"
-        fix = f"write the value out, or put the anchor '&{alias[1:]}' on an earlier value"
-        return Problem(
-            f"alias '{alias}' has no anchor", "an alias can repeat only a value that ends before it", fix, place
-        )
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
         return Problem(
             "the line contains a tab", "YAML is indented with spaces only", "replace the tab with spaces", place
@@ -153,46 +127,81 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
 
 
 class _Reader:
-    """Converter of composed YAML to nodes, which collects problems with keys and tags."""
+    """Converter of the parser's events to nodes, which collects problems with keys; recursive to the limited depth."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, name: str, events: Iterator[Any]) -> None:
+        self.name, self.events = name, events
         self.problems: list[Problem] = []
-        self.expanded = 0
-        self._found: dict[yaml.Node, YamlNode | None] = {}
+        self.values, self.expanded = 0, 0
+        self._anchored: dict[str | None, YamlNode | None] = {}
 
-    def node(self, composed: yaml.Node) -> YamlNode:
-        """Convert a composed YAML node and all nodes in it. An alias is replaced by the node to which it refers.
+    def document(self) -> YamlNode:
+        """Return the root node of the only document. Raises `DeclarationError` for content that exceeds a limit."""
+        next(self.events)  # start of the stream
+        if isinstance(next(self.events), yaml.StreamEndEvent):
+            return YamlNode(None, self.name)
+        node = self._node(next(self.events), 0)
+        next(self.events)  # end of the document
+        after = next(self.events)
+        if not isinstance(after, yaml.StreamEndEvent):
+            why, fix = "a file declares one train", "declare each train in its own file"
+            place = f"{self.name}:{after.start_mark.line + 1}"
+            raise DeclarationError(Problem("the file contains a second document", why, fix, place))
+        return node
 
-        Raises `DeclarationError` for content that exceeds a limit, and for an alias that occurs within its own value.
+    def _node(self, event: Any, depth: int) -> YamlNode:
+        """Convert the value that begins with an event, inside `depth` collections. An alias is replaced by the node to
+        which it refers.
         """
-        place = f"{self.name}:{composed.start_mark.line + 1}"
-        if composed in self._found:
-            return self._repeated(self._found[composed], place)
+        place = f"{self.name}:{event.start_mark.line + 1}"
+        self.values += 1
+        if self.values > MOST_VALUES:
+            why = f"a file has at most {MOST_VALUES} values"
+            fix = "build the train in Python with `GearTrain.declare`"
+            raise DeclarationError(Problem("the file is too large", why, fix, self.name))
         # stops early, because a large file that is wrong can have millions of problems
         if len(self.problems) > MOST_REPORTED + 1:
             raise DeclarationError(self.problems)
-        if composed.tag not in _TAGS:
-            what = f"tag '{composed.tag}' is not supported"
+        if isinstance(event, yaml.AliasEvent):
+            return self._repeated(event.anchor, place)
+        if event.tag not in _TAGS:
+            what = f"tag '{event.tag}' is not supported"
             raise DeclarationError(Problem(what, "a declaration is plain data", "remove the tag", place))
-        self._found[composed] = None  # not finished
-        made = YamlNode(composed.value, place)
-        if isinstance(composed, yaml.MappingNode):
-            made.value = {}
-            for key, value in composed.value:
-                self._add(made, self.node(key), self.node(value))
-        elif isinstance(composed, yaml.SequenceNode):
-            made.value = [self.node(part) for part in composed.value]
-            made.size += sum(part.size for part in made.value)
-        elif composed.tag.endswith(":null") and composed.value in _NULLS:
-            made.value = None
-        self._found[composed] = made
+        if event.anchor in self._anchored:
+            what, why = f"anchor '&{event.anchor}' is given twice", "an alias repeats one value"
+            raise DeclarationError(Problem(what, why, "rename one of the two anchors", place))
+        if event.anchor:
+            self._anchored[event.anchor] = None  # not finished
+        if not isinstance(event, yaml.ScalarEvent):
+            made = self._collection(event, depth, place)
+        elif event.value in _NULLS and (event.implicit[0] or (event.tag or "").endswith(":null")):
+            made = YamlNode(None, place)
+        else:
+            made = YamlNode(event.value, place)
+        if event.anchor:
+            self._anchored[event.anchor] = made
         return made
 
-    def _repeated(self, target: YamlNode | None, place: str) -> YamlNode:
+    def _collection(self, event: Any, depth: int, place: str) -> YamlNode:
+        """Convert a mapping or list and all values in it, up to its last event."""
+        if depth == MOST_DEPTH:
+            raise DeclarationError(_too_deep(place))
+        made = YamlNode({} if isinstance(event, yaml.MappingStartEvent) else [], place)
+        while not isinstance(first := next(self.events), yaml.CollectionEndEvent):
+            node = self._node(first, depth + 1)
+            if isinstance(made.value, dict):
+                self._add(made, node, self._node(next(self.events), depth + 1))
+            else:
+                made.value.append(node)
+                made.size += node.size
+        return made
+
+    def _repeated(self, anchor: str | None, place: str) -> YamlNode:
+        target = self._anchored.get(anchor)
         if target is None:
-            why = "an alias can repeat only a value that ends before it"
-            raise DeclarationError(Problem("an alias contains itself", why, "write the value out", place))
+            what = f"alias '*{anchor}' {'contains itself' if anchor in self._anchored else 'has no anchor'}"
+            fix = f"write the value out, or put the anchor '&{anchor}' on an earlier value"
+            raise DeclarationError(Problem(what, "an alias can repeat only a value that ends before it", fix, place))
         # aliases of aliases grow exponentially ("billion laughs"), so the expanded size is counted
         self.expanded += target.size
         if self.expanded > MOST_EXPANDED:

@@ -107,6 +107,7 @@ MISTAKES = {
     "a tag of one's own": (changed("p: 20", "p: !teeth 20"), 3, ["tag '!teeth'"]),
     "a second document": (SOUND + "---\nlinks: {}\n", 13, ["a second document"]),
     "a missing anchor": (changed("p: 20", "p: *twenty"), 3, ["twenty"]),
+    "an anchor twice": (changed("p: 20", "p: &t 20").replace("w: 60", "w: &t 60"), 4, ["'&t' is given twice"]),
     "an alias within itself": (changed("  frame: {}", "  frame: &f {wheels: *f}"), 2, ["contains itself"]),
     "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["invalid YAML syntax"]),
     "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["the line contains a tab"]),

@@ -67,8 +67,8 @@ class CuttingErrorModel:
 def with_errors(wheel: CutWheel, e: ArrayLike = 0.0, towards: ArrayLike = 0.0, **more: ArrayLike) -> CutWheel:
     """A wheel with errors added to its arrays, then cut `e` off its axle. Raises `RangeError` if it cannot be cut."""
     wheel = replace(wheel, **{name: getattr(wheel, name) + np.asarray(each) for name, each in more.items()})
-    for found in (wheel, wheel.moved(e, towards)):
+    for found in (wheel, wheel.moved(e, towards)) if np.any(e) else (wheel,):
         if not found.cuttable.all():
             what = "a tooth of the wheel cannot be cut"
             raise RangeError(Problem(what, "two flanks do not meet, or leave no space", "give smaller errors"))
-    return found if np.any(e) else wheel
+    return found

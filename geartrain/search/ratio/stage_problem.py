@@ -264,8 +264,10 @@ def best_pairing(
 
 def _spread(pairs: Pairs) -> Fraction:
     """Return the largest stage ratio divided by the smallest stage ratio."""
-    ratios = [Fraction(a, b) for a, b in pairs]
-    return max(ratios) / min(ratios)
+    # over a common denominator, integers instead of fractions
+    scale = prod(b for _, b in pairs)
+    ratios = [a * (scale // b) for a, b in pairs]
+    return Fraction(max(ratios), min(ratios))
 
 
 # ----------------------------------------------------------------------------------------------------- total orders

@@ -201,8 +201,11 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
     """Assemble the matrix and the right side of equation (13) of docs/dynamics.md."""
     A, b, n = here.matrix, here.solution, len(here.v)
     A[:, :] = 0.0
-    A[:n, :n] = system.matrix
-    b[:n] = here.load
+    # a loop, because compiled copies of slices check for overlap and take longer
+    for d in range(n):
+        b[d] = here.load[d]
+        for o in range(n):
+            A[d, o] = system.matrix[d, o]
     for m in range(len(system.sliding)):
         turning = state.turning[m]
         for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
@@ -356,24 +359,13 @@ AT_ONCE = 6
 
 
 @kernel
-def correct_guess(
-    system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
-) -> int:
-    """Correct all wrong contact states or, if `single`, only the wrong state with the lowest index (Murty's method).
-    Return the number of corrections.
-    """
-    # with `single` the first wrong state ends the search, contacts before bearings
-    found = correct_contacts(system, state, here, slack, single)
-    if len(system.sliding) > 0 and (found == 0 or not single):
-        found += correct_bearings(system, state, here, creep, single)
-    return found
-
-
-@kernel
 def correct_contacts(
     system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool
 ) -> int:
-    """Open contacts with tensile impulses, close flanks that penetrate, and return the number of changes."""
+    """Open contacts with tensile impulses, close flanks that penetrate, and return the number of changes.
+
+    single   change only the contact with the lowest index (Murty's method)
+    """
     found = 0
     for m in range(len(system.compliance)):
         now = state.touching[m]

@@ -53,7 +53,8 @@ from geartrain.simulation.steps.contact_solution import (
     RunRecord,
     StepEquations,
     StepRules,
-    correct_guess,
+    correct_bearings,
+    correct_contacts,
     find_bearing_loads,
     solve_guess,
     turn_forces,
@@ -202,7 +203,8 @@ def solve_step(
     find_bounds(system, transmissions, state, here, rules, teeth)
     if len(system.stop_pitch) > 0:
         find_stop_bounds(system, state, here, rules.step)
-    turn_forces(system, state, here, rules.share * rules.step)
+    if len(system.loaded.pair) > 0:
+        turn_forces(system, state, here, rules.share * rules.step)
     rounds, again, tried = 0, 0, 0
     while True:
         solve_guess(system, state, here, rules.step, rules.creep)
@@ -211,7 +213,12 @@ def solve_step(
         differs = len(system.loaded.bearing) > 0 and find_bearing_loads(system, state, here, rules.step)
         if rounds > rules.rounds:
             return rounds
-        if correct_guess(system, state, here, rules.creep, rules.slack, tried > AT_ONCE) > 0:
+        # here and not in a kernel of its own, because calls with many arrays are slow
+        single = tried > AT_ONCE
+        found = correct_contacts(system, state, here, rules.slack, single)
+        if len(system.sliding) > 0 and (found == 0 or not single):
+            found += correct_bearings(system, state, here, rules.creep, single)
+        if found > 0:
             continue
         if differs:
             # Newton's method: the contact states are solved again with the directions found

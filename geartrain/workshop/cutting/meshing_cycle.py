@@ -533,7 +533,7 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
         apart, stop = driver - np.roll(driver, n, -1), np.roll(driven, n - 1, -1) - driven
         if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > backlash.max():
             continue  # pitch deviations cannot bring these below the current minimum
-        own = np.interp(apart, np.linspace(-wide, wide, _NODES), _table(sizes, n, wide))
+        own = _read(_table(sizes, n, wide), wide, apart)
         # teeth farther apart than the common reach never hold the driven wheel together
         own = np.where(np.abs(n * sizes.p1 + apart) < both, own, inf)
         backlash = np.minimum(backlash, extreme_sum(own, (1 - n) * sizes.p2 + stop, np.minimum))
@@ -567,6 +567,14 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
     # beyond the common reach, where no contact is needed, tips meet tips
     tips = -2 * np.sign(n * sizes.p1 + nodes) * float(tooth_pair.exit_angle)
     found: Floats = np.where(np.isfinite(values), values, tips)
+    return found
+
+
+def _read(table: Floats, spread: float, apart: Floats) -> Floats:
+    """Interpolate a table over -`spread` to `spread` linearly at `apart`; np.interp would search for each node."""
+    at = (apart + spread) * ((_NODES - 1) / (2 * spread))
+    low = np.clip(at.astype(np.int64), 0, _NODES - 2)
+    found: Floats = table[low] + (table[low + 1] - table[low]) * (at - low)
     return found
 
 

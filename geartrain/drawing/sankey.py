@@ -269,9 +269,10 @@ _CROSSING = 1e-3  # cost of each crossing, so that crossings of the thinnest ban
 
 
 def order_columns(table: Sequence[list[SankeySpot]]) -> None:
-    """Sort columns in place so that few bands cross, by barycentre sweeps in both directions, then by swaps.
+    """Sort the nodes of each column in place to reduce crossings of bands: first by barycentre sweeps in both
+    directions, then by pairwise swaps.
 
-    The sweeps start with the spots in descending order of the circulating power that leaves them.
+    The nodes are first sorted in descending order of the recirculating power that leaves them.
     """
     for column in table:
         column.sort(key=lambda spot: -sum(piece.stream.circling for piece in spot.after))

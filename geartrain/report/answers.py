@@ -471,8 +471,8 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def clutch_lines(answer: Answer) -> Iterator[str]:
-    """Yield a line on each one-way clutch of a state, which states whether the clutch holds or overruns, and notes on
-    clutches.
+    """Yield a line for each one-way clutch that reports whether the clutch is engaged or overruns; then yield notes on
+    the clutches.
     """
     yield from (each.text(answer.unit) for each in answer.one_way)
     yield from answer.notes

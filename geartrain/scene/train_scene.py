@@ -304,8 +304,8 @@ class Scene(Shown):
     a view from above.
     """
     step: str
-    """Exact number of turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if no link is
-    driven.
+    """Exact number of revolutions of the input link per time unit of its speed (one minute for `100 rpm`); 1 if no
+    input speed is declared.
     """
     verdict: Mapping[str, Any]
     """Verdict as plain data, with keys "kind", "text", "links", "loops" and "advice".

@@ -82,8 +82,8 @@ class SternBrocotRun:
     far: IntegerPair
     """Numerator and denominator (P, Q) of the fraction on the opposite side of the approximated number."""
     whole: int
-    """Number of fractions that the run would contain without bounds. It is a term of the continued fraction, and the
-    fraction with this index k is a convergent.
+    """Partial quotient of the continued fraction: the number of fractions in the run without bounds on the numerator
+    and the denominator. The fraction with this index k is a convergent.
     """
     length: int
     """Number of fractions in the run that are within the bounds."""

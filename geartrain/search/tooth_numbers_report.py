@@ -246,7 +246,7 @@ def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
 
 
 def describe_orrery(found: Orrery) -> Document:
-    """Return the document on an orrery: its gear pairs, the period of each arbor, and the proved lower bounds."""
+    """Return the report on an orrery: its gear pairs, the periods of its arbors, and proved bounds of its size."""
     proof = "proved minimum" if found.complete else f"lower bound {found.minimum_wheels}"
     limits = {"proved": "proof of the minimum", "effort": "effort limit"}
     summary = [

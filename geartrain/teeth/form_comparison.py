@@ -48,7 +48,7 @@ class MeasuredForm(Result):
     path: PathOfContact | None
     """Path of contact; None if the tooth form rejects the wheels."""
     measures: PathMeasures | None
-    """Losses and loads; None if the teeth cannot run."""
+    """Losses and loads of the pair; None if the teeth cannot mesh."""
     ratios: PathRatios | None = None
     """Losses and loads divided by those of the involute; None for the involute itself and if the teeth cannot run."""
     faults: tuple[ToothFault, ...] = ()

@@ -157,7 +157,7 @@ class ToothFault(Result):
     why: str
     """Statement that gives the cause of the fault."""
     fix: str
-    """Statement that gives the remedy of the fault."""
+    """Suggested correction of the fault, as a sentence."""
 
     @property
     def problem(self) -> Problem:

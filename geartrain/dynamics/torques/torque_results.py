@@ -239,8 +239,8 @@ class NeglectedEffect(Result):
 
     @property
     def counts(self) -> bool:
-        """True if the neglected effect changes mean values; False for variations within a revolution, and for the
-        choice between two mean values.
+        """True if the neglected effect changes mean values. False if it causes only variations within a revolution, or
+        determines only which of two known mean values applies.
         """
         return self.what not in ("variation within a turn", "mean efficiency")
 

@@ -43,7 +43,7 @@ class Tree(FrozenFields):
     top: Mapping[str, str]
     """Link that carries the axis of each link: the first link on the path to the frame that is not on that axis."""
     lines: Mapping[str, str] = field(default_factory=dict)
-    """Direction of travel of each sliding link: its axis label, or the first label of a parallel axis."""
+    """Direction of travel of each sliding link, as the label of the first declared axis that is parallel to it."""
 
     def reference(self, link: str, base: str) -> str:
         """Return the nearest link at or above `base` whose motion is comparable with the motion of `link`; the frame if
@@ -560,7 +560,7 @@ collinear.
 
 @dataclass(frozen=True, slots=True)
 class Rigid:
-    """Brake or lock that makes two links one rigid body, with the joints on the path between the two links."""
+    """Brake or lock that makes two links one rigid body by locking the joints on the path between them."""
 
     links: tuple[str, ...]
     """Name of one braked link, or names of two links that are locked together."""

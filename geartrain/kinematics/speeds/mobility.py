@@ -57,7 +57,7 @@ class Mobility(Result):
     loops: tuple[Loop, ...]
     """Loops with ratio product 1, each of which has one redundant pair; at most 1000 are listed."""
     shared: tuple[str, ...]
-    """Links that occur in two components, if the equation that equates their two speeds is redundant."""
+    """Links that occur in two components and for which the condition of equal speeds in both is redundant."""
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; at most 1000 are listed."""
     still: tuple[str, ...]

@@ -128,7 +128,7 @@ def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
         if off > _NONE:
             yield Problem(
                 f"dial '{name}' is drawn {off:.3g} mm from its declared centre",
-                f"its pointers turn about axis '{axis}', which is declared or carried elsewhere",
+                f"its pointers turn about axis '{axis}', whose declared or carried position differs from that centre",
                 f"remove `centre` of the dial, or the position of axis '{axis}'",
                 train.declaration.place("dials", name, "centre"),
             )

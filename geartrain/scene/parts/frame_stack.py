@@ -295,8 +295,8 @@ class FrameStack:
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
-        """Return the layout with wheels shifted along the normal. Wheels on axes that are not upright are moved with
-        their mates.
+        """Return the layout with each wheel shifted along the normal of the stack. Wheels whose axes are not parallel
+        to this normal are shifted together with the wheels that they mesh with.
 
         shift   function of the height [mm] that returns the shift [mm]
         """

@@ -1,9 +1,9 @@
 """Types of epicyclic gear sets, results of a search, and declarations of the sets found.
 
-Relative to the carrier, every central wheel turns `f = sign P / z` times as fast as the reference wheel of the planets,
-where z is the tooth count of the central wheel and P is the tooth count of the planet wheel with which it meshes
-(Willis 1841, with a fixed carrier). The signs and meshes define a type. They determine the ratios of all modes, the
-positions of equal planets and the coaxial equations.
+Relative to the carrier, every central wheel turns `f = s P / z` times as fast as the reference wheel of the planets,
+where s is the sign 1 or -1, z is the tooth count of the central wheel, and P is the tooth count of the planet wheel
+with which it meshes (Willis 1841, with a fixed carrier). The signs and meshes define a type. They determine the ratio
+for every fixed member, the possible positions of equal planets, and the conditions for coaxial wheels.
 """
 
 from __future__ import annotations

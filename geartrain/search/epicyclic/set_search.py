@@ -382,8 +382,8 @@ def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
     found = tuple(sorted(set(counts))) if len(counts) <= MOST_TEETH else ()
     if found and found[0] >= 1 and found[-1] <= MOST_TEETH:
         return found
-    why = f"at least one count is needed, and all counts must be from 1 to {MOST_TEETH}"
-    raise QuestionError(Problem(f"the counts {whose}cannot be used", why, "give counts such as 15:120"))
+    why = f"at least one tooth count is needed, and all must be from 1 to {MOST_TEETH}"
+    raise QuestionError(Problem(f"the tooth counts {whose}are not valid", why, "give a range such as 15:120"))
 
 
 def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:

@@ -419,7 +419,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     return QuestionError(
         Problem(
             f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
-            f"{walked}{stopped}these tooth counts give one pair {len(table)} ratios, the largest {most / minimum:.3g}",
+            f"{walked}{stopped}with these tooth counts one pair has {len(table)} ratios, at most {most / minimum:.3g}",
             "increase the tolerance, the number of intermediate arbors or the beam width, or allow more tooth counts",
         )
     )

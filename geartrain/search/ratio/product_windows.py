@@ -122,7 +122,7 @@ class ProductWindows:
     counts in a lower partial product.
     """
     highs: Ints
-    """Upper partial products, ascending within each table, shape (highs,)."""
+    """Partial products of the upper part of the tooth counts, in ascending order within each table, shape (highs,)."""
     uppers: Ints
     """Tooth counts of each upper partial product, in ascending order, shape (highs, b), where b is the number of tooth
     counts in an upper partial product.

@@ -370,7 +370,10 @@ class _TrainReading:
             what = f"the tooth count of '{wheel}' is not known"
             raise QuestionError(
                 Problem(
-                    what, "a rank requires all tooth counts", "declare the count, such as `teeth: {value: 64}`", place
+                    what,
+                    "a train is ranked by all its tooth counts",
+                    "declare the count, such as `teeth: {value: 64}`",
+                    place,
                 )
             )
         return count

@@ -81,7 +81,7 @@ class _Pull(NamedTuple):
 
 @dataclass(frozen=True)
 class _Modules:
-    """Minimum sum of the squared misfits of modules. The unknown modules are eliminated one by one, from the leaves of
+    """Least-squares fit of the modules of a train. The unknown modules are eliminated one by one, from the leaves of
     the train to its root.
     """
 

@@ -294,7 +294,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         return (both or trees)[0]
     said = " and ".join(f"'{link}'" for link in wanted)
     why = f"the train has {len(trees)} parts, and each is reconstructed separately"
-    raise QuestionError(Problem(f"{said} cannot both be lost", why, "name only arbors of one part"))
+    raise QuestionError(Problem(f"{said} belong to different parts", why, "name only arbors of the same part"))
 
 
 def _check_input(train: Train) -> None:

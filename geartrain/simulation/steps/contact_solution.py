@@ -1,12 +1,13 @@
-"""Speeds and impulses at the end of a time step for one guess of which contacts touch and which bearings stick.
+"""Speeds and impulses at the end of a time step for an assumed set of closed contacts and sticking bearings.
 
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
-Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. A contact c
-has the impulse P_c, which acts on the coordinates with the coefficients f_c, the row r_c of its opening speed, the
-bound k_c on that speed, and the compliance 1/s_c. The speeds v+ and the impulses P_c are the solution of one system of
-linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between prescribed coordinates, whose
-speeds are known, have a compliance that is small compared with any inverse mass, so that the system is regular.
+Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. The impulse
+P_c of contact c acts on the coordinates with the coefficients f_c. The row r_c gives the opening speed of the contact
+from the speeds, k_c is the bound of that speed, and 1/s_c is the compliance. The speeds v+ and the impulses P_c are the
+solution of one system of linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between
+prescribed coordinates, whose speeds are known, have a compliance that is small compared with any inverse mass, so that
+the system is regular.
 """
 
 from __future__ import annotations

@@ -236,8 +236,8 @@ def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady
 
 @kernel
 def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side: int) -> bool:
-    """Return True if the speed ratio at a flank of pair m has jumped since the last step, at a jump of its transmission
-    function.
+    """Return True if the speed ratio at a flank of pair m has changed discontinuously since the last step, because the
+    contact has passed a kink of the transmission function.
 
     now, before   present and previous speed ratios of all pairs; few arrays are passed, because calls with many arrays
                   are slow

@@ -50,7 +50,7 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
         raise RangeError(
             Problem(
                 f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
-                f"half of that circle is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
+                f"after half of that circle, {longest / pitch.p:.6g} pitches, the pressure angle is 90 degrees",
                 "use a shorter arc or a larger rolling circle",
             )
         )

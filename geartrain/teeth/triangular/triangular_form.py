@@ -189,8 +189,8 @@ class Triangular(ToothForm):
         """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
-            "their backlash follows from their clearance, and thinner teeth would move differently",
-            "omit --backlash, or declare more clearance in the file",
+            "the clearance factor sets their backlash, and thinner teeth have another transmission function",
+            "omit --backlash, or declare a larger clearance factor in the file",
         )
 
     def sizes(

@@ -417,7 +417,7 @@ def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byt
 
 
 class AssemblyPictures:
-    """Pictures of the assembly of one train, in the coordinates of its stack of parts [mm]."""
+    """Pictures of the assembly steps of one train, in the coordinate system of the stacked parts [mm]."""
 
     def __init__(self, work: SolidModel, steps: Sequence[AssemblyStep]) -> None:
         assert work.frame is not None
